@@ -1,0 +1,102 @@
+#include "capstan/cable/cable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "capstan/cable/invalid_input.h"
+
+namespace capstan {
+
+namespace {
+
+double total_length_m(const std::vector<CurvaturePiece>& pieces) {
+    double length = 0.0;
+    for (const CurvaturePiece& piece : pieces) length += piece.length_m;
+    return length;
+}
+
+// Finite and above zero; also false for NaN.
+bool positive(double value) {
+    return std::isfinite(value) && value > 0.0;
+}
+bool not_negative(double value) {
+    return std::isfinite(value) && value >= 0.0;
+}
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+std::vector<std::string> problems_of_pieces(const std::vector<CurvaturePiece>& pieces) {
+    std::vector<std::string> problems;
+    if (pieces.empty()) problems.push_back("curvature: no piece given; a cable needs at least one");
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const std::string where = "curvature piece " + std::to_string(k + 1) + ": ";
+        const double radius = pieces[k].bend_radius_m;
+        if (!positive(pieces[k].length_m)) {
+            problems.push_back(where + "length_m is " + number(pieces[k].length_m) + ", but must be above 0");
+        }
+        if (std::isnan(radius) || radius <= 0.0) {
+            problems.push_back(where + "bend_radius_m is " + number(radius) +
+                               ", but must be above 0 (leave it out for a straight piece)");
+        }
+    }
+    return problems;
+}
+
+std::vector<std::string> problems_of(const CableSpecification& s) {
+    std::vector<std::string> problems = problems_of_pieces(s.curvature);
+    const auto demand = [&](bool holds, const char* name, double value, const char* rule) {
+        if (!holds) problems.push_back(std::string(name) + " is " + number(value) + ", but " + rule);
+    };
+    demand(s.segments >= 1, "segments", s.segments, "must be at least 1");
+    demand(positive(s.axial_stiffness_N), "axial_stiffness_N", s.axial_stiffness_N, "must be above 0");
+    demand(not_negative(s.dynamic_friction), "dynamic_friction", s.dynamic_friction, "must be 0 or more");
+    demand(not_negative(s.static_friction) && !(s.static_friction < s.dynamic_friction), "static_friction",
+           s.static_friction, "must be finite and at least dynamic_friction");
+    demand(not_negative(s.pretension_N), "pretension_N", s.pretension_N, "must be 0 or more");
+    if (!problems.empty()) return problems;
+
+    double wrap_angle_rad = 0.0;
+    for (const CurvaturePiece& piece : s.curvature) wrap_angle_rad += piece.length_m / piece.bend_radius_m;
+    demand(s.static_friction * wrap_angle_rad <= largest_friction_exponent,
+           "static_friction times wrap angle", s.static_friction * wrap_angle_rad,
+           "must be at most 300: beyond, the far end feels nothing; check bend_radius_m");
+    return problems;
+}
+
+// Wrap angle [rad] of the conduit between two arc lengths.
+double wrap_between_rad(const std::vector<CurvaturePiece>& pieces, double from_m, double to_m) {
+    double wrap_rad = 0.0;
+    double start_m = 0.0;
+    for (const CurvaturePiece& piece : pieces) {
+        const double end_m = start_m + piece.length_m;
+        const double overlap_m = std::min(to_m, end_m) - std::max(from_m, start_m);
+        if (overlap_m > 0.0) wrap_rad += overlap_m / piece.bend_radius_m;
+        start_m = end_m;
+    }
+    return wrap_rad;
+}
+
+}  // namespace
+
+Cable::Cable(const CableSpecification& specification)
+    : length_m_(total_length_m(specification.curvature)),
+      axial_stiffness_N_(specification.axial_stiffness_N),
+      dynamic_friction_(specification.dynamic_friction),
+      static_friction_(specification.static_friction),
+      pretension_N_(specification.pretension_N) {
+    if (const auto problems = problems_of(specification); !problems.empty()) throw InvalidInput(problems);
+
+    const int count = specification.segments;
+    wrap_angle_rad_.reserve(count);
+    for (int i = 0; i < count; ++i) {
+        wrap_angle_rad_.push_back(
+            wrap_between_rad(specification.curvature, length_m_ * i / count, length_m_ * (i + 1) / count));
+    }
+}
+
+}  // namespace capstan

@@ -1,0 +1,22 @@
+#include "capstan/cable/invalid_input.h"
+
+#include <utility>
+
+namespace capstan {
+
+namespace {
+
+std::string one_a_line(const std::vector<std::string>& problems) {
+    std::string text;
+    for (const std::string& problem : problems) {
+        text += text.empty() ? problem : "\n" + problem;
+    }
+    return text;
+}
+
+}  // namespace
+
+InvalidInput::InvalidInput(std::vector<std::string> problems)
+    : std::runtime_error(one_a_line(problems)), problems_(std::move(problems)) {}
+
+}  // namespace capstan

@@ -1,0 +1,18 @@
+#include "capstan/estimation/fusion_method.h"
+
+namespace capstan {
+
+namespace {
+
+void fuse(const FusionInput& input, std::span<double> tension_N) {
+    maximum_likelihood(*input.curve, input.log_likelihood, tension_N);
+}
+
+}  // namespace
+
+const FusionMethod maximum_likelihood_method = {
+    "maximum_likelihood",      "Maximum likelihood",
+    Knowledge::feasible_curve, "the feasible state under which the readings are most likely",
+    "capstan (E10, E11)",      fuse};
+
+}  // namespace capstan

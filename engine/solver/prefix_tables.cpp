@@ -1,0 +1,64 @@
+#include "capstan/solver/prefix_tables.h"
+
+#include <cmath>
+
+namespace capstan {
+
+double sliding_elongation_m_per_N(ElongationRule rule, double compliance_m_per_N, double exponent) {
+    switch (rule) {
+        case ElongationRule::mean_tension:
+            return compliance_m_per_N * 0.5 * (1.0 + std::exp(exponent));
+        case ElongationRule::exponential_and_mean:
+            return exponent == 0.0 ? compliance_m_per_N
+                                   : compliance_m_per_N * std::expm1(exponent) / exponent;  // E2
+    }
+    return 0.0;
+}
+
+namespace {
+
+// `outward` walks away from the end: the exponent of each segment as met on the way.
+SideTable side_table(const Cable& cable, const ModelRules& rules, int direction_sign, bool from_proximal) {
+    const int nodes = cable.nodes();
+    const double compliance = cable.segment_compliance_m_per_N();
+    SideTable table;
+    table.tension_ratio.resize(nodes);
+    table.elongation_m_per_N.resize(nodes);
+    table.front_compliance_m_per_N.resize(nodes);
+
+    double exponent_sum = 0.0;
+    double elongation = 0.0;
+    for (int step = 0; step < nodes; ++step) {
+        const int node = from_proximal ? step : nodes - 1 - step;
+        const double ratio = std::exp(exponent_sum);
+        table.tension_ratio[node] = ratio;
+        table.elongation_m_per_N[node] = elongation;
+        table.front_compliance_m_per_N[node] = elongation + 0.5 * compliance * ratio;
+        if (step + 1 == nodes) break;
+        const int segment = from_proximal ? node : node - 1;
+        const double wrap_rad = cable.wrap_angle_rad()[segment];
+        // Sliding forward makes tension grow towards the distal end, so it falls as seen from there (E1).
+        const double exponent =
+            (from_proximal ? 1 : -1) * direction_sign * cable.dynamic_friction() * wrap_rad;
+        elongation += ratio * sliding_elongation_m_per_N(rules.elongation, compliance, exponent);
+        exponent_sum += exponent;
+    }
+    return table;
+}
+
+}  // namespace
+
+PrefixTables::PrefixTables(const Cable& cable, const ModelRules& rules)
+    : half_compliance_m_per_N(0.5 * cable.segment_compliance_m_per_N()) {
+    for (const double wrap_rad : cable.wrap_angle_rad()) {
+        sliding_exponent.push_back(cable.dynamic_friction() * wrap_rad);
+        sliding_ratio.push_back(std::exp(cable.dynamic_friction() * wrap_rad));
+        breakaway_ratio.push_back(std::exp(cable.static_friction() * wrap_rad));
+    }
+    for (const int direction_sign : {-1, 1}) {
+        proximal_[direction_sign > 0] = side_table(cable, rules, direction_sign, true);
+        distal_[direction_sign > 0] = side_table(cable, rules, direction_sign, false);
+    }
+}
+
+}  // namespace capstan

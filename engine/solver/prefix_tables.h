@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "capstan/cable/cable.h"
+#include "capstan/solver/model_rules.h"
+
+namespace capstan {
+
+/// Elongation [m] of a sliding segment per newton at its first node, whose tension grows by exp(exponent)
+/// along it (E2).
+double sliding_elongation_m_per_N(ElongationRule rule, double compliance_m_per_N, double exponent);
+
+/// All nodes of a sliding side follow from its end node (E1, E2). Arrays are in node order for both ends:
+/// T_node = T_end * tension_ratio[node], |u_node - u_end| = T_end * elongation_m_per_N[node].
+struct SideTable {
+    std::vector<double> tension_ratio;       // nodes
+    std::vector<double> elongation_m_per_N;  // nodes
+    /// The same elongation to the next node outward, taken as half a segment at rest (E3's h added):
+    /// displacement of the end per newton when this node is the last one moving.
+    std::vector<double> front_compliance_m_per_N;  // nodes
+};
+
+/// Everything about a cable that a step needs and that does not change from step to step.
+struct PrefixTables {
+    PrefixTables(const Cable& cable, const ModelRules& rules);
+
+    const SideTable& proximal(int direction_sign) const { return proximal_[direction_sign > 0]; }
+    const SideTable& distal(int direction_sign) const { return distal_[direction_sign > 0]; }
+
+    double half_compliance_m_per_N;        ///< h of E3: dx / (2 EA)
+    std::vector<double> sliding_exponent;  // segments: mu_d times wrap angle
+    std::vector<double> sliding_ratio;     // segments: exp(sliding_exponent)
+    std::vector<double> breakaway_ratio;   // segments: exp(mu_s times wrap angle)
+
+  private:
+    std::array<SideTable, 2> proximal_;  // backward, forward
+    std::array<SideTable, 2> distal_;
+};
+
+}  // namespace capstan

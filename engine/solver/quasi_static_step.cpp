@@ -1,0 +1,151 @@
+#include "capstan/solver/quasi_static_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/solver/cable_end.h"
+#include "capstan/solver/candidate.h"
+#include "capstan/solver/opposed_motion.h"
+
+namespace capstan {
+
+namespace {
+
+void demand_solvable(const EndConditions& ends) {
+    std::vector<std::string> problems;
+    const auto check = [&](const EndCondition& end, const char* name) {
+        if (!std::isfinite(end.displacement_factor) || !std::isfinite(end.tension_factor) ||
+            !std::isfinite(end.value)) {
+            problems.push_back(std::string("the ") + name + " end's input is not a finite number");
+        } else if (end.displacement_factor == 0.0 && end.tension_factor == 0.0) {
+            problems.push_back(std::string("the ") + name + " end's input says nothing: both factors are 0");
+        }
+    };
+    check(ends.proximal, "proximal");
+    check(ends.distal, "distal");
+    if (problems.empty() && ends.proximal.displacement_factor == 0.0 &&
+        ends.distal.displacement_factor == 0.0) {
+        problems.push_back(
+            "a tension is prescribed at both ends, so the displacement is undetermined; prescribe a position "
+            "or a spring at one end");
+    }
+    if (!problems.empty()) throw InvalidInput(problems);
+}
+
+// Which way an end node would go if it moved alone against its resting neighbour (E3 with E6); an input that
+// has not changed beyond rounding drives nothing.
+Direction driven_direction(const CableEnd& end, const StepView& view) {
+    const EndCondition& condition = end.condition;
+    const double displacement_part = condition.displacement_factor * view.displacement_m(end.node(0));
+    const double tension_part = condition.tension_factor * view.tension_N(end.node(0));
+    const double change = condition.value - (displacement_part + tension_part);
+    const double displacement_scale_m =
+        std::abs(view.displacement_m(0)) + std::abs(view.displacement_m(view.segments()));
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() *
+                            (std::abs(condition.displacement_factor) * displacement_scale_m +
+                             std::abs(tension_part) + std::abs(condition.value));
+    if (std::abs(change) <= rounding) return Direction::none;
+    const double compliance = view.tables.half_compliance_m_per_N;
+    const double increment_per_change = compliance / (condition.displacement_factor * compliance -
+                                                      end.orientation * condition.tension_factor);
+    return direction_of(change * increment_per_change);
+}
+
+// True if the resting node next to the front cannot hold and joins the motion (E4).
+bool neighbour_gives_way(const CableEnd& end, const StepView& view, Direction direction, int moving_nodes,
+                         double last_tension_N) {
+    const double resting_tension_N = view.tension_N(end.node(moving_nodes));
+    const double ratio = view.holding_ratio(end.segment(moving_nodes - 1));
+    return end.orientation * sign(direction) > 0 ? resting_tension_N >= last_tension_N * ratio
+                                                 : last_tension_N >= resting_tension_N * ratio;
+}
+
+// Moves a side's front on until its resting neighbour holds; `nodes` when nothing holds.
+SideMotion find_front(const CableEnd& end, const StepView& view, Direction direction, int first_count,
+                      int& patterns_tried) {
+    const SideTable& table = end.table(view.tables, direction);
+    const int nodes = view.nodes();
+    for (int count = std::max(first_count, 1); count < nodes; ++count) {
+        const EndValues values = end.partial_motion(view, table, count);
+        ++patterns_tried;
+        const double last_tension_N = values.tension_N * table.tension_ratio[end.node(count - 1)];
+        if (!neighbour_gives_way(end, view, direction, count, last_tension_N))
+            return {direction, count, values};
+    }
+    return {direction, nodes, {}};
+}
+
+// How many nodes the side moved in the step before, if it goes on the same way; else 0: start at the end.
+int remembered_front(const MotionPattern& last, bool proximal, Direction direction, int nodes) {
+    if (last.kind == MotionKind::slack) return nodes;
+    const Direction before = proximal ? last.proximal_direction : last.distal_direction;
+    const int count = proximal ? last.proximal_moving_nodes : last.distal_moving_nodes;
+    return before == direction ? count : 0;
+}
+
+// Everything slides: one way if only one way is driven, else with the zero-velocity point where it falls.
+Candidate all_nodes_moving(const StepView& view, const EndConditions& ends, Direction proximal,
+                           Direction distal, int& patterns_tried) {
+    if (proximal == Direction::none) proximal = distal;
+    if (distal == Direction::none) distal = proximal;
+    if (proximal == distal) {
+        ++patterns_tried;
+        return mass_motion(view, ends, proximal);
+    }
+    return opposed_motion(view, ends, proximal, patterns_tried);
+}
+
+Candidate from_fronts(const StepView& view, const EndConditions& ends, bool remember, int& patterns_tried) {
+    const CableEnd proximal = CableEnd::proximal(ends.proximal, view.nodes());
+    const CableEnd distal = CableEnd::distal(ends.distal, view.nodes());
+    const Direction proximal_direction = driven_direction(proximal, view);
+    const Direction distal_direction = driven_direction(distal, view);
+    const auto side = [&](const CableEnd& end, Direction direction) -> SideMotion {
+        if (direction == Direction::none) return {};
+        const int first =
+            remember ? remembered_front(view.before.last_motion, end.orientation > 0, direction, view.nodes())
+                     : 0;
+        return find_front(end, view, direction, first, patterns_tried);
+    };
+    const SideMotion proximal_side = side(proximal, proximal_direction);
+    const SideMotion distal_side = side(distal, distal_direction);
+    if (proximal_side.moving_nodes + distal_side.moving_nodes < view.nodes()) {
+        return partial_motion(proximal_side, distal_side);
+    }
+    return all_nodes_moving(view, ends, proximal_direction, distal_direction, patterns_tried);
+}
+
+}  // namespace
+
+QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
+    : cable_(cable), rules_(rules), tables_(cable_, rules) {}
+
+StepReport QuasiStaticStep::advance(CableState& state, const EndConditions& ends) const {
+    demand_solvable(ends);
+    const StepView view{tables_, rules_, state};
+    int patterns_tried = 0;
+
+    Candidate candidate = from_fronts(view, ends, true, patterns_tried);
+    bool verified = verifies(view, candidate);
+    if (!verified) {
+        // A remembered front can be too far on, and the ends' own increments can mislead about the whole.
+        const auto retry = [&](const Candidate& other) {
+            if (!verified && verifies(view, other)) {
+                candidate = other;
+                verified = true;
+            }
+        };
+        retry(from_fronts(view, ends, false, patterns_tried));
+        for (const Direction direction : {Direction::forward, Direction::backward}) {
+            retry(mass_motion(view, ends, direction));
+            retry(opposed_motion(view, ends, direction, patterns_tried));
+        }
+    }
+    write_state(view, candidate, ends, state);
+    return {state.last_motion, verified, patterns_tried};
+}
+
+}  // namespace capstan

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "capstan/cable/cable_state.h"
+#include "capstan/solver/end_condition.h"
+#include "capstan/solver/model_rules.h"
+#include "capstan/solver/prefix_tables.h"
+
+namespace capstan {
+
+/// How a step went, beside the state that came out.
+struct StepReport {
+    MotionPattern pattern;
+    bool verified = true;    ///< the pattern passed the rules' velocity check and friction cones
+    int patterns_tried = 0;  ///< closed-form solutions formed on the way
+};
+
+/// One quasi-static step in closed form: from a state and what is known at both ends to the next state.
+///
+/// Each sliding side has one unknown scale (E1-E3). A side's front starts where it was if its direction has
+/// not changed, else at the end, and moves on while the neighbour at rest cannot hold (E4). When no resting
+/// node is left, mass motion is tried, then the zero-velocity point inside a segment (E7). O(nodes).
+///
+/// The answer that comes out is checked node by node; one that fails is still written and reported as not
+/// verified, never dropped.
+class QuasiStaticStep {
+  public:
+    QuasiStaticStep(const Cable& cable, const ModelRules& rules);
+
+    /// Advances `state` in place. Throws InvalidInput if an end condition is not finite or if both ends
+    /// prescribe a tension (the displacement would be undetermined); `state` is then unchanged.
+    StepReport advance(CableState& state, const EndConditions& ends) const;
+
+    const Cable& cable() const { return cable_; }
+    const ModelRules& rules() const { return rules_; }
+    const PrefixTables& tables() const { return tables_; }
+
+  private:
+    Cable cable_;
+    ModelRules rules_;
+    PrefixTables tables_;
+};
+
+}  // namespace capstan
