@@ -1,0 +1,144 @@
+#include "capstan/storage/read_only_query.h"
+
+#include <memory>
+
+#include "capstan/storage/error.h"
+#include "capstan/storage/query_guard.h"
+
+namespace capstan::storage {
+namespace {
+
+constexpr int longest_value_bytes =
+    100'000'000;  // one guest's randomblob() must not take the machine's memory
+
+struct Finalizer {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using GuestStatement = std::unique_ptr<sqlite3_stmt, Finalizer>;
+
+[[noreturn]] void explain(sqlite3* connection, const QueryGuard& guard, double time_limit_s) {
+    const std::string message = sqlite3_errmsg(connection);
+    if (guard.time_is_up()) {
+        std::string seconds = std::to_string(time_limit_s);
+        seconds.erase(seconds.find_last_not_of('0') + 1);
+        if (seconds.back() == '.') seconds.pop_back();
+        throw Error("The query took longer than " + seconds +
+                    " s and was stopped. Narrow it with WHERE, or check its joins.");
+    }
+    if (sqlite3_errcode(connection) == SQLITE_AUTH || message.find("not authorized") != std::string::npos ||
+        message.find("prohibited") != std::string::npos ||
+        message.find("may not be modified") != std::string::npos) {
+        throw Error(
+            "The query may only read: one SELECT (or WITH ... SELECT), nothing that writes, attaches or "
+            "sets. (SQLite: " +
+            message + ")");
+    }
+    std::string hint;
+    if (message.find("no such table") != std::string::npos ||
+        message.find("no such column") != std::string::npos) {
+        hint = ". `capstan query --schema` shows the tables and columns";
+    }
+    throw Error("The query does not work: " + message + hint + ".");
+}
+
+bool only_blanks_follow(sqlite3* connection, const char* tail, const char* end) {
+    while (tail != end) {
+        sqlite3_stmt* statement = nullptr;
+        const char* next = nullptr;
+        const int code =
+            sqlite3_prepare_v2(connection, tail, static_cast<int>(end - tail), &statement, &next);
+        const GuestStatement owner(statement);
+        if (code != SQLITE_OK || statement != nullptr) return false;
+        if (next == tail) break;
+        tail = next;
+    }
+    return true;
+}
+
+void bind(sqlite3_stmt* statement, int position, const QueryValue& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) {
+        sqlite3_bind_int64(statement, position, *whole);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        sqlite3_bind_double(statement, position, *real);
+    } else if (const auto* text = std::get_if<std::string>(&value)) {
+        sqlite3_bind_text64(statement, position, text->c_str(), text->size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+    }
+}
+
+QueryValue value_at(sqlite3_stmt* statement, int column) {
+    switch (sqlite3_column_type(statement, column)) {
+        case SQLITE_NULL:
+            return std::monostate{};
+        case SQLITE_INTEGER:
+            return std::int64_t{sqlite3_column_int64(statement, column)};
+        case SQLITE_FLOAT:
+            return sqlite3_column_double(statement, column);
+        default: {  // text and blob: both are bytes
+            const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement, column));
+            const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement, column));
+            return bytes ? std::string(bytes, size) : std::string();
+        }
+    }
+}
+
+// Prepares the one statement that the text holds.
+GuestStatement prepare(sqlite3* connection, std::string_view sql, const QueryGuard& guard,
+                       const QueryLimits& limits) {
+    const char* const end = sql.data() + sql.size();
+    sqlite3_stmt* raw = nullptr;
+    const char* tail = end;
+    const int code = sqlite3_prepare_v2(connection, sql.data(), static_cast<int>(sql.size()), &raw, &tail);
+    GuestStatement statement(raw);
+    if (code != SQLITE_OK) explain(connection, guard, limits.time_limit_s);
+    if (!statement)
+        throw Error("The query is empty. Write one SELECT; `capstan query --schema` shows the tables.");
+    if (!only_blanks_follow(connection, tail, end)) {
+        throw Error("The query holds more than one statement. Run them one after the other.");
+    }
+    if (sqlite3_stmt_readonly(statement.get()) == 0) throw Error("The query may only read.");
+    return statement;
+}
+
+void bind_all(sqlite3_stmt* statement, const std::vector<QueryValue>& parameters) {
+    const int wanted = sqlite3_bind_parameter_count(statement);
+    if (static_cast<std::size_t>(wanted) != parameters.size()) {
+        throw Error("The query has " + std::to_string(wanted) + " parameters, but " +
+                    std::to_string(parameters.size()) + " values were given.");
+    }
+    for (int i = 0; i < wanted; ++i) bind(statement, i + 1, parameters[static_cast<std::size_t>(i)]);
+}
+
+}  // namespace
+
+QueryResult run_read_only(Database& database, std::string_view sql, const std::vector<QueryValue>& parameters,
+                          const QueryLimits& limits) {
+    sqlite3* const connection = database.connection();
+    if (!database.is_read_only()) {
+        throw Error("The query box needs a database that was opened for reading only: " +
+                    database.path().string());
+    }
+    sqlite3_limit(connection, SQLITE_LIMIT_ATTACHED, 0);
+    sqlite3_limit(connection, SQLITE_LIMIT_LENGTH, longest_value_bytes);
+
+    const QueryGuard guard(connection, limits.time_limit_s);
+    const GuestStatement statement = prepare(connection, sql, guard, limits);
+    bind_all(statement.get(), parameters);
+
+    QueryResult result;
+    const int columns = sqlite3_column_count(statement.get());
+    for (int i = 0; i < columns; ++i) result.columns.emplace_back(sqlite3_column_name(statement.get(), i));
+    int code = SQLITE_DONE;
+    while ((code = sqlite3_step(statement.get())) == SQLITE_ROW) {
+        if (limits.row_limit && result.rows.size() == *limits.row_limit) {
+            result.truncated = true;
+            return result;
+        }
+        auto& row = result.rows.emplace_back();
+        row.reserve(static_cast<std::size_t>(columns));
+        for (int i = 0; i < columns; ++i) row.push_back(value_at(statement.get(), i));
+    }
+    if (code != SQLITE_DONE) explain(connection, guard, limits.time_limit_s);
+    return result;
+}
+
+}  // namespace capstan::storage

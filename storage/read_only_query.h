@@ -1,0 +1,34 @@
+#pragma once
+// The query box: anyone's SQL, which may read everything and change nothing.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "capstan/storage/database.h"
+#include "capstan/storage/schema.h"
+
+namespace capstan::storage {
+
+using QueryValue = std::variant<std::monostate, std::int64_t, double, std::string>;  // nothing: NULL
+
+struct QueryLimits {
+    double time_limit_s = 10;  // longer than any view takes on a study; a cross join by mistake ends
+    std::optional<std::size_t> row_limit{};  // further rows are cut off, and truncated says so
+};
+
+struct QueryResult {
+    std::vector<std::string> columns;
+    std::vector<std::vector<QueryValue>> rows;  // rows x columns
+    bool truncated = false;
+};
+
+// Runs exactly one SELECT on a database that was opened with open_read_only. ?1, ?2, ... take the parameters.
+// A blob comes out as a text of its bytes; no table of ours has one.
+QueryResult run_read_only(Database& database, std::string_view sql,
+                          const std::vector<QueryValue>& parameters = {}, const QueryLimits& limits = {});
+
+}  // namespace capstan::storage

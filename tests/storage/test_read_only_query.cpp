@@ -1,0 +1,145 @@
+// The query box reads everything and changes nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "example_study.h"
+#include "temporary_results.h"
+
+namespace capstan::storage {
+namespace {
+
+class QueryBox : public testing::Test {
+  protected:
+    QueryBox() {
+        Database writer = Database::open_or_create(folder / "results.db");
+        begin_study(writer, example_study());
+        write_unit(writer, 1, 0);
+        write_unit(writer, 1, 1);
+    }
+
+    std::string refusal(const std::string& sql) {
+        return error_of([&] { run_read_only(database(), sql); });
+    }
+
+    Database& database() {
+        static_cast<void>(opened ? 0 : (opened.emplace(Database::open_read_only(folder / "results.db")), 0));
+        return *opened;
+    }
+
+    TemporaryFolder folder;
+    std::optional<Database> opened;
+};
+
+TEST_F(QueryBox, GivesColumnsAndTypedValues) {
+    const QueryResult result =
+        run_read_only(database(), "SELECT study_id AS id, name, 0.5, NULL FROM study WHERE name = ?1",
+                      {std::string("example")});
+    EXPECT_EQ(result.columns, (std::vector<std::string>{"id", "name", "0.5", "NULL"}));
+    ASSERT_EQ(result.rows.size(), 1u);
+    EXPECT_EQ(result.rows[0],
+              (std::vector<QueryValue>{std::int64_t{1}, std::string("example"), 0.5, std::monostate{}}));
+}
+
+TEST_F(QueryBox, ReadsEveryViewWithJoinsWindowsAndRecursion) {
+    EXPECT_FALSE(run_read_only(database(), "SELECT * FROM v_error_by_layout").rows.empty());
+    EXPECT_FALSE(run_read_only(database(), "SELECT * FROM v_best_method").rows.empty());
+    EXPECT_FALSE(run_read_only(database(), "SELECT * FROM v_single_sensor_matrix").rows.empty());
+    EXPECT_EQ(run_read_only(database(), "SELECT * FROM v_progress").rows.size(), 1u);
+    EXPECT_EQ(run_read_only(database(),
+                            "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 9) "
+                            "SELECT i FROM n;  -- counted\n ;")
+                  .rows.size(),
+              9u);
+    EXPECT_EQ(run_read_only(database(), "SELECT value FROM sensor_set, json_each(nodes)").rows.size(), 6u);
+}
+
+TEST_F(QueryBox, RefusesWhateverIsNotReading) {
+    const std::string before = bytes_of(folder / "results.db");
+    const std::string other = (folder / "other.db").string();
+    for (const std::string& sql : {
+             std::string("DELETE FROM study"),
+             std::string("INSERT INTO study DEFAULT VALUES"),
+             std::string("UPDATE study SET name = 'x'"),
+             std::string("UPDATE sqlite_master SET sql = 'x'"),
+             std::string("DROP TABLE study"),
+             std::string("CREATE TABLE x (y)"),
+             std::string("CREATE TEMP TABLE x (y)"),
+             std::string("CREATE TEMP VIEW x AS SELECT 1"),
+             "ATTACH '" + other + "' AS other",
+             std::string("DETACH main"),
+             "VACUUM INTO '" + other + "'",
+             std::string("VACUUM"),
+             std::string("REINDEX"),
+             std::string("ANALYZE"),
+             std::string("BEGIN"),
+             std::string("SAVEPOINT x"),
+             std::string("COMMIT"),
+             std::string("PRAGMA user_version = 9"),
+             std::string("PRAGMA journal_mode = DELETE"),
+             std::string("PRAGMA writable_schema = 1"),
+             std::string("PRAGMA query_only = 0"),
+             std::string("PRAGMA temp_store_directory = '/'"),
+             std::string("SELECT * FROM pragma_journal_mode"),
+             std::string("SELECT load_extension('x')"),
+             std::string("SELECT fts3_tokenizer('simple')"),
+             std::string("CREATE VIRTUAL TABLE x USING fts5(y)"),
+             std::string("EXPLAIN DELETE FROM study"),
+             std::string("WITH x AS (SELECT 1) DELETE FROM study"),
+         }) {
+        expect_says(refusal(sql), "may only read");
+    }
+    EXPECT_FALSE(std::filesystem::exists(other));
+    EXPECT_EQ(bytes_of(folder / "results.db"), before);
+    EXPECT_EQ(list_studies(database()).at(0).name, "example");
+}
+
+TEST_F(QueryBox, RunsExactlyOneStatement) {
+    expect_says(refusal("SELECT 1; SELECT 2"), "more than one statement");
+    expect_says(refusal("SELECT 1; DROP TABLE study"), "more than one statement");
+    expect_says(refusal("SELECT 1; nonsense"), "more than one statement");
+    expect_says(refusal(" -- nothing\n"), "empty");
+    expect_says(refusal(""), "empty");
+}
+
+TEST_F(QueryBox, ExplainsAMistakeAndPointsToTheSchema) {
+    expect_says(refusal("SELECT * FROM studies"), "no such table: studies");
+    expect_says(refusal("SELECT * FROM studies"), "capstan query --schema");
+    expect_says(refusal("SELECT tension FROM cell"), "no such column: tension");
+    expect_says(refusal("SELECT tension FROM cell"), "capstan query --schema");
+    expect_says(refusal("SELEKT 1"), "syntax error");
+    expect_says(refusal("SELECT ?1"), "1 parameters, but 0 values");
+}
+
+TEST_F(QueryBox, StopsAQueryThatTakesTooLong) {
+    const std::string endless =
+        "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT max(i) FROM n";
+    expect_says(error_of([&] { run_read_only(database(), endless, {}, {.time_limit_s = 0.05}); }),
+                "longer than 0.05 s");
+    EXPECT_EQ(run_read_only(database(), "SELECT 1").rows.size(), 1u);  // and is ready for the next
+}
+
+TEST_F(QueryBox, CutsOffRowsBeyondTheLimitAndSaysSo) {
+    const QueryResult all = run_read_only(database(), "SELECT * FROM sensor_set", {}, {.row_limit = 3});
+    EXPECT_EQ(all.rows.size(), 3u);
+    EXPECT_FALSE(all.truncated);
+    const QueryResult cut = run_read_only(database(), "SELECT * FROM sensor_set", {}, {.row_limit = 2});
+    EXPECT_EQ(cut.rows.size(), 2u);
+    EXPECT_TRUE(cut.truncated);
+}
+
+TEST_F(QueryBox, RefusesADatabaseThatWasOpenedForWriting) {
+    Database writer = Database::open_existing(folder / "results.db");
+    expect_says(error_of([&] { run_read_only(writer, "SELECT 1"); }), "opened for reading");
+}
+
+TEST_F(QueryBox, ShowsTheSchemaAsTheFileHasIt) {
+    const auto names =
+        run_read_only(database(), "SELECT name FROM sqlite_schema WHERE type IN ('table', 'view')").rows;
+    for (const auto& row : names) {
+        EXPECT_NE(schema_text().find(std::get<std::string>(row[0]) + " "), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace capstan::storage

@@ -1,0 +1,91 @@
+// What goes in comes out, in every field.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "example_study.h"
+#include "temporary_results.h"
+
+namespace capstan::storage {
+namespace {
+
+class Records : public testing::Test {
+  protected:
+    TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+};
+
+TEST_F(Records, ADescriptionComesBackAsItWasWritten) {
+    StudyDescription description = example_study();
+    description.study.study_id = begin_study(database, description);
+    EXPECT_EQ(load_study(database, description.study.study_id), description);
+}
+
+TEST_F(Records, TheSecondStudyOfAFileComesBackAsItWasWritten) {
+    begin_study(database, example_study());
+    StudyDescription second =
+        example_study({.scenarios = 3, .noise_levels = 1, .sensor_sets = 5, .nodes = 4});
+    second.study.study_id = begin_study(database, second);
+    EXPECT_EQ(load_study(database, second.study.study_id), second);
+}
+
+TEST_F(Records, AnySeedOfSixtyFourBitsComesBack) {
+    for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
+        StudyDescription description = example_study();
+        description.study.seed = seed;
+        EXPECT_EQ(load_study(database, begin_study(database, description)).study.seed, seed);
+    }
+}
+
+TEST_F(Records, SingleSensorResultsComeBackAsTheyWereWritten) {
+    const auto study_id = begin_study(database, example_study());
+    write_unit(database, study_id, 6);  // scenario 1, noise level 1
+    EXPECT_EQ(read_single_sensor(database, study_id, 1, 1), example_single_sensor(1, 1).sensors);
+    EXPECT_TRUE(read_single_sensor(database, study_id, 0, 1).empty());
+}
+
+TEST_F(Records, FusionResultsComeBackAsTheyWereWritten) {
+    const auto study_id = begin_study(database, example_study());
+    for (const int unit : {5, 7, 1, 3}) write_unit(database, study_id, unit);
+    EXPECT_EQ(read_fusion(database, study_id, 1, 0), example_fusion(1, 0));
+    EXPECT_EQ(read_fusion(database, study_id, 0, 1), example_fusion(0, 1));
+}
+
+TEST_F(Records, CellSummariesAreTheCellsOfOneNoiseLevelInTheOrderOfTheStudy) {
+    const auto study_id = begin_study(database, example_study());
+    for (const int unit : {7, 5, 3, 1}) write_unit(database, study_id, unit);
+    const std::vector<CellSummary> summaries = read_cell_summaries(database, study_id, 1);
+    ASSERT_EQ(summaries.size(), 12u);
+    for (int scenario = 0, i = 0; scenario < 2; ++scenario) {
+        for (const CellRecord& cell : example_fusion(scenario, 1).cells) {
+            const CellSummary& summary = summaries[static_cast<std::size_t>(i++)];
+            EXPECT_EQ(summary.scenario_index, scenario);
+            EXPECT_EQ(summary.set_index, cell.set_index);
+            EXPECT_EQ(summary.method, cell.method);
+            EXPECT_EQ(summary.mean_abs_error_N, cell.mean_abs_error_N);
+            EXPECT_EQ(summary.standard_error_N, cell.standard_error_N);
+            EXPECT_EQ(summary.block_mean_abs_error_N, cell.block_mean_abs_error_N);
+        }
+    }
+}
+
+TEST_F(Records, ConclusionsComeBackAsTheyWereWritten) {
+    const auto study_id = begin_study(database, example_study());
+    for (const int unit : pending_units(database, study_id)) write_unit(database, study_id, unit);
+    finish_study(database, study_id, example_recommendations(), example_paper_comparison());
+    EXPECT_EQ(read_recommendations(database, study_id), example_recommendations());
+    EXPECT_EQ(read_paper_comparison(database, study_id), example_paper_comparison());
+}
+
+TEST_F(Records, NotANumberIsRefusedAndNamesItsColumn) {
+    const auto study_id = begin_study(database, example_study());
+    FusionResult result = example_fusion(0, 0);
+    result.cells.back().nodes.back().bias_N = std::numeric_limits<double>::quiet_NaN();
+    const std::string message = error_of([&] { write_fusion(database, study_id, 1, result); });
+    expect_says(message, "cell_node.bias_N");
+    expect_says(message, "not a number");
+    expect_says(message, "results.db");
+}
+
+}  // namespace
+}  // namespace capstan::storage
