@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/storage/records.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan {
+
+/// A sensor set with a fusion method, and its errors in every scenario.
+struct PlacementCandidate {
+    int set_index = 0;
+    int sensor_count = 0;
+    std::string method;
+    std::vector<double> error_N;                     // scenarios
+    std::vector<double> standard_error_N;            // scenarios
+    std::vector<std::vector<double>> block_error_N;  // scenarios x blocks
+};
+
+/// All candidates at one noise level, without the methods that are told the true direction.
+std::vector<PlacementCandidate> placement_candidates(const storage::StudyDescription& study,
+                                                     const std::vector<storage::CellSummary>& cells);
+
+/// What a scope judges a candidate by: the smaller the better.
+struct Score {
+    double objective_N = 0.0;
+    double standard_error_N = 0.0;
+    std::vector<double> block_objective_N;  // blocks: of which the objective is, to first order, the mean
+};
+
+/// Mean error over scenarios with the given shares, which sum to one.
+std::vector<Score> weighted_scores(const std::vector<PlacementCandidate>& candidates,
+                                   const std::vector<double>& share);  // scenarios
+
+/// Largest regret over regimes: how much worse than the best candidate of each regime, at any count.
+/// `regime_share` is regimes x scenarios, the shares of a regime's own scenarios.
+std::vector<Score> regret_scores(const std::vector<PlacementCandidate>& candidates,
+                                 const std::vector<std::vector<double>>& regime_share);
+
+}  // namespace capstan

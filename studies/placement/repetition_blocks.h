@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+namespace capstan {
+
+/// Repetitions are worked on, and summed, in fixed consecutive blocks, so that neither the number of threads
+/// nor their timing can change a bit of a sum.
+struct RepetitionBlocks {
+    int repetitions = 0;
+
+    /// At most this many: enough for the spread between blocks, few enough to store for every cell.
+    static constexpr int most_blocks = 40;
+
+    int block_size() const { return (repetitions + most_blocks - 1) / most_blocks; }
+    int count() const { return (repetitions + block_size() - 1) / block_size(); }
+    int first(int block) const { return block * block_size(); }
+    int end(int block) const {
+        const int past = first(block) + block_size();
+        return past < repetitions ? past : repetitions;
+    }
+    int size(int block) const { return end(block) - first(block); }
+};
+
+/// Calls body(i) for i from 0 to count - 1 on up to `jobs` threads (0: all processors), in any order. The
+/// first exception that a call throws comes out here.
+void parallel_for_each_index(int count, int jobs, const std::function<void(int)>& body);
+
+/// Processor time of the calling thread so far [s].
+double thread_processor_time_s();
+
+}  // namespace capstan

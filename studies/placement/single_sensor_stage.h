@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "capstan/placement/prepared_study.h"
+#include "capstan/storage/records.h"
+
+namespace capstan {
+
+/// Every reading of one scenario and noise level, solved once; all layouts, counts and methods are served
+/// from it.
+struct SolvedReadings {
+    int nodes = 0;
+    std::vector<double> reading_N;        // repetitions x nodes
+    std::vector<std::uint16_t> branch;    // repetitions x nodes: SingleSensorEstimator::Choice::branch
+    std::vector<std::uint8_t> verifying;  // repetitions x nodes: patterns that verify, 255 for more
+
+    std::size_t at(int repetition, int node) const {
+        return static_cast<std::size_t>(repetition) * nodes + node;
+    }
+};
+
+/// Which scenario and noise level of a study.
+struct StudyPoint {
+    int scenario_index = 0;
+    int noise_index = 0;
+};
+
+/// Draws, reads and solves repetitions first to end - 1 into their slots.
+void solve_block(const PreparedStudy& study, const StudyPoint& point, int first, int end,
+                 SolvedReadings& solved);
+
+/// All repetitions. Adds the processor time used to `processor_time_s`.
+SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& point, int jobs,
+                              double& processor_time_s);
+
+/// Single-sensor errors and profiles (the paper's e_ij and its Fig. 8), direction known and unknown.
+storage::SingleSensorResult summarise_sensors(const PreparedStudy& study, const StudyPoint& point,
+                                              const SolvedReadings& solved, int jobs);
+
+/// Mean absolute error [N] of each sensor's estimate, direction unknown.
+std::vector<double> sensor_errors_N(const storage::SingleSensorResult& result);  // nodes
+
+}  // namespace capstan

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capstan/cable/cable.h"
+#include "capstan/estimation/single_sensor.h"
+#include "capstan/sensing/layout.h"
+#include "capstan/sensing/noise.h"
+#include "capstan/solver/model_rules.h"
+
+namespace capstan {
+
+/// What is prescribed at one end of the cable over time: `rest + amplitude * sin(2 pi f t + phase)`, where
+/// the rest value is that of the pretensioned cable (its displacement, its tension, the wall where it
+/// stands).
+enum class EndKind { position, tension, spring };
+
+struct EndMotion {
+    EndKind kind = EndKind::position;
+    double amplitude = 0.0;  ///< position, spring (of its wall): m; tension: N
+    double frequency_Hz = 0.0;
+    double phase_rad = 0.0;
+    double spring_stiffness_N_per_m = 0.0;  ///< spring only
+};
+
+struct Transmission {
+    CableSpecification cable;
+    ModelRules rules = ModelRules::cured();
+};
+
+/// The true motion, sampled at a fixed rate; sample 0 is the pretensioned cable at rest.
+struct TrueMotion {
+    EndMotion proximal;
+    EndMotion distal;
+    double sample_rate_Hz = 0.0;
+    int samples = 0;
+};
+
+enum class Regime { mass, partial_proximal, partial_distal, partial_both };
+
+std::string_view name_of(Regime regime);
+inline constexpr Regime all_regimes[] = {Regime::mass, Regime::partial_proximal, Regime::partial_distal,
+                                         Regime::partial_both};
+
+/// The instants at which a regime is judged, and its share of the working time.
+struct RegimeInstants {
+    Regime regime = Regime::mass;
+    std::vector<int> samples;
+    double duty_share = 0.0;
+};
+
+struct NamedNoise {
+    std::string label;
+    NoiseLevel level;
+};
+
+/// Where the weights of the W methods come from.
+enum class WeightSource {
+    mass_motion,  ///< the single-sensor errors in mass motion, whatever the regime: the paper's. Needs that
+                  ///< regime.
+    same_regime,  ///< those of the regime that is fused
+};
+
+/// Everything a study is: plain values, checked by problems_of(). What a configuration file describes.
+struct StudyPlan {
+    std::string name;
+    std::string config_toml;  ///< the configuration in full, kept with the results
+    std::uint64_t seed = 1;
+    int repetitions = 0;
+
+    Transmission transmission;
+    TrueMotion motion;
+    std::vector<RegimeInstants> regimes;
+    std::vector<NamedNoise> noise_levels;
+
+    std::vector<std::string> layout_families;        ///< names of layout_families()
+    std::vector<int> sensor_counts;                  ///< for each family
+    std::vector<std::vector<int>> explicit_layouts;  ///< nodes from 0
+    std::vector<std::string> fusion_methods;         ///< names of fusion_methods()
+
+    DistalSide distal_side = DistalSide::excluded;
+    WeightSource weight_source = WeightSource::mass_motion;
+    double largest_distal_increment_m =
+        0.0;  ///< feasible curve: flat prior of the distal end's motion in a sample
+    int curve_points = 128;
+
+    double worthwhile_gain_N = 0.02;  ///< one more sensor must lower the error by this to be recommended
+    bool compare_with_paper = false;  ///< the plan holds what the paper's table needs
+};
+
+/// Everything wrong with the plan, each with what to try; empty when it can run. Simulates the motion to see
+/// that each instant is in its regime.
+std::vector<std::string> problems_of(const StudyPlan& plan);
+
+}  // namespace capstan

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "capstan/placement/study_plan.h"
+#include "capstan/storage/database.h"
+#include "capstan/storage/records.h"
+
+namespace capstan {
+
+/// Where a run has come to; called from the thread that runs the study, after every stored unit.
+struct StudyProgress {
+    int units_done = 0;
+    int units = 0;
+};
+
+/// Processor time [s] of each stage, summed over threads, and wall time [s] of the whole.
+struct StudyTimes {
+    double prepare_s = 0.0;         ///< true motion, estimators' tables
+    double paper_methods_s = 0.0;   ///< readings, single-sensor estimates, votes, the paper's fusion methods
+    double feasible_curve_s = 0.0;  ///< likelihoods, maximum likelihood, posterior mean
+    double statistics_s = 0.0;
+    double storage_s = 0.0;      ///< wall time: one writer
+    double conclusions_s = 0.0;  ///< recommendations and the paper's table
+    double wall_s = 0.0;
+};
+
+struct RunOptions {
+    int jobs = 0;  ///< threads; 0: all processors
+    std::function<void(const StudyProgress&)> on_progress;
+    const std::atomic<bool>* stop = nullptr;  ///< set it to stop after the unit under way
+    /// The paper's numbers beside ours, read from the stored cells; called for plans that compare with it.
+    std::function<std::vector<storage::PaperComparisonRecord>(storage::Database&, std::int64_t study_id)>
+        compare_with_paper;
+};
+
+enum class RunEnd { complete, stopped };
+
+struct RunOutcome {
+    std::int64_t study_id = 0;
+    RunEnd end = RunEnd::complete;
+    StudyTimes times;
+};
+
+/// Runs a study from its beginning into the database. Throws InvalidInput if the plan has problems; nothing
+/// is written then.
+RunOutcome run_study(storage::Database& database, const StudyPlan& plan, const std::string& program_version,
+                     const RunOptions& options);
+
+/// Goes on with a study that was killed or stopped: the units that are stored stay, the others are run, and
+/// the tables end with the same bits as without the interruption. `plan` is what the stored configuration
+/// says.
+RunOutcome resume_study(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                        const RunOptions& options);
+
+}  // namespace capstan

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "capstan/cable/cable_state.h"
+#include "capstan/placement/study_plan.h"
+#include "capstan/solver/quasi_static_step.h"
+
+namespace capstan {
+
+/// What both ends prescribe at a sample of the motion.
+EndConditions ends_at(const Cable& cable, const TrueMotion& motion, int sample);
+
+/// One sample of a trajectory, with the one before.
+struct TrueSample {
+    int sample = 0;
+    const CableState& previous;
+    const CableState& now;
+    const StepReport& report;
+};
+
+/// Simulates samples 1 to motion.samples and shows each.
+void simulate(const QuasiStaticStep& step, const TrueMotion& motion,
+              const std::function<void(const TrueSample&)>& show);
+
+/// The regime a motion pattern belongs to; none at rest or slack.
+std::optional<Regime> regime_of(const MotionPattern& pattern);
+
+}  // namespace capstan
