@@ -1,5 +1,7 @@
 #include "capstan/estimation/consensus.h"
 
+#include <array>
+
 namespace capstan {
 
 namespace {
@@ -8,38 +10,61 @@ std::uint64_t lowest_bits(int count) {
     return count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
 }
 
-// The k-th of `backward` times -1, then zeros, then `forward` times +1, in rising order.
-int kth_direction(int k, int backward, int forward, int votes) {
-    if (k < backward) return -1;
-    return k >= votes - forward ? 1 : 0;
-}
+// Counts, for 64 places at once, in how many masks a bit is set: plane p holds bit p of every place's count.
+class BitCounts {
+  public:
+    void add(std::uint64_t mask) {
+        for (std::uint64_t& plane : planes_) {
+            const std::uint64_t carry = plane & mask;
+            plane ^= mask;
+            mask = carry;
+            if (mask == 0) return;
+        }
+    }
+
+    /// Places whose count is at least `threshold`, above 0.
+    std::uint64_t at_least(int threshold) const {
+        // count >= threshold unless the highest differing bit is set in the threshold only
+        std::uint64_t larger = 0;
+        std::uint64_t equal = ~std::uint64_t{0};
+        for (int p = planes - 1; p >= 0; --p) {
+            const std::uint64_t wanted = threshold >> p & 1 ? ~std::uint64_t{0} : 0;
+            larger |= equal & planes_[p] & ~wanted;
+            equal &= ~(planes_[p] ^ wanted);
+        }
+        return larger | equal;
+    }
+
+  private:
+    static constexpr int planes = 7;  // counts up to 127, votes up to 64
+    std::array<std::uint64_t, planes> planes_ = {};
+};
 
 }  // namespace
 
 DirectionConsensus median_direction(std::span<const DirectionBits> votes, int segments) {
     const int count = static_cast<int>(votes.size());
     DirectionConsensus consensus;
-    // Most often everyone agrees, and the median is what they say.
-    bool unanimous = true;
-    for (const DirectionBits& vote : votes) unanimous = unanimous && vote == votes.front();
-    if (unanimous) {
-        if (count > 0) consensus.directions = votes.front();
-        return consensus;
+    if (count == 0) return consensus;
+    BitCounts forward;
+    BitCounts backward;
+    for (const DirectionBits& vote : votes) {
+        forward.add(vote.forward);
+        backward.add(vote.backward);
     }
-    for (int segment = 0; segment < segments; ++segment) {
-        int forward = 0;
-        int backward = 0;
-        for (const DirectionBits& vote : votes) {
-            forward += static_cast<int>(vote.forward >> segment & 1);
-            backward += static_cast<int>(vote.backward >> segment & 1);
-        }
-        const int twice_median = kth_direction((count - 1) / 2, backward, forward, count) +
-                                 kth_direction(count / 2, backward, forward, count);
-        const std::uint64_t bit = std::uint64_t{1} << segment;
-        if (twice_median == 2) consensus.directions.forward |= bit;
-        if (twice_median == -2) consensus.directions.backward |= bit;
-        if (twice_median == 1 || twice_median == -1) consensus.undecided |= bit;
-    }
+    // In rising order the votes are -1s, 0s, +1s. The median is between the votes at places `low` and `high`.
+    const int low = (count - 1) / 2;
+    const int high = count / 2;
+    const std::uint64_t low_backward = backward.at_least(low + 1);
+    const std::uint64_t high_backward = backward.at_least(high + 1);
+    const std::uint64_t low_forward = forward.at_least(count - low);
+    const std::uint64_t high_forward = forward.at_least(count - high);
+    const std::uint64_t all = lowest_bits(segments);
+    consensus.directions.forward = low_forward & all;
+    consensus.directions.backward = high_backward & all;
+    const std::uint64_t half_backward = low_backward & ~high_backward & ~high_forward;
+    const std::uint64_t half_forward = high_forward & ~low_forward & ~low_backward;
+    consensus.undecided = (half_backward | half_forward) & all;
     return consensus;
 }
 

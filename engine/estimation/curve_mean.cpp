@@ -3,11 +3,14 @@
 // in the last.
 #include "capstan/estimation/feasible_curve.h"
 
+// foreach_target.h comes before highway.h, and the maths after both.
+// clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "capstan/estimation/curve_mean.cpp"
-#include <hwy/contrib/math/math-inl.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include <hwy/contrib/math/math-inl.h>
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace capstan::HWY_NAMESPACE {

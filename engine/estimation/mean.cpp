@@ -1,18 +1,11 @@
-#include <algorithm>
-
-#include "capstan/estimation/fusion_method.h"
+#include "capstan/estimation/estimate_sums.h"
 
 namespace capstan {
 
 namespace {
 
 void fuse(const FusionInput& input, std::span<double> tension_N) {
-    std::fill(tension_N.begin(), tension_N.end(), 0.0);
-    for (int k = 0; k < input.vote->used; ++k) {
-        const auto profile_N = input.unknown.profile_N(input.vote->sensor[k]);
-        for (std::size_t node = 0; node < tension_N.size(); ++node) tension_N[node] += profile_N[node];
-    }
-    for (double& tension : tension_N) tension /= input.vote->used;
+    average_profiles(input.unknown, input.vote->sensors(), {}, tension_N);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-#include <algorithm>
+#include <array>
 
-#include "capstan/estimation/fusion_method.h"
+#include "capstan/estimation/estimate_sums.h"
 
 namespace capstan {
 
@@ -8,17 +8,13 @@ namespace {
 
 // A sensor at rest tells nothing; if all rest, each "estimate" is the previous state, and so is the mean.
 void fuse(const FusionInput& input, std::span<double> tension_N) {
-    std::fill(tension_N.begin(), tension_N.end(), 0.0);
-    const bool any_moves = std::any_of(input.sensors.begin(), input.sensors.end(),
-                                       [&](int sensor) { return input.known.verified[sensor] != 0; });
-    int used = 0;
+    std::array<int, most_estimated_nodes> moving;
+    std::size_t count = 0;
     for (const int sensor : input.sensors) {
-        if (any_moves && !input.known.verified[sensor]) continue;
-        const auto profile_N = input.known.profile_N(sensor);
-        for (std::size_t node = 0; node < tension_N.size(); ++node) tension_N[node] += profile_N[node];
-        ++used;
+        if (input.known.verified[sensor]) moving[count++] = sensor;
     }
-    for (double& tension : tension_N) tension /= used;
+    const std::span<const int> used = count > 0 ? std::span<const int>(moving).first(count) : input.sensors;
+    average_profiles(input.known, used, {}, tension_N);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "capstan/estimation/fusion_method.h"
+#include "capstan/estimation/estimate_sums.h"
 
 namespace capstan {
 
@@ -6,20 +6,12 @@ namespace {
 
 // Where no estimate agrees with the consensus the plain mean stands in (the paper does not say).
 void fuse(const FusionInput& input, std::span<double> tension_N) {
-    const SensorVote& vote = *input.vote;
+    if (input.vote->unanimous) return average_profiles(input.unknown, input.vote->sensors(), {}, tension_N);
+    const EstimateSums sums = sum_estimates(input, {});
     for (std::size_t node = 0; node < tension_N.size(); ++node) {
-        double all_N = 0.0;
-        double agreeing_N = 0.0;
-        int agreeing = 0;
-        for (int k = 0; k < vote.used; ++k) {
-            const double estimate_N = input.unknown.profile_N(vote.sensor[k])[node];
-            all_N += estimate_N;
-            if (vote.agrees[k] >> node & 1) {
-                agreeing_N += estimate_N;
-                ++agreeing;
-            }
-        }
-        tension_N[node] = agreeing > 0 ? agreeing_N / agreeing : all_N / vote.used;
+        const bool any_agrees = sums.agreeing_weight[node] > 0.0;
+        tension_N[node] =
+            any_agrees ? sums.agreeing_N[node] / sums.agreeing_weight[node] : sums.all_N[node] / sums.weight;
     }
 }
 

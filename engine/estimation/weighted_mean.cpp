@@ -1,23 +1,11 @@
-#include <algorithm>
-
-#include "capstan/estimation/fusion_method.h"
+#include "capstan/estimation/estimate_sums.h"
 
 namespace capstan {
 
 namespace {
 
 void fuse(const FusionInput& input, std::span<double> tension_N) {
-    std::fill(tension_N.begin(), tension_N.end(), 0.0);
-    double total = 0.0;
-    for (int k = 0; k < input.vote->used; ++k) {
-        const int sensor = input.vote->sensor[k];
-        const double weight = input.weight[sensor];
-        const auto profile_N = input.unknown.profile_N(sensor);
-        for (std::size_t node = 0; node < tension_N.size(); ++node)
-            tension_N[node] += weight * profile_N[node];
-        total += weight;
-    }
-    for (double& tension : tension_N) tension /= total;
+    average_profiles(input.unknown, input.vote->sensors(), input.weight, tension_N);
 }
 
 }  // namespace

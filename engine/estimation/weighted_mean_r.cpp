@@ -1,4 +1,4 @@
-#include "capstan/estimation/fusion_method.h"
+#include "capstan/estimation/estimate_sums.h"
 
 namespace capstan {
 
@@ -7,23 +7,12 @@ namespace {
 // The weights of excluded estimates are not shared out among the others: the sum is too small by their share.
 // That is what the paper's numbers show (W Mean-R worse than W Mean), so it stays.
 void fuse(const FusionInput& input, std::span<double> tension_N) {
-    const SensorVote& vote = *input.vote;
-    double total = 0.0;
-    for (int k = 0; k < vote.used; ++k) total += input.weight[vote.sensor[k]];
+    if (input.vote->unanimous)
+        return average_profiles(input.unknown, input.vote->sensors(), input.weight, tension_N);
+    const EstimateSums sums = sum_estimates(input, input.weight);
     for (std::size_t node = 0; node < tension_N.size(); ++node) {
-        double all_N = 0.0;
-        double agreeing_N = 0.0;
-        bool any_agrees = false;
-        for (int k = 0; k < vote.used; ++k) {
-            const int sensor = vote.sensor[k];
-            const double part_N = input.weight[sensor] * input.unknown.profile_N(sensor)[node];
-            all_N += part_N;
-            if (vote.agrees[k] >> node & 1) {
-                agreeing_N += part_N;
-                any_agrees = true;
-            }
-        }
-        tension_N[node] = (any_agrees ? agreeing_N : all_N) / total;
+        const bool any_agrees = sums.agreeing_weight[node] > 0.0;
+        tension_N[node] = (any_agrees ? sums.agreeing_N[node] : sums.all_N[node]) / sums.weight;
     }
 }
 

@@ -16,7 +16,7 @@ class RepetitionProfiles {
     RepetitionProfiles(const PreparedScenario& scenario, int nodes)
         : scenario_(scenario),
           nodes_(nodes),
-          unknown_N_(static_cast<std::size_t>(nodes) * nodes),
+          unknown_N_(static_cast<std::size_t>(nodes) * padded_nodes(nodes)),
           known_N_(unknown_N_.size()),
           directions_(nodes),
           verified_(nodes),
@@ -36,7 +36,7 @@ class RepetitionProfiles {
                 write_profile(*known, reading_N, known_N_, sensor);
             } else {
                 std::copy(scenario_.previous.tension_N.begin(), scenario_.previous.tension_N.end(),
-                          known_N_.begin() + static_cast<std::ptrdiff_t>(sensor) * nodes_);
+                          known_N_.begin() + static_cast<std::ptrdiff_t>(sensor) * padded_nodes(nodes_));
             }
         }
     }
@@ -46,14 +46,14 @@ class RepetitionProfiles {
 
   private:
     void write_profile(const SensorBranch& branch, double reading_N, std::vector<double>& all_N, int sensor) {
-        double* profile_N = all_N.data() + static_cast<std::size_t>(sensor) * nodes_;
+        double* profile_N = all_N.data() + static_cast<std::size_t>(sensor) * padded_nodes(nodes_);
         for (int node = 0; node < nodes_; ++node) profile_N[node] = branch.tension_N(node, reading_N);
     }
 
     const PreparedScenario& scenario_;
     int nodes_;
-    std::vector<double> unknown_N_;  // sensors x nodes
-    std::vector<double> known_N_;    // sensors x nodes
+    std::vector<double> unknown_N_;  // sensors x padded nodes
+    std::vector<double> known_N_;    // sensors x padded nodes
     std::vector<DirectionBits> directions_;
     std::vector<std::uint8_t> verified_;
     std::vector<std::uint8_t> known_usable_;
@@ -63,70 +63,99 @@ bool on_curve(const FusionMethod& method) {
     return method.knowledge == Knowledge::feasible_curve;
 }
 
-// Shows the estimate of each set and method of one half of the catalogue, in one repetition.
-class RepetitionFusion {
+// The estimates of one sensor set over consecutive repetitions: methods of one half of the catalogue x
+// repetitions x nodes.
+struct SetEstimates {
+    std::size_t set = 0;
+    int first_repetition = 0;
+    int repetitions = 0;
+    int nodes = 0;
+    std::vector<double> tension_N;
+
+    std::span<double> of(std::size_t method, int repetition) {
+        const std::size_t row = method * repetitions + (repetition - first_repetition);
+        return std::span<double>(tension_N).subspan(row * nodes, nodes);
+    }
+};
+
+// Fuses consecutive repetitions, half of the catalogue at a time, set after set, so that what belongs to one
+// set stays near while all repetitions pass.
+class BlockFusion {
   public:
-    RepetitionFusion(const PreparedStudy& study, const StudyPoint& point, const CurveLikelihood& likelihood,
-                     std::span<const double> weight)
+    BlockFusion(const PreparedStudy& study, const StudyPoint& point, const SolvedReadings& solved,
+                const CurveLikelihood& likelihood, std::span<const double> weight)
         : study_(study),
           scenario_(study.scenarios[point.scenario_index]),
+          solved_(solved),
           likelihood_(likelihood),
-          weight_(weight),
-          profiles_(scenario_, study.nodes()),
-          tension_N_(study.nodes()),
-          per_sensor_(static_cast<std::size_t>(study.nodes()) * scenario_.curve.points()),
-          sum_(scenario_.curve.points()) {}
+          weight_(weight) {}
 
-    template <typename Show>  // show(set index, method index, tension_N)
-    void paper_methods(const SolvedReadings& solved, int repetition, const Show& show) {
-        profiles_.fill(solved, repetition);
+    // show(SetEstimates) once for each set
+    template <typename Show>
+    void paper_methods(int first, int end, const Show& show) {
+        std::vector<RepetitionProfiles> profiles(end - first, RepetitionProfiles(scenario_, study_.nodes()));
+        for (int r = first; r < end; ++r) profiles[r - first].fill(solved_, r);
         FusionInput input;
-        input.unknown = profiles_.unknown();
-        input.known = profiles_.known();
         input.weight = weight_;
-        for (std::size_t s = 0; s < study_.sensor_sets.size(); ++s) {
-            input.sensors = study_.sensor_sets[s];
+        for_each_set(first, end, show, [&](SetEstimates& estimates, int r) {
+            input.sensors = study_.sensor_sets[estimates.set];
+            input.unknown = profiles[r - first].unknown();
+            input.known = profiles[r - first].known();
             const SensorVote vote = take_vote(input.unknown, input.sensors);
             input.vote = &vote;
-            for (std::size_t m = 0; m < study_.methods.size(); ++m) {
-                if (on_curve(*study_.methods[m])) continue;
-                study_.methods[m]->fuse(input, tension_N_);
-                show(s, m, tension_N_);
-            }
-        }
+            fuse_half(input, estimates, r, false);
+        });
     }
 
     template <typename Show>
-    void curve_methods(const SolvedReadings& solved, int repetition, const Show& show) {
-        const int points = scenario_.curve.points();
-        for (int sensor = 0; sensor < study_.nodes(); ++sensor) {
-            likelihood_.log_likelihood(
-                sensor, solved.reading_N[solved.at(repetition, sensor)],
-                std::span<double>(per_sensor_).subspan(static_cast<std::size_t>(sensor) * points, points));
+    void curve_methods(int first, int end, const Show& show) {
+        const std::size_t points = scenario_.curve.points();
+        const std::size_t size = study_.nodes() * points;
+        std::vector<double> per_sensor(size * (end - first));  // repetitions x nodes x points
+        for (int r = first; r < end; ++r) {
+            for (int sensor = 0; sensor < study_.nodes(); ++sensor) {
+                const std::size_t start = (r - first) * size + sensor * points;
+                likelihood_.log_likelihood(sensor, solved_.reading_N[solved_.at(r, sensor)],
+                                           std::span<double>(per_sensor).subspan(start, points));
+            }
         }
+        std::vector<double> sum(points);
         FusionInput input;
         input.curve = &scenario_.curve;
-        input.log_likelihood = sum_;
+        input.log_likelihood = sum;
+        for_each_set(first, end, show, [&](SetEstimates& estimates, int r) {
+            input.sensors = study_.sensor_sets[estimates.set];
+            add_log_likelihoods(std::span<const double>(per_sensor).subspan((r - first) * size, size),
+                                input.sensors, sum);
+            fuse_half(input, estimates, r, true);
+        });
+    }
+
+  private:
+    template <typename Show, typename Fuse>
+    void for_each_set(int first, int end, const Show& show, const Fuse& fuse) {
+        SetEstimates estimates{0, first, end - first, study_.nodes(), {}};
+        estimates.tension_N.resize(study_.methods.size() * (end - first) * study_.nodes());
         for (std::size_t s = 0; s < study_.sensor_sets.size(); ++s) {
-            input.sensors = study_.sensor_sets[s];
-            add_log_likelihoods(per_sensor_, input.sensors, sum_);
-            for (std::size_t m = 0; m < study_.methods.size(); ++m) {
-                if (!on_curve(*study_.methods[m])) continue;
-                study_.methods[m]->fuse(input, tension_N_);
-                show(s, m, tension_N_);
+            estimates.set = s;
+            for (int r = first; r < end; ++r) fuse(estimates, r);
+            show(estimates);
+        }
+    }
+
+    void fuse_half(const FusionInput& input, SetEstimates& estimates, int repetition, bool curve) {
+        for (std::size_t m = 0; m < study_.methods.size(); ++m) {
+            if (on_curve(*study_.methods[m]) == curve) {
+                study_.methods[m]->fuse(input, estimates.of(m, repetition));
             }
         }
     }
 
-  private:
     const PreparedStudy& study_;
     const PreparedScenario& scenario_;
+    const SolvedReadings& solved_;
     const CurveLikelihood& likelihood_;
     std::span<const double> weight_;
-    RepetitionProfiles profiles_;
-    std::vector<double> tension_N_;   // nodes
-    std::vector<double> per_sensor_;  // nodes x points
-    std::vector<double> sum_;         // points
 };
 
 // Errors of all cells of a scenario and noise level, block by block and repetition by repetition.
@@ -138,27 +167,60 @@ struct ErrorTable {
 void add_error(BlockSums& sums, double& repetition_error_N, std::span<const double> tension_N,
                std::span<const double> truth_N) {
     const double share = 1.0 / static_cast<double>(truth_N.size());
+    double* node_abs_N = sums.node_abs_error_N.data();
+    double* node_signed_N = sums.node_signed_error_N.data();
     double absolute_N = 0.0;
     double squared_N2 = 0.0;
     for (std::size_t node = 0; node < truth_N.size(); ++node) {
         const double error_N = tension_N[node] - truth_N[node];
         absolute_N += std::abs(error_N);
         squared_N2 += error_N * error_N;
-        sums.node_abs_error_N[node] += std::abs(error_N);
-        sums.node_signed_error_N[node] += error_N;
+        node_abs_N[node] += std::abs(error_N);
+        node_signed_N[node] += error_N;
     }
     repetition_error_N = absolute_N * share;
     sums.error_N += repetition_error_N;
     sums.squared_error_N2 += squared_N2 * share;
 }
 
-void count_verification(BlockSums& sums, const SolvedReadings& solved, int repetition,
-                        std::span<const int> sensors) {
-    for (const int sensor : sensors) {
-        const int verifying = solved.verifying[solved.at(repetition, sensor)];
-        sums.unverified += verifying == 0;
-        sums.ambiguous += verifying > 1;
+// Shares out the processor time of a block over what it went to, by wall time.
+class BlockClock {
+  public:
+    /// The time since the last call, or since the beginning, went to `part`.
+    void enter(double FusionTimes::*part) {
+        const double now_s = wall_time_s();
+        wall_.*part += now_s - last_s_;
+        last_s_ = now_s;
     }
+
+    FusionTimes processor_times() const {
+        const double wall_s = wall_.paper_methods_s + wall_.feasible_curve_s + wall_.statistics_s;
+        const double scale = (thread_processor_time_s() - processor_start_s_) / wall_s;
+        return {wall_.paper_methods_s * scale, wall_.feasible_curve_s * scale, wall_.statistics_s * scale};
+    }
+
+  private:
+    double processor_start_s_ = thread_processor_time_s();
+    double last_s_ = wall_time_s();
+    FusionTimes wall_;
+};
+
+struct Verification {
+    int unverified = 0;
+    int ambiguous = 0;
+};
+
+Verification count_verification(const SolvedReadings& solved, const SetEstimates& estimates,
+                                std::span<const int> sensors) {
+    Verification count;
+    for (int r = 0; r < estimates.repetitions; ++r) {
+        for (const int sensor : sensors) {
+            const int verifying = solved.verifying[solved.at(estimates.first_repetition + r, sensor)];
+            count.unverified += verifying == 0;
+            count.ambiguous += verifying > 1;
+        }
+    }
+    return count;
 }
 
 std::vector<storage::SensorWeightRecord> weight_shares(std::span<const double> weight) {
@@ -200,28 +262,34 @@ storage::FusionResult fuse_readings(const PreparedStudy& study, const StudyPoint
 
     std::vector<FusionTimes> block_times(blocks.count());
     parallel_for_each_index(blocks.count(), jobs, [&](int block) {
-        RepetitionFusion fusion(study, point, likelihood, weight);
-        int repetition = 0;
-        const auto add = [&](std::size_t s, std::size_t m, std::span<const double> tension_N) {
-            BlockSums& sums = table.block_sums[s * methods + m][block];
-            add_error(sums, table.repetition_error_N[s * methods + m][repetition], tension_N,
-                      scenario.truth.tension_N);
-            if (study.methods[m]->knowledge == Knowledge::direction_unknown) {
-                count_verification(sums, solved, repetition, study.sensor_sets[s]);
+        BlockFusion fusion(study, point, solved, likelihood, weight);
+        BlockClock clock;
+        const auto sum_up = [&](SetEstimates& estimates, bool curve) {
+            clock.enter(curve ? &FusionTimes::feasible_curve_s : &FusionTimes::paper_methods_s);
+            const Verification verification =
+                count_verification(solved, estimates, study.sensor_sets[estimates.set]);
+            for (std::size_t m = 0; m < methods; ++m) {
+                if (on_curve(*study.methods[m]) != curve) continue;
+                const std::size_t cell = estimates.set * methods + m;
+                BlockSums& sums = table.block_sums[cell][block];
+                for (int r = blocks.first(block); r < blocks.end(block); ++r) {
+                    add_error(sums, table.repetition_error_N[cell][r], estimates.of(m, r),
+                              scenario.truth.tension_N);
+                }
+                if (study.methods[m]->knowledge == Knowledge::direction_unknown) {
+                    sums.unverified = verification.unverified;
+                    sums.ambiguous = verification.ambiguous;
+                }
             }
+            clock.enter(&FusionTimes::statistics_s);
         };
-        const double start_s = thread_processor_time_s();
-        for (repetition = blocks.first(block); repetition < blocks.end(block); ++repetition) {
-            fusion.paper_methods(solved, repetition, add);
-        }
-        const double middle_s = thread_processor_time_s();
+        fusion.paper_methods(blocks.first(block), blocks.end(block),
+                             [&](SetEstimates& estimates) { sum_up(estimates, false); });
         if (study.uses(Knowledge::feasible_curve)) {
-            for (repetition = blocks.first(block); repetition < blocks.end(block); ++repetition) {
-                fusion.curve_methods(solved, repetition, add);
-            }
+            fusion.curve_methods(blocks.first(block), blocks.end(block),
+                                 [&](SetEstimates& estimates) { sum_up(estimates, true); });
         }
-        block_times[block].paper_methods_s = middle_s - start_s;
-        block_times[block].feasible_curve_s = thread_processor_time_s() - middle_s;
+        block_times[block] = clock.processor_times();
     });
 
     storage::FusionResult result{
@@ -243,6 +311,7 @@ storage::FusionResult fuse_readings(const PreparedStudy& study, const StudyPoint
     for (const FusionTimes& block : block_times) {
         times.paper_methods_s += block.paper_methods_s;
         times.feasible_curve_s += block.feasible_curve_s;
+        times.statistics_s += block.statistics_s;
     }
     for (const double time_s : set_times_s) times.statistics_s += time_s;
     return result;
@@ -253,14 +322,20 @@ std::vector<std::vector<double>> fuse_repetition(const PreparedStudy& study, con
                                                  int repetition) {
     const CurveLikelihood likelihood(study.scenarios[point.scenario_index].curve,
                                      study.plan.noise_levels[point.noise_index].level);
-    RepetitionFusion fusion(study, point, likelihood, weight);
-    std::vector<std::vector<double>> estimates(study.cells());
-    const auto keep = [&](std::size_t s, std::size_t m, std::span<const double> tension_N) {
-        estimates[s * study.methods.size() + m].assign(tension_N.begin(), tension_N.end());
+    BlockFusion fusion(study, point, solved, likelihood, weight);
+    std::vector<std::vector<double>> cells(study.cells());
+    const auto keep = [&](SetEstimates& estimates, bool curve) {
+        for (std::size_t m = 0; m < study.methods.size(); ++m) {
+            if (on_curve(*study.methods[m]) != curve) continue;
+            const auto tension_N = estimates.of(m, repetition);
+            cells[estimates.set * study.methods.size() + m].assign(tension_N.begin(), tension_N.end());
+        }
     };
-    fusion.paper_methods(solved, repetition, keep);
-    if (study.uses(Knowledge::feasible_curve)) fusion.curve_methods(solved, repetition, keep);
-    return estimates;
+    fusion.paper_methods(repetition, repetition + 1, [&](SetEstimates& e) { keep(e, false); });
+    if (study.uses(Knowledge::feasible_curve)) {
+        fusion.curve_methods(repetition, repetition + 1, [&](SetEstimates& e) { keep(e, true); });
+    }
+    return cells;
 }
 
 }  // namespace capstan

@@ -26,7 +26,10 @@ struct RepetitionBlocks {
 /// first exception that a call throws comes out here.
 void parallel_for_each_index(int count, int jobs, const std::function<void(int)>& body);
 
-/// Processor time of the calling thread so far [s].
+/// Processor time of the calling thread so far [s]. Costs most of a microsecond.
 double thread_processor_time_s();
+
+/// Time since some fixed moment [s]; cheap.
+double wall_time_s();
 
 }  // namespace capstan

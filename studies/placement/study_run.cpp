@@ -1,6 +1,5 @@
 #include "capstan/placement/study_run.h"
 
-#include <chrono>
 #include <set>
 
 #include "capstan/placement/fusion_stage.h"
@@ -15,10 +14,6 @@
 namespace capstan {
 
 namespace {
-
-double wall_time_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // One run of a study, from whatever is already stored to its end.
 class Run {
