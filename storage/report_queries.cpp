@@ -102,19 +102,36 @@ ORDER BY v.regime, v.noise_level_id, v.family, f.method_index, v.sensor_count)sq
         // alone.
         {"error_by_instant", "Error by instant (or over all of them, where a regime has more than three)",
          R"sql(
-WITH few AS (SELECT regime FROM scenario WHERE study_id = ?1 GROUP BY regime HAVING count(*) <= 3)
-SELECT s.regime, c.noise_level_id, s.sample,
-       'sample ' || s.sample || ', proximal end moves ' || s.motion AS instant, l.family, l.sensor_count, c.method,
-       f.title AS method_title, f.knowledge, avg(c.mean_abs_error_N) AS mean_abs_error_N,
-       avg(c.interval_low_N) AS interval_low_N, avg(c.interval_high_N) AS interval_high_N
-FROM cell c JOIN scenario s USING (scenario_id) JOIN layout l USING (sensor_set_id)
-JOIN fusion_method f ON f.study_id = s.study_id AND f.method = c.method
-WHERE s.study_id = ?1 AND s.regime IN few
-GROUP BY s.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method
+WITH few AS (SELECT regime FROM scenario WHERE study_id = ?1 GROUP BY regime HAVING count(*) <= 3),
+bound AS (
+    SELECT s.regime, b.noise_level_id, s.sample, s.motion, l.family, l.sensor_count, avg(b.mean_abs_error_N) AS error_N
+    FROM known_direction_bound b JOIN scenario s USING (scenario_id) JOIN layout l USING (sensor_set_id)
+    WHERE s.study_id = ?1
+    GROUP BY s.scenario_id, b.noise_level_id, l.family, l.sensor_count),
+every AS (
+    SELECT s.regime, c.noise_level_id, s.sample, s.motion, l.family, l.sensor_count, c.method, f.title AS method_title,
+           f.knowledge, avg(c.mean_abs_error_N) AS mean_abs_error_N, avg(c.interval_low_N) AS interval_low_N,
+           avg(c.interval_high_N) AS interval_high_N
+    FROM cell c JOIN scenario s USING (scenario_id) JOIN layout l USING (sensor_set_id)
+    JOIN fusion_method f ON f.study_id = s.study_id AND f.method = c.method
+    WHERE s.study_id = ?1 AND s.regime IN few
+    GROUP BY s.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method
+    UNION ALL
+    SELECT regime, noise_level_id, sample, motion, family, sensor_count, 'known_direction_bound',
+           'Bound, direction known', 'bound', error_N, error_N, error_N
+    FROM bound WHERE regime IN few)
+SELECT regime, noise_level_id, sample, 'sample ' || sample || ', proximal end moves ' || motion AS instant,
+       family, sensor_count, method, method_title, knowledge, mean_abs_error_N, interval_low_N, interval_high_N
+FROM every
 UNION ALL
 SELECT regime, noise_level_id, -1, 'mean of ' || instants || ' instants', family, sensor_count, method, method_title,
        knowledge, mean_abs_error_N, interval_low_N, interval_high_N
 FROM v_error_by_layout WHERE study_id = ?1 AND regime NOT IN few
+UNION ALL
+SELECT regime, noise_level_id, -1, 'mean of ' || (SELECT count(*) FROM scenario s WHERE s.study_id = ?1 AND s.regime = b.regime) ||
+       ' instants', family, sensor_count, 'known_direction_bound', 'Bound, direction known', 'bound', avg(error_N),
+       avg(error_N), avg(error_N)
+FROM bound b WHERE regime NOT IN few GROUP BY regime, noise_level_id, family, sensor_count
 ORDER BY 1, 2, 3, 5, 7, 6)sql"},
 
         // Only with several noise levels is there anything to compare.

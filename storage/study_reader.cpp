@@ -141,6 +141,21 @@ std::vector<CellSummary> read_cell_summaries(Database& database, std::int64_t st
     return summaries;
 }
 
+std::vector<LayoutErrorSummary> read_errors_by_layout(Database& database, std::int64_t study_id,
+                                                      int noise_index) {
+    const StudyIds ids = load_study_ids(database, study_id);
+    Statement rows(database, "SELECT regime, family, sensor_count, method, mean_abs_error_N, standard_error_N "
+                             "FROM v_error_by_layout WHERE study_id = ?1 AND noise_level_id = ?2 "
+                             "ORDER BY regime, family, sensor_count, method");
+    rows.bind_all(study_id, id_at(ids.noise_levels, noise_index, "noise level"));
+    std::vector<LayoutErrorSummary> errors;
+    while (rows.step()) {
+        errors.push_back({rows.get<std::string>(0), rows.get<std::string>(1), rows.get<int>(2),
+                          rows.get<std::string>(3), rows.get<double>(4), rows.get<double>(5)});
+    }
+    return errors;
+}
+
 std::vector<RecommendationRecord> read_recommendations(Database& database, std::int64_t study_id) {
     const StudyIds ids = load_study_ids(database, study_id);
     Statement select(database, "SELECT recommendation_id, noise_level_id, sensor_set_id, " +

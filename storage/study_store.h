@@ -77,6 +77,19 @@ struct CellSummary {
 
 std::vector<CellSummary> read_cell_summaries(Database& database, std::int64_t study_id, int noise_index);
 
+// A row of v_error_by_layout: averaged over a regime's instants and a family's variants.
+struct LayoutErrorSummary {
+    std::string regime;
+    std::string family;
+    int sensor_count = 0;
+    std::string method;
+    double mean_abs_error_N = 0;
+    double standard_error_N = 0;
+};
+
+std::vector<LayoutErrorSummary> read_errors_by_layout(Database& database, std::int64_t study_id,
+                                                      int noise_index);
+
 std::vector<RecommendationRecord> read_recommendations(Database& database, std::int64_t study_id);
 std::vector<PaperComparisonRecord> read_paper_comparison(Database& database, std::int64_t study_id);
 

@@ -1,0 +1,18 @@
+#pragma once
+// What to do: a card per recommendation, with the cable, the numbers and the choices that do as well.
+
+#include <string>
+
+#include "capstan/reports/study_tables.h"
+
+namespace capstan::reports {
+
+std::string recommendation_section(const StudyTables& tables);  // '' without recommendations
+
+// The study in one sentence: the widest-reaching recommendation at the first noise level.
+std::string verdict(const StudyTables& tables);
+
+std::string recommendation_title(const Row& recommendation);  // 'Across regimes: smallest worst regret'
+std::string objective_title(const Row& recommendation);       // what its error_N means
+
+}  // namespace capstan::reports

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "capstan/reports/html_text.h"
+#include "capstan/reports/recommendation_section.h"
+#include "capstan/reports/study_report.h"
+#include "capstan/reports/study_tables.h"
+
+namespace capstan::reports {
+namespace {
+
+// RFC 4180: quotes around text that holds a comma, a quote or a line break.
+std::string csv_field(const Value& value) {
+    const auto* text = std::get_if<std::string>(&value);
+    if (text == nullptr) {
+        const nlohmann::json json = to_json(value);
+        return json.is_null() ? "" : json.dump();
+    }
+    if (text->find_first_of(",\"\r\n") == std::string::npos) return *text;
+    std::string quoted = "\"";
+    for (const char letter : *text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+    return quoted + '"';
+}
+
+// A study's words must not become a table's border or a tag.
+std::string escape_markdown(const std::string& text) {
+    std::string safe;
+    for (const char letter : text) {
+        if (letter == '\n' || letter == '\r') {
+            safe += ' ';
+        } else if (letter == '<') {
+            safe += "&lt;";
+        } else {
+            if (letter == '|' || letter == '\\' || letter == '*' || letter == '`' || letter == '[')
+                safe += '\\';
+            safe += letter;
+        }
+    }
+    return safe;
+}
+
+std::string recommendations_markdown(const StudyTables& tables) {
+    const auto rows = tables["recommendation"].each();
+    if (rows.empty()) return "";
+    std::string text =
+        "## What to do\n\n| Scope | Noise | Sensors | Nodes | Method | Objective | [N] | 95% interval |\n"
+        "| --- | --- | ---: | --- | --- | --- | ---: | --- |\n";
+    std::string sentences;
+    for (const Row& row : rows) {
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", recommendation_title(row),
+                            escape_markdown(row.text("noise")), row.whole("sensor_count"),
+                            escape_markdown(row.text("nodes")), escape_markdown(row.text("method_title")),
+                            objective_title(row), plain_number(row.number("error_N")),
+                            newtons_between(row.number("interval_low_N"), row.number("interval_high_N")));
+        sentences += fmt::format("- {} ({}): {}\n", recommendation_title(row),
+                                 escape_markdown(row.text("noise")), escape_markdown(row.text("sentence")));
+    }
+    return text + "\n" + sentences + "\n";
+}
+
+std::string errors_markdown(const StudyTables& tables) {
+    const auto rows = tables["error_by_layout"].each();
+    if (rows.empty()) return "";
+    std::string text =
+        "## Error by layout, number of sensors and method\n\n"
+        "| Regime | Noise | Layout | Sensors | Method | Mean error [N] | 95% interval |\n"
+        "| --- | --- | --- | ---: | --- | ---: | --- |\n";
+    for (const Row& row : rows) {
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", regime_title(row.text("regime")),
+                            escape_markdown(row.text("noise")), escape_markdown(row.text("family")),
+                            row.whole("sensor_count"), escape_markdown(row.text("method_title")),
+                            plain_number(row.number("mean_abs_error_N")),
+                            newtons_between(row.number("interval_low_N"), row.number("interval_high_N")));
+    }
+    return text + "\n";
+}
+
+std::string paper_markdown(const StudyTables& tables) {
+    const auto rows = tables["paper_comparison"].each();
+    if (rows.empty()) return "";
+    std::string text =
+        "## The paper's numbers and ours\n\n| Quantity | Paper [N] | Here [N] | Difference [N] | Why |\n"
+        "| --- | ---: | ---: | ---: | --- |\n";
+    for (const Row& row : rows) {
+        const auto paper_N = row.maybe_number("paper_N");
+        const auto difference_N = row.maybe_number("difference_N");
+        text +=
+            fmt::format("| {} | {}{} | {} | {} | {} |\n", escape_markdown(row.text("quantity")),
+                        paper_N && row.text("relation") == "<" ? "&lt; " : "",
+                        paper_N ? plain_number(*paper_N) : "", plain_number(row.number("ours_N")),
+                        difference_N ? plain_number(*difference_N) : "", escape_markdown(row.text("reason")));
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string study_report_markdown(storage::Database& database, std::int64_t study_id) {
+    const StudyTables tables(database, study_id);
+    const Row study = tables.study();
+    return fmt::format("# {}\n\n{}\n\n", escape_markdown(study.text("name")),
+                       escape_markdown(verdict(tables))) +
+           recommendations_markdown(tables) + errors_markdown(tables) + paper_markdown(tables) +
+           fmt::format("Made by capstan {}, seed {}, {} repetitions.\n", study.text("program_version"),
+                       static_cast<std::uint64_t>(study.whole("seed")), study.whole("repetitions"));
+}
+
+std::string study_report_json(storage::Database& database, std::int64_t study_id) {
+    const StudyTables tables(database, study_id);
+    nlohmann::ordered_json report;
+    for (const Table& table : tables.all()) {
+        auto& rows = report[table.name] = nlohmann::ordered_json::array();
+        for (const auto& row : table.rows) {
+            nlohmann::ordered_json record;
+            for (std::size_t k = 0; k < row.size(); ++k) record[table.columns[k]] = to_json(row[k]);
+            rows.push_back(std::move(record));
+        }
+    }
+    return report.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string study_error_csv(storage::Database& database, std::int64_t study_id) {
+    const StudyTables tables(database, study_id);
+    const Table& table = tables["error_by_layout"];
+    std::string text = fmt::format("{}\r\n", fmt::join(table.columns, ","));
+    for (const auto& row : table.rows) {
+        std::vector<std::string> fields;
+        for (const Value& value : row) fields.push_back(csv_field(value));
+        text += fmt::format("{}\r\n", fmt::join(fields, ","));
+    }
+    return text;
+}
+
+}  // namespace capstan::reports

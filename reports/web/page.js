@@ -1,0 +1,243 @@
+"use strict";
+// Draws the page's figures from the study's tables; redraws them for another noise level, theme or width.
+(() => {
+  const study = JSON.parse(document.getElementById("study-data").textContent);
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+
+  // ---- colours and shapes: one place for the whole page, so a method looks the same in every figure.
+  // Okabe-Ito, told apart with any colour vision; lightened where a dark ground asks for it.
+  const METHODS = {  // [on white, on dark, shape]
+    known_direction_bound: ["#7b818b", "#98a0ad", "stroke"],
+    mean_known: ["#7b818b", "#98a0ad", "circle"],
+    mean: ["#56b4e9", "#7cc8f2", "circle"],
+    mean_r: ["#009e73", "#2fbf95", "square"],
+    w_mean: ["#e69f00", "#f0b429", "triangle-up"],
+    w_mean_r: ["#cc79a7", "#dd93bb", "diamond"],
+    maximum_likelihood: ["#d55e00", "#f07c2b", "cross"],
+    posterior_mean: ["#0072b2", "#3f8fe0", "triangle-down"],
+  };
+  const OTHER_METHODS = [["#6a4c93", "#a98bd6", "wedge"], ["#7a5c3e", "#c09a74", "arrow"], ["#3b6e22", "#8bc26b", "stroke"]];
+  const FAMILIES = { even: ["#0072b2", "#6db6ee", "circle", "Even"], distal: ["#d55e00", "#f07c2b", "square", "Distal"], both: ["#009e73", "#2fbf95", "diamond", "Both ends"] };
+  const OTHER_FAMILY = ["#8a6d00", "#d8b83f", "triangle-up"];
+  const BOUND = { method: "known_direction_bound", title: "Bound, direction known" };
+  const capital = (word) => word.charAt(0).toUpperCase() + word.slice(1);
+  const shade = (pair) => pair[dark.matches ? 1 : 0];
+
+  const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+  // ---- the study's rows
+  const tables = {};
+  for (const [name, table] of Object.entries(study.tables)) {
+    tables[name] = table.rows.map((values) => {
+      const row = {};
+      table.columns.forEach((column, k) => { row[column] = values[k]; });
+      if ("family" in row) row.family_title = FAMILIES[row.family]?.[3] ?? capital(row.family);
+      if ("regime" in row) row.regime_title = study.regime_titles[row.regime] ?? row.regime;
+      return row;
+    });
+  }
+  const chosenNoise = () => {
+    const box = document.querySelector('input[name="noise"]:checked');
+    return box ? Number(box.value) : tables.noise_level[0]?.noise_level_id;
+  };
+
+  function rowsOf(figure, table) {
+    const { regime, recommendation } = figure.dataset;
+    const { knowledge } = about(figure);
+    const noise = chosenNoise();
+    return tables[table].filter((row) =>
+      (!regime || !("regime" in row) || row.regime === regime) &&
+      (!recommendation || !("recommendation_id" in row) || row.recommendation_id === Number(recommendation)) &&
+      (recommendation || !("noise_level_id" in row) || row.noise_level_id === noise) &&
+      (!knowledge || !("knowledge" in row) || knowledge.includes(row.knowledge)));
+  }
+  const about = (figure) => study.figures[figure.dataset.figure].usermeta.capstan;
+  const distinct = (rows, column) => [...new Set(rows.map((row) => row[column]))];
+
+  const place = (family) => Object.keys(FAMILIES).indexOf(family) >>> 0;  // unknown ones last
+  const familyOrder = (rows) => distinct(rows, "family").filter(Boolean).sort((a, b) => place(a) - place(b));
+
+  // ---- named scales and @words of the specs
+  function scales(rows) {
+    const has = new Set(rows.map((row) => row.method));
+    const methods = [...tables.fusion_method, BOUND].filter((m) => has.has(m.method));
+    let others = 0;
+    const looks = methods.map((m) => METHODS[m.method] ?? OTHER_METHODS[others++ % OTHER_METHODS.length]);
+    const families = familyOrder(rows);
+    const family_titles = families.map((f) => FAMILIES[f]?.[3] ?? capital(f));
+    const known = css("--known"), unknown = css("--unknown");
+    return {
+      method: { domain: methods.map((m) => m.title), range: looks.map(shade) },
+      method_shape: { domain: methods.map((m) => m.title), range: looks.map((look) => look[2]) },
+      family: { domain: family_titles, range: families.map((f) => shade(FAMILIES[f] ?? OTHER_FAMILY)) },
+      family_shape: { domain: family_titles, range: families.map((f) => (FAMILIES[f] ?? OTHER_FAMILY)[2]) },
+      estimate: { domain: ["true tension", "estimate, direction known", "estimate, direction unknown"], range: [css("--ink"), known, unknown] },
+      direction: { domain: ["known", "unknown"], range: [known, unknown] },
+      direction_shape: { domain: ["known", "unknown"], range: ["circle", "square"] },
+      doubt_shape: { domain: ["unverified", "ambiguous", "unused"], range: ["circle", "square", "triangle-up"] },
+      doubt: { domain: ["unverified", "ambiguous", "unused"], range: [unknown, known, css("--quiet")] },
+      source: { domain: ["paper", "paper, upper bound", "this study"], range: [css("--quiet"), css("--quiet"), css("--accent")] },
+      heat: { zero: true, interpolate: "lab", range: dark.matches ? ["#16212c", "#1f5f86", "#63b5d8", "#f3f1d2"] : ["#f6f8f4", "#a9d3e0", "#3d8bb4", "#123a5e"] },
+    };
+  }
+
+  function fill(part, named, words) {
+    if (Array.isArray(part)) return part.map((item) => fill(item, named, words));
+    if (typeof part === "string") return part in words ? words[part] : part;
+    if (part === null || typeof part !== "object") return part;
+    const filled = {};
+    for (const [key, value] of Object.entries(part)) {
+      if (key === "scale" && typeof value === "string") filled[key] = named[value];
+      else if (value === "panel") filled[key] = words["@" + key];
+      else filled[key] = fill(value, named, words);
+    }
+    return filled;
+  }
+
+  function specOf(figure) {
+    const info = about(figure);
+    const datasets = {};
+    for (const table of info.tables) datasets[table] = rowsOf(figure, table);
+    const rows = datasets[info.tables[0]];
+    const room = figure.querySelector(".chart").clientWidth;
+    let columns = info.columns_by ? distinct(rows, info.columns_by).length : info.columns ?? 1;
+    const template = { ...study.figures[figure.dataset.figure] };
+    let frame = info.frame_width_px;
+    if (template.hconcat && room < 760) {  // side by side would be cramped
+      template.vconcat = template.hconcat;
+      delete template.hconcat;
+      figure.querySelector(".chart").style.minHeight = columns * (info.panel_height_px + info.frame_height_px) + "px";
+      frame = frame / columns;
+      columns = 1;
+    }
+    const labels = template.data?.name === "paper_comparison" ? Math.min(frame - 30, room * 0.45) : frame;
+    if (labels < frame) frame = labels + 30;
+    const width = Math.max(110, Math.floor((room - frame - (info.gap_px ?? 0) * (columns - 1)) / columns));
+    const named = scales(rows);
+    const words = {
+      "@width": width, "@height": info.panel_height_px,
+      "@legend_columns": Math.max(1, Math.floor(room / 190)), "@gradient": Math.min(width, 200), "@label_limit": labels,
+      "@objective": rows[0]?.scope === "minimax_regret" ? "largest regret [N]" : "mean tension error [N]",
+      "@family_order": named.family.domain,
+    };
+    for (const name of ["ink", "quiet", "accent", "sensor", "soft", "paper"]) words["@" + name] = css("--" + name);
+    const spec = fill(template, named, words);
+    delete spec.usermeta;
+    const title = figure.querySelector("h3").firstChild.textContent;
+    const caption = figure.querySelector("figcaption").textContent;
+    return { ...spec, datasets, description: title + ". " + caption, config: theme(), background: null, autosize: { type: "pad", contains: "padding" }, padding: 4 };
+  }
+
+  function theme() {
+    const ink = css("--ink"), quiet = css("--quiet"), line = css("--line"), font = css("--font");
+    return {
+      font, view: { stroke: line },
+      axis: { labelColor: quiet, titleColor: ink, gridColor: line, domainColor: line, tickColor: line, labelFontSize: 11, titleFontSize: 12, titleFontWeight: 500, titlePadding: 8 },
+      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18 },
+      header: { labelColor: ink, titleColor: ink, labelFontSize: 12, labelFontWeight: 600, labelLimit: 400 },
+      title: { color: ink, fontSize: 12, fontWeight: 600 },
+      mark: { aria: false },
+    };
+  }
+
+  // ---- drawing
+  let drawing = 0;
+  async function drawAll() {
+    const mine = ++drawing;
+    document.documentElement.dataset.drawn = "no";
+    for (const card of document.querySelectorAll("[data-noise]")) card.hidden = Number(card.dataset.noise) !== chosenNoise();
+    for (const figure of document.querySelectorAll("figure[data-figure]")) {
+      if (mine !== drawing) return;  // a newer wish came in
+      if (figure.closest("[hidden]")) continue;
+      const empty = rowsOf(figure, about(figure).tables[0]).length === 0;
+      figure.classList.toggle("empty", empty);
+      if (empty) continue;
+      const chart = figure.querySelector(".chart");
+      const done = await vegaEmbed(chart, specOf(figure), {
+        renderer: "svg", tooltip: { theme: dark.matches ? "dark" : "light" }, downloadFileName: figure.id,
+        actions: { export: { svg: true, png: true }, source: false, compiled: false, editor: false },
+        i18n: { CLICK_TO_VIEW_ACTIONS: "Save this figure" },
+      });
+      chart.querySelector("summary")?.setAttribute("aria-label", "Save this figure");
+      figure.view = done.view;
+      const data = figure.querySelector("details.data");
+      if (data.open) showRows(figure);
+    }
+    document.documentElement.dataset.drawn = "yes";
+  }
+
+  // ---- the rows behind a figure
+  const shown = (value) => typeof value === "number" && !Number.isInteger(value) ? value.toPrecision(4) : value ?? "";
+  const field = (value) => /[",\r\n]/.test(value) ? '"' + String(value).replaceAll('"', '""') + '"' : value ?? "";
+  const csv = (columns, rows) => [columns, ...rows.map((row) => columns.map((column) => row[column]))].map((line) => line.map(field).join(",")).join("\r\n") + "\r\n";
+
+  function download(name, columns, rows) {
+    const link = document.createElement("a");
+    link.textContent = name + ".csv";
+    link.download = name + ".csv";
+    link.href = "#";
+    link.addEventListener("click", () => {  // made when asked for, so that an open page holds no copies
+      const address = URL.createObjectURL(new Blob([csv(columns, rows())], { type: "text/csv" }));
+      link.href = address;
+      setTimeout(() => URL.revokeObjectURL(address), 60000);
+    });
+    return link;
+  }
+
+  function showRows(figure) {
+    const place = figure.querySelector(".data-rows");
+    place.replaceChildren();
+    for (const name of about(figure).tables) {
+      const { columns, meaning } = study.tables[name];
+      const rows = rowsOf(figure, name);
+      const words = document.createElement("p");
+      words.append(meaning + " – ", rows.length + " rows: ", download(figure.id + "-" + name, columns, () => rows));
+      const scroll = document.createElement("div");
+      scroll.className = "scroll tall";
+      scroll.tabIndex = 0;
+      scroll.setAttribute("role", "region");
+      scroll.setAttribute("aria-label", meaning);
+      const table = scroll.appendChild(document.createElement("table"));
+      const head = table.createTHead().insertRow();
+      for (const column of columns) {
+        const cell = head.appendChild(document.createElement("th"));
+        cell.scope = "col";
+        cell.textContent = column;
+      }
+      const body = table.createTBody();
+      for (const row of rows) {
+        const line = body.insertRow();
+        for (const column of columns) {
+          const cell = line.insertCell();
+          cell.textContent = shown(row[column]);
+          if (typeof row[column] === "number") cell.className = "number";
+        }
+      }
+      place.append(words, scroll);
+    }
+  }
+
+  for (const figure of document.querySelectorAll("figure[data-figure]")) {
+    figure.querySelector("details.data").addEventListener("toggle", (event) => {
+      if (event.target.open) showRows(figure);
+    });
+  }
+  const downloads = document.getElementById("downloads");
+  for (const [name, table] of Object.entries(study.tables)) {
+    if (!downloads || table.rows.length === 0) continue;
+    const item = downloads.appendChild(document.createElement("li"));
+    item.append(download(name, table.columns, () => tables[name]), " " + table.meaning + " (" + table.rows.length + " rows)");
+  }
+
+  // ---- when to draw again
+  for (const box of document.querySelectorAll('input[name="noise"]')) box.addEventListener("change", drawAll);
+  dark.addEventListener("change", drawAll);
+  let lastWidth = document.documentElement.clientWidth, timer = 0;
+  addEventListener("resize", () => {
+    if (document.documentElement.clientWidth === lastWidth) return;
+    lastWidth = document.documentElement.clientWidth;
+    clearTimeout(timer);
+    timer = setTimeout(drawAll, 150);
+  });
+  drawAll();
+})();

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "capstan/cable/cable_state.h"
+#include "capstan/solver/quasi_static_step.h"
+
+namespace capstan::test {
+
+/// Solves one step without any trick: every vector of segment directions in {-1, 0, 1}^N in turn, as a dense linear
+/// system (the zero-velocity point by a scan), each checked node by node with the cured rules. Shares with the
+/// engine only the equations E1-E7. Returns the distinct states that verify, `tolerance_N` apart or more.
+std::vector<CableState> all_verified_states(const Cable& cable, const CableState& before,
+                                            const EndConditions& ends, double tolerance_N);
+
+}  // namespace capstan::test
