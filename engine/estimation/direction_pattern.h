@@ -39,7 +39,7 @@ DirectionBits direction_bits(const MotionPattern& pattern, int segments);
 /// Number of segments whose directions differ.
 int hamming_distance(const DirectionBits& a, const DirectionBits& b);
 
-/// All n_p* = 2 N^2 + 1 patterns that the paper admits (its Appendix I, E8): mass motion and rest first, then
+/// All n_p* = 2 N^2 + 1 patterns that the paper admits (its Appendix I, E14): mass motion and rest first, then
 /// changes of direction, one-sided, two-sided motion.
 std::vector<DirectionPattern> admissible_patterns(int segments);
 

@@ -151,12 +151,22 @@ bool verifies(const StepView& view, const Candidate& candidate) {
         return false;
     }
     if (pattern.kind == MotionKind::opposed) return true;
-    if (near > 0 &&
-        !cone_holds(view, near - 1, moving_tension_N(view, candidate, near - 1), view.tension_N(near))) {
-        return false;
-    }
-    return far_first > last_node || cone_holds(view, far_first - 1, view.tension_N(far_first - 1),
-                                               moving_tension_N(view, candidate, far_first));
+    if (near == far_first) return holding_reserve(view, candidate) * (1.0 + tension_rounding) >= 1.0;  // E8
+    const bool near_holds =
+        near == 0 ||
+        cone_holds(view, near - 1, moving_tension_N(view, candidate, near - 1), view.tension_N(near));
+    const bool far_holds =
+        far_first > last_node || cone_holds(view, far_first - 1, view.tension_N(far_first - 1),
+                                            moving_tension_N(view, candidate, far_first));
+    return near_holds && far_holds;
+}
+
+double holding_reserve(const StepView& view, const Candidate& candidate) {
+    const int near = candidate.pattern.proximal_moving_nodes;
+    if (!(candidate.proximal.tension_N > 0.0 && candidate.distal.tension_N > 0.0)) return 0.0;
+    const double a_N = moving_tension_N(view, candidate, near - 1);
+    const double b_N = moving_tension_N(view, candidate, near);
+    return view.holding_ratio(near - 1) * std::min(a_N, b_N) / std::max(a_N, b_N);
 }
 
 void write_state(const StepView& view, const Candidate& candidate, const EndConditions& ends,

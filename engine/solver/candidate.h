@@ -20,7 +20,8 @@ struct Candidate {
     EndValues distal;
 };
 
-/// Both sides as found, resting nodes between them.
+/// Both sides as found. Resting nodes lie between them (E3), or none, and then the middle of the segment
+/// between them rests (E8).
 Candidate partial_motion(const SideMotion& proximal, const SideMotion& distal);
 
 /// All segments slide one way (E1, E2, E6); slack if that needs a tension of zero or less.
@@ -41,6 +42,10 @@ double moving_displacement_m(const StepView& view, const Candidate& candidate, i
 
 /// The rules' velocity check and, next to resting nodes, both sides of the friction cone (E4, E5).
 bool verifies(const StepView& view, const Candidate& candidate);
+
+/// How much larger the tension ratio across the segment between two sides that meet could be before it gives
+/// way (E4); below 1 it has, and 0 if a side is slack.
+double holding_reserve(const StepView& view, const Candidate& candidate);
 
 /// Writes the moving nodes into `state` (which `view` sees as before) and remembers the motion.
 void write_state(const StepView& view, const Candidate& candidate, const EndConditions& ends,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
@@ -63,6 +64,11 @@ bool neighbour_gives_way(const CableEnd& end, const StepView& view, Direction di
                                                  : last_tension_N >= resting_tension_N * ratio;
 }
 
+SideMotion side_motion(const CableEnd& end, const StepView& view, Direction direction, int moving_nodes) {
+    return {direction, moving_nodes,
+            end.partial_motion(view, end.table(view.tables, direction), moving_nodes)};
+}
+
 // Moves a side's front on until its resting neighbour holds; `nodes` when nothing holds.
 SideMotion find_front(const CableEnd& end, const StepView& view, Direction direction, int first_count,
                       int& patterns_tried) {
@@ -86,16 +92,44 @@ int remembered_front(const MotionPattern& last, bool proximal, Direction directi
     return before == direction ? count : 0;
 }
 
-// Everything slides: one way if only one way is driven, else with the zero-velocity point where it falls.
-Candidate all_nodes_moving(const StepView& view, const EndConditions& ends, Direction proximal,
-                           Direction distal, int& patterns_tried) {
-    if (proximal == Direction::none) proximal = distal;
-    if (distal == Direction::none) distal = proximal;
-    if (proximal == distal) {
+// The middle of a segment where the sides meet rests (E8). Where more than one segment could hold, the one
+// that is furthest from giving way does: the same one whichever end is called proximal.
+std::optional<Candidate> best_held_middle(const StepView& view, const EndConditions& ends,
+                                          const SideMotion& proximal, const SideMotion& distal,
+                                          int& patterns_tried) {
+    std::optional<Candidate> best;
+    double best_reserve = 0.0;
+    const int most = std::min(proximal.moving_nodes, view.segments());
+    for (int nodes = std::max(view.nodes() - distal.moving_nodes, 1); nodes <= most; ++nodes) {
+        const Candidate held = partial_motion(
+            side_motion(CableEnd::proximal(ends.proximal, view.nodes()), view, proximal.direction, nodes),
+            side_motion(CableEnd::distal(ends.distal, view.nodes()), view, distal.direction,
+                        view.nodes() - nodes));
         ++patterns_tried;
-        return mass_motion(view, ends, proximal);
+        const double reserve = holding_reserve(view, held);
+        if (reserve > best_reserve && verifies(view, held)) {
+            best = held;
+            best_reserve = reserve;
+        }
     }
-    return opposed_motion(view, ends, proximal, patterns_tried);
+    return best;
+}
+
+// The sides meet and no node rests. The middle of a segment between them may still rest (E8). Else all
+// slides: one way, or against each other with the zero-velocity point where it falls (E7).
+Candidate where_sides_meet(const StepView& view, const EndConditions& ends, const SideMotion& proximal,
+                           const SideMotion& distal, int& patterns_tried) {
+    const bool both_driven = proximal.direction != Direction::none && distal.direction != Direction::none;
+    if (both_driven) {
+        const auto held = best_held_middle(view, ends, proximal, distal, patterns_tried);
+        if (held) return *held;
+        if (proximal.direction != distal.direction) {
+            return opposed_motion(view, ends, proximal.direction, patterns_tried);
+        }
+    }
+    ++patterns_tried;
+    return mass_motion(view, ends,
+                       proximal.direction != Direction::none ? proximal.direction : distal.direction);
 }
 
 Candidate from_fronts(const StepView& view, const EndConditions& ends, bool remember, int& patterns_tried) {
@@ -115,7 +149,7 @@ Candidate from_fronts(const StepView& view, const EndConditions& ends, bool reme
     if (proximal_side.moving_nodes + distal_side.moving_nodes < view.nodes()) {
         return partial_motion(proximal_side, distal_side);
     }
-    return all_nodes_moving(view, ends, proximal_direction, distal_direction, patterns_tried);
+    return where_sides_meet(view, ends, proximal_side, distal_side, patterns_tried);
 }
 
 }  // namespace

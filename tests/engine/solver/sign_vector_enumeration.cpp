@@ -1,6 +1,7 @@
 #include "sign_vector_enumeration.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -76,30 +77,28 @@ class Equations {
 };
 
 struct Pattern {
-    std::vector<int> segment;   // -1, 0, 1
-    std::vector<int> node;      // direction each moving node must have; 0: at rest
-    std::vector<bool> moves;    // nodes
-    int opposed_segment = -1;   // holds the zero-velocity point
+    std::vector<int> segment;  // -1, 0, 1
+    std::vector<int> node;     // direction each moving node must have; 0: at rest
+    std::vector<bool> moves;   // nodes
+    int opposed_segment = -1;  // holds the zero-velocity point
+    int held_segment = -1;     // both its nodes move one way, its middle rests
 };
 
-// Without inertia nothing moves but what an end pushes or pulls along (paper Sec. II.B): each run of nodes that
-// move one way begins at an end.
-bool spreads_from_the_ends(const Pattern& pattern) {
-    const int last = static_cast<int>(pattern.node.size()) - 1;
-    int near = 0;
-    while (near <= last && pattern.node[near] != 0 && pattern.node[near] == pattern.node[0]) ++near;
-    int far = last;
-    while (far >= near && pattern.node[far] != 0 && pattern.node[far] == pattern.node[last]) --far;
-    for (int node = near; node <= far; ++node) {
-        if (pattern.node[node] != 0) return false;
-    }
-    return true;
+// Without inertia nothing slides but what an end pushes or pulls along: a run from the proximal end, one from
+// the distal end, and one stretch between them that does not slide (paper Sec. II.B).
+bool spreads_from_the_ends(const std::vector<int>& segment) {
+    const auto first = std::find(segment.begin(), segment.end(), 0);
+    const auto end = std::find_if(first, segment.end(), [](int direction) { return direction != 0; });
+    return std::find(end, segment.end(), 0) == segment.end();
 }
 
+// What a segment that does not slide, between two moving nodes, may do.
+enum class LoneSegment { middle_rests, zero_velocity_point_inside };
+
 // Which nodes move under a sign vector; nothing if the vector contradicts itself.
-std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segment) {
+std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segment, LoneSegment lone) {
     const int n = p.segments();
-    Pattern pattern{segment, std::vector<int>(n + 1, 0), std::vector<bool>(n + 1, false), -1};
+    Pattern pattern{segment, std::vector<int>(n + 1, 0), std::vector<bool>(n + 1, false), -1, -1};
     for (int node = 0; node <= n; ++node) {
         const int left = node > 0 ? segment[node - 1] : 0;
         const int right = node < n ? segment[node] : 0;
@@ -113,11 +112,15 @@ std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segm
         pattern.node[node] = lone_end_direction(p, proximal);
         pattern.moves[node] = pattern.node[node] != 0;
     }
-    if (!spreads_from_the_ends(pattern)) return std::nullopt;
+    if (!spreads_from_the_ends(segment)) return std::nullopt;
     for (int s = 0; s < n; ++s) {
         if (segment[s] != 0 || !pattern.moves[s] || !pattern.moves[s + 1]) continue;
-        if (pattern.node[s] == pattern.node[s + 1] || pattern.opposed_segment >= 0) return std::nullopt;
-        pattern.opposed_segment = s;
+        if (lone == LoneSegment::middle_rests) {
+            pattern.held_segment = s;
+        } else {
+            if (pattern.node[s] == pattern.node[s + 1]) return std::nullopt;
+            pattern.opposed_segment = s;
+        }
     }
     return pattern;
 }
@@ -134,6 +137,12 @@ std::optional<CableState> solve(const Problem& p, const Pattern& pattern, double
             row[equations.tension(s)] = -h;
             row[equations.tension(s + 1)] = -h;
             equations.add(row, 0.0);
+        }
+        if (s == pattern.held_segment) {  // E8
+            auto row = equations.row();
+            row[equations.displacement(s)] = 1.0;
+            row[equations.tension(s)] = h;
+            equations.add(row, p.before.displacement_m[s] + h * p.before.tension_N[s]);
         }
         const bool opposed = s == pattern.opposed_segment;
         if (pattern.segment[s] != 0 || opposed) {  // E1, E7
@@ -220,28 +229,34 @@ bool same(const CableState& a, const CableState& b, double tolerance_N) {
     return true;
 }
 
-}  // namespace
-
-std::vector<CableState> all_verified_states(const Cable& cable, const CableState& before,
-                                            const EndConditions& ends, double tolerance_N) {
-    const Problem problem{cable, before, ends};
+std::vector<CableState> verified_states(const Problem& problem, LoneSegment lone, double tolerance_N) {
     std::vector<CableState> found;
     long patterns = 1;
-    for (int s = 0; s < cable.segments(); ++s) patterns *= 3;
+    for (int s = 0; s < problem.segments(); ++s) patterns *= 3;
     for (long code = 0; code < patterns; ++code) {
         std::vector<int> segment;
-        for (long rest = code; static_cast<int>(segment.size()) < cable.segments(); rest /= 3) {
+        for (long rest = code; static_cast<int>(segment.size()) < problem.segments(); rest /= 3) {
             segment.push_back(static_cast<int>(rest % 3) - 1);
         }
-        const auto pattern = pattern_of(problem, segment);
+        const auto pattern = pattern_of(problem, segment, lone);
         if (!pattern) continue;
-        const auto state = pattern->opposed_segment >= 0 ? solve_opposed(problem, *pattern)
-                                                         : solve(problem, *pattern, 0.0);
+        const auto state =
+            pattern->opposed_segment >= 0 ? solve_opposed(problem, *pattern) : solve(problem, *pattern, 0.0);
         if (!state || !verified(problem, *pattern, *state)) continue;
         bool is_new = true;
         for (const CableState& other : found) is_new = is_new && !same(*state, other, tolerance_N);
         if (is_new) found.push_back(*state);
     }
+    return found;
+}
+
+}  // namespace
+
+std::vector<CableState> all_verified_states(const Cable& cable, const CableState& before,
+                                            const EndConditions& ends, double tolerance_N) {
+    const Problem problem{cable, before, ends};
+    auto found = verified_states(problem, LoneSegment::middle_rests, tolerance_N);
+    if (found.empty()) found = verified_states(problem, LoneSegment::zero_velocity_point_inside, tolerance_N);
     return found;
 }
 

@@ -14,20 +14,23 @@ enum class Mode { position_position, position_tension, tension_position, positio
 
 struct Tally {
     int steps = 0;
-    int several = 0;      // more than one state verifies
+    int several = 0;  // more than one state verifies
     int none = 0;
-    int disagreements = 0;  // the only verified state is not the step's
-    int unverified = 0;   // the step says of itself that it is not verified
+    int not_among = 0;   // the step's state is not among those that verify
+    int not_least = 0;   // another state that verifies moves fewer nodes
+    int unverified = 0;  // the step says of itself that it is not verified
 };
 
 struct Walk {
     int segments;
     double static_friction;
     Mode mode;
-    double step_m;  // largest, of a position; a tension moves by the force that would stretch the cable as much
+    double
+        step_m;  // largest, of a position; a tension moves by the force that would stretch the cable as much
 };
 
-EndConditions random_ends(const Walk& walk, const CableState& state, const Cable& cable, std::mt19937_64& random) {
+EndConditions random_ends(const Walk& walk, const CableState& state, const Cable& cable,
+                          std::mt19937_64& random) {
     std::uniform_real_distribution<double> within(-1.0, 1.0);
     const double proximal_m = state.displacement_m.front() + walk.step_m * within(random);
     const double distal_m = state.displacement_m.back() + walk.step_m * within(random);
@@ -53,6 +56,22 @@ EndConditions random_ends(const Walk& walk, const CableState& state, const Cable
     return {};
 }
 
+double apart_N(const CableState& a, const CableState& b) {
+    double apart = 0.0;
+    for (std::size_t node = 0; node < a.tension_N.size(); ++node) {
+        apart = std::max(apart, std::abs(a.tension_N[node] - b.tension_N[node]));
+    }
+    return apart;
+}
+
+int moved_nodes(const CableState& before, const CableState& after) {
+    int moved = 0;
+    for (std::size_t node = 0; node < before.displacement_m.size(); ++node) {
+        moved += std::abs(after.displacement_m[node] - before.displacement_m[node]) > 1e-10;
+    }
+    return moved;
+}
+
 Tally walk_and_compare(const Walk& walk, int steps, unsigned seed) {
     CableSpecification specification = test::paper_specification(walk.segments);
     specification.static_friction = walk.static_friction;
@@ -75,32 +94,48 @@ Tally walk_and_compare(const Walk& walk, int steps, unsigned seed) {
         tally.unverified += !report.verified;
         tally.none += verified.empty();
         tally.several += verified.size() > 1;
-        if (verified.size() == 1) {
-            double apart_N = 0.0;
-            for (int node = 0; node < cable.nodes(); ++node) {
-                apart_N = std::max(apart_N, std::abs(verified[0].tension_N[node] - next.tension_N[node]));
+        if (!verified.empty()) {
+            const auto moved = [&](const CableState& s) { return moved_nodes(state, s); };
+            int fewest = cable.nodes();
+            bool among = false;
+            for (const CableState& other : verified) {
+                fewest = std::min(fewest, moved(other));
+                among = among || apart_N(other, next) < 1e-6;
             }
-            tally.disagreements += apart_N > 1e-6;
+            tally.not_among += !among;
+            tally.not_least += fewest < moved(next);
         }
         state = next;
     }
     return tally;
 }
 
-class OnlyOneStateVerifies : public testing::TestWithParam<std::tuple<int, double, Mode>> {};
+class EveryMode : public testing::TestWithParam<std::tuple<int, Mode>> {};
 
-TEST_P(OnlyOneStateVerifies, AtStepsOfATenthOfAMillimetre) {
-    const auto [segments, static_friction, mode] = GetParam();
-    const Tally tally = walk_and_compare({segments, static_friction, mode, 1e-4}, 400, 7);
-    EXPECT_GT(tally.steps, 300);
+TEST_P(EveryMode, OnlyTheStepsAnswerVerifiesAtStepsOfATenthOfAMillimetre) {
+    const auto [segments, mode] = GetParam();
+    const Tally tally = walk_and_compare({segments, 0.21, mode, 1e-4}, 600, 7);
+    EXPECT_GT(tally.steps, 500);
     EXPECT_EQ(tally.none, 0);
     EXPECT_EQ(tally.several, 0);
-    EXPECT_EQ(tally.disagreements, 0);
+    EXPECT_EQ(tally.not_among, 0);
     EXPECT_EQ(tally.unverified, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllModes, OnlyOneStateVerifies,
-                         testing::Combine(testing::Values(4, 5), testing::Values(0.21, 0.63),
+// With mu_s above mu_d a front may both hold and give way: that is stiction, and the step moves no more than
+// it must.
+TEST_P(EveryMode, WithStictionTheStepsAnswerVerifiesAndMovesTheFewestNodes) {
+    const auto [segments, mode] = GetParam();
+    const Tally tally = walk_and_compare({segments, 0.63, mode, 1e-4}, 600, 13);
+    EXPECT_GT(tally.steps, 500);
+    EXPECT_EQ(tally.none, 0);
+    EXPECT_EQ(tally.not_among, 0);
+    EXPECT_EQ(tally.not_least, 0);
+    EXPECT_EQ(tally.unverified, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Uniqueness, EveryMode,
+                         testing::Combine(testing::Values(4, 5),
                                           testing::Values(Mode::position_position, Mode::position_tension,
                                                           Mode::tension_position, Mode::position_spring,
                                                           Mode::spring_position)));

@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "capstan/cable/invalid_input.h"
+#include "example_cables.h"
+#include "trajectories.h"
+
+namespace capstan {
+namespace {
+
+TEST(MassMotion, TensionGrowsByTheCapstanRatioTowardsWhereTheCableGoes) {
+    const Cable cable(test::routed_specification(12));
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    for (const double way : {1.0, -1.0}) {
+        CableState state = pretensioned(cable);
+        // Both ends go the same way far enough to drag everything along.
+        const StepReport report =
+            step.advance(state, {EndCondition::position_m(state.displacement_m.front() + way * 0.05),
+                                 EndCondition::position_m(state.displacement_m.back() + way * 0.05)});
+        ASSERT_EQ(report.pattern.kind, MotionKind::mass);
+        for (int i = 0; i < cable.segments(); ++i) {
+            const double expected = std::exp(way * 0.15 * cable.wrap_angle_rad()[i]);
+            EXPECT_NEAR(state.tension_N[i + 1] / state.tension_N[i], expected, 1e-12 * expected);
+        }
+    }
+}
+
+TEST(MassMotion, AgainstASpringTheClosedFormOfTheWholeCableHolds) {
+    const Cable cable = test::paper_cable(10);
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    CableState state = pretensioned(cable);
+    const double stiffness_N_per_m = 40.0;
+    const double pulled_m = state.displacement_m.front() - 0.06;
+    const StepReport report = step.advance(
+        state, {EndCondition::position_m(pulled_m), distal_spring({stiffness_N_per_m, 10.0, 0.0})});
+    ASSERT_EQ(report.pattern.kind, MotionKind::mass);
+    // T_1 = (T_pre - k u_1) / (P + k G), prefix sums by hand.
+    const double ratio = std::exp(-0.21 * 0.2 / 0.28);
+    double tension_ratio = 1.0;
+    double elongation = 0.0;
+    for (int i = 0; i < 10; ++i) {
+        elongation += 1e-4 * 0.5 * tension_ratio * (1.0 + ratio);
+        tension_ratio *= ratio;
+    }
+    const double expected_N =
+        (10.0 - stiffness_N_per_m * pulled_m) / (tension_ratio + stiffness_N_per_m * elongation);
+    EXPECT_NEAR(state.tension_N.front(), expected_N, 1e-12 * expected_N);
+}
+
+TEST(PaperReading, SlidingSegmentsStretchByE2) {
+    const Cable cable = test::paper_cable(10);
+    const QuasiStaticStep step(cable, ModelRules::paper());
+    CableState state = pretensioned(cable);
+    step.advance(state, {EndCondition::position_m(-0.08), EndCondition::position_m(0.0)});
+    ASSERT_EQ(state.last_motion.kind, MotionKind::mass);
+    const double exponent = -0.21 * 0.2 / 0.28;
+    for (int i = 0; i < 10; ++i) {
+        const double expected_m = state.tension_N[i] * 1e-4 * std::expm1(exponent) / exponent;
+        EXPECT_NEAR(state.displacement_m[i + 1] - state.displacement_m[i], expected_m, 1e-15);
+    }
+}
+
+class IdealCable : public testing::TestWithParam<CableSpecification> {};
+
+TEST_P(IdealCable, CarriesTheSameTensionEverywhere) {
+    const Cable cable(GetParam());
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    CableState state = pretensioned(cable);
+    for (const EndConditions& ends : test::sine_against_locked_end(cable, 0.009, 100, 150)) {
+        step.advance(state, ends);
+        const double stretch_m = state.displacement_m.back() - state.displacement_m.front();
+        const double expected_N = cable.axial_stiffness_N() * stretch_m / cable.length_m();
+        for (const double tension_N : state.tension_N) EXPECT_NEAR(tension_N, expected_N, 1e-10);
+    }
+}
+
+CableSpecification without_friction() {
+    CableSpecification specification = test::paper_specification(10);
+    specification.dynamic_friction = specification.static_friction = 0.0;
+    return specification;
+}
+
+CableSpecification straight_conduit() {
+    CableSpecification specification = test::paper_specification(10);
+    specification.curvature = {{2.0, straight}};
+    return specification;
+}
+
+INSTANTIATE_TEST_SUITE_P(NoFrictionOrNoBend, IdealCable,
+                         testing::Values(without_friction(), straight_conduit()));
+
+TEST(PartialMotion, ReachesTheFarEndWhereMassMotionBegins) {
+    CableSpecification specification = test::paper_specification(10);
+    specification.static_friction = specification.dynamic_friction;
+    const Cable cable(specification);
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    const auto pulled_by = [&](double displacement_m) {
+        CableState state = pretensioned(cable);
+        step.advance(state, {EndCondition::position_m(state.displacement_m.front() - displacement_m),
+                             EndCondition::position_m(0.0)});
+        return state;
+    };
+    double partial_m = 0.0;
+    double mass_m = 0.1;
+    for (int k = 0; k < 60; ++k) {
+        const double middle_m = 0.5 * (partial_m + mass_m);
+        (pulled_by(middle_m).last_motion.kind == MotionKind::mass ? mass_m : partial_m) = middle_m;
+    }
+    const CableState before = pulled_by(partial_m);
+    const CableState after = pulled_by(mass_m);
+    ASSERT_EQ(before.last_motion.kind, MotionKind::partial);
+    ASSERT_EQ(after.last_motion.kind, MotionKind::mass);
+    for (int node = 0; node < cable.nodes(); ++node) {
+        EXPECT_NEAR(before.tension_N[node], after.tension_N[node], 1e-9) << "node " << node;
+        EXPECT_NEAR(before.displacement_m[node], after.displacement_m[node], 1e-13) << "node " << node;
+    }
+}
+
+TEST(Mirror, SwappingTheEndsGivesTheMirroredAnswer) {
+    CableSpecification mirrored = test::routed_specification(12);
+    std::reverse(mirrored.curvature.begin(), mirrored.curvature.end());
+    const Cable cable(test::routed_specification(12));
+    const Cable other(mirrored);
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep other_step(other, ModelRules::cured());
+    CableState state = pretensioned(cable);
+    CableState reflected = pretensioned(other);
+    // The mirrored cable's displacements count the other way, from a rest that lies elsewhere.
+    const double shift_m = state.displacement_m.front();
+    const int last = cable.segments();
+    for (const auto& [proximal_m, distal_m] : test::both_ends_wander(2000, 2e-4, 3)) {
+        const double u1 = shift_m + proximal_m;
+        const double u2 = distal_m;
+        const StepReport a =
+            step.advance(state, {EndCondition::position_m(u1), EndCondition::position_m(u2)});
+        const StepReport b = other_step.advance(
+            reflected, {EndCondition::position_m(shift_m - u2), EndCondition::position_m(shift_m - u1)});
+        ASSERT_TRUE(a.verified && b.verified);
+        EXPECT_EQ(a.pattern.kind, b.pattern.kind);
+        for (int node = 0; node <= last; ++node) {
+            EXPECT_NEAR(state.tension_N[node], reflected.tension_N[last - node], 1e-9);
+            EXPECT_NEAR(state.displacement_m[node], shift_m - reflected.displacement_m[last - node], 1e-14);
+        }
+    }
+}
+
+TEST(TimeSteps, HalvingThemConverges) {
+    const Cable cable = test::paper_cable(40);
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    const auto tension_after_a_cycle_and_a_bit = [&](int samples) {
+        CableState state = pretensioned(cable);
+        for (const EndConditions& ends :
+             test::sine_against_locked_end(cable, 0.008, samples, samples * 9 / 8)) {
+            step.advance(state, ends);
+        }
+        return state.tension_N;
+    };
+    const auto finest = tension_after_a_cycle_and_a_bit(12800);
+    double last_error_N = 1e9;
+    for (const int samples : {100, 200, 400, 800}) {
+        const auto coarse = tension_after_a_cycle_and_a_bit(samples);
+        double error_N = 0.0;
+        for (std::size_t node = 0; node < coarse.size(); ++node) {
+            error_N = std::max(error_N, std::abs(coarse[node] - finest[node]));
+        }
+        EXPECT_LT(error_N, 0.75 * last_error_N + 1e-9) << samples << " samples a cycle";
+        last_error_N = error_N;
+    }
+}
+
+TEST(BadInput, IsRefusedByNameAndLeavesTheStateAlone) {
+    const Cable cable = test::paper_cable(5);
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    CableState state = pretensioned(cable);
+    const CableState before = state;
+    const auto refusal = [&](const EndConditions& ends) -> std::string {
+        try {
+            step.advance(state, ends);
+        } catch (const InvalidInput& invalid) {
+            return invalid.what();
+        }
+        return "";
+    };
+    const double nan = std::nan("");
+    EXPECT_NE(refusal({EndCondition::position_m(nan), EndCondition::position_m(0)}).find("proximal"),
+              std::string::npos);
+    EXPECT_NE(refusal({EndCondition::position_m(0), EndCondition::tension_N(INFINITY)}).find("distal"),
+              std::string::npos);
+    EXPECT_NE(refusal({EndCondition::tension_N(5), EndCondition::tension_N(5)}).find("both ends"),
+              std::string::npos);
+    EXPECT_EQ(state.tension_N, before.tension_N);
+    EXPECT_EQ(state.displacement_m, before.displacement_m);
+}
+
+}  // namespace
+}  // namespace capstan
