@@ -166,7 +166,8 @@ double holding_reserve(const StepView& view, const Candidate& candidate) {
     if (!(candidate.proximal.tension_N > 0.0 && candidate.distal.tension_N > 0.0)) return 0.0;
     const double a_N = moving_tension_N(view, candidate, near - 1);
     const double b_N = moving_tension_N(view, candidate, near);
-    return view.holding_ratio(near - 1) * std::min(a_N, b_N) / std::max(a_N, b_N);
+    // Both its nodes slide, so mu_d holds it whatever it did before.
+    return view.tables.sliding_ratio[near - 1] * std::min(a_N, b_N) / std::max(a_N, b_N);
 }
 
 void write_state(const StepView& view, const Candidate& candidate, const EndConditions& ends,

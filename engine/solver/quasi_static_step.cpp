@@ -115,21 +115,18 @@ std::optional<Candidate> best_held_middle(const StepView& view, const EndConditi
     return best;
 }
 
-// The sides meet and no node rests. The middle of a segment between them may still rest (E8). Else all
-// slides: one way, or against each other with the zero-velocity point where it falls (E7).
+// The sides meet and no node rests. Driven against each other: the zero-velocity point is where it falls
+// (E7). Driven one way: all slides, or the middle of a segment between the sides still rests (E8).
 Candidate where_sides_meet(const StepView& view, const EndConditions& ends, const SideMotion& proximal,
                            const SideMotion& distal, int& patterns_tried) {
-    const bool both_driven = proximal.direction != Direction::none && distal.direction != Direction::none;
-    if (both_driven) {
-        const auto held = best_held_middle(view, ends, proximal, distal, patterns_tried);
-        if (held) return *held;
-        if (proximal.direction != distal.direction) {
-            return opposed_motion(view, ends, proximal.direction, patterns_tried);
-        }
+    if (proximal.direction != Direction::none && distal.direction == opposite(proximal.direction)) {
+        return opposed_motion(view, ends, proximal.direction, patterns_tried);
     }
+    const Direction direction = proximal.direction != Direction::none ? proximal.direction : distal.direction;
+    const Candidate mass = mass_motion(view, ends, direction);
     ++patterns_tried;
-    return mass_motion(view, ends,
-                       proximal.direction != Direction::none ? proximal.direction : distal.direction);
+    if (proximal.direction != distal.direction || verifies(view, mass)) return mass;
+    return best_held_middle(view, ends, proximal, distal, patterns_tried).value_or(mass);
 }
 
 Candidate from_fronts(const StepView& view, const EndConditions& ends, bool remember, int& patterns_tried) {

@@ -92,8 +92,9 @@ bool spreads_from_the_ends(const std::vector<int>& segment) {
     return std::find(end, segment.end(), 0) == segment.end();
 }
 
-// What a segment that does not slide, between two moving nodes, may do.
-enum class LoneSegment { middle_rests, zero_velocity_point_inside };
+// A segment that does not slide between two nodes that move: its middle rests (E8) if they move one way, it
+// holds the zero-velocity point (E7) if they move against each other.
+enum class LoneSegment { not_considered, considered };
 
 // Which nodes move under a sign vector; nothing if the vector contradicts itself.
 std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segment, LoneSegment lone) {
@@ -115,12 +116,8 @@ std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segm
     if (!spreads_from_the_ends(segment)) return std::nullopt;
     for (int s = 0; s < n; ++s) {
         if (segment[s] != 0 || !pattern.moves[s] || !pattern.moves[s + 1]) continue;
-        if (lone == LoneSegment::middle_rests) {
-            pattern.held_segment = s;
-        } else {
-            if (pattern.node[s] == pattern.node[s + 1]) return std::nullopt;
-            pattern.opposed_segment = s;
-        }
+        if (lone == LoneSegment::not_considered) return std::nullopt;
+        (pattern.node[s] == pattern.node[s + 1] ? pattern.held_segment : pattern.opposed_segment) = s;
     }
     return pattern;
 }
@@ -192,7 +189,9 @@ bool verified(const Problem& p, const Pattern& pattern, const CableState& state)
     for (int s = 0; s < p.segments(); ++s) {
         if (pattern.segment[s] != 0 || s == pattern.opposed_segment) continue;
         const double exponent = std::abs(std::log(state.tension_N[s + 1] / state.tension_N[s]));
-        if (exponent > p.holding_exponent(s) + 1e-9) return false;
+        // Of a segment whose middle alone rests both nodes slide: mu_d.
+        const double held = s == pattern.held_segment ? p.exponent(s) : p.holding_exponent(s);
+        if (exponent > held + 1e-9) return false;
     }
     return true;
 }
@@ -255,8 +254,8 @@ std::vector<CableState> verified_states(const Problem& problem, LoneSegment lone
 std::vector<CableState> all_verified_states(const Cable& cable, const CableState& before,
                                             const EndConditions& ends, double tolerance_N) {
     const Problem problem{cable, before, ends};
-    auto found = verified_states(problem, LoneSegment::middle_rests, tolerance_N);
-    if (found.empty()) found = verified_states(problem, LoneSegment::zero_velocity_point_inside, tolerance_N);
+    auto found = verified_states(problem, LoneSegment::not_considered, tolerance_N);
+    if (found.empty()) found = verified_states(problem, LoneSegment::considered, tolerance_N);
     return found;
 }
 

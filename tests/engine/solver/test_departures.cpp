@@ -60,31 +60,7 @@ TEST(ElongationRules, TwoOfThemOpenAGapWhenAFrontPasses) {
     EXPECT_NEAR(mean / e2 - 1.0, exponent * exponent / 12.0, 1e-5);
 }
 
-TEST(Stiction, WithoutMemoryChattersAtTheFront) {
-    // In mass motion at a steady pull a memory keeps the cable sliding; without one the far segment sticks
-    // again.
-    const auto changes_of_front = [](StictionRule stiction) {
-        ModelRules rules = ModelRules::cured();
-        rules.stiction = stiction;
-        const Cable cable = test::paper_cable(10);
-        const QuasiStaticStep step(cable, rules);
-        CableState state = pretensioned(cable);
-        int changes = 0;
-        int last_count = 0;
-        int steps = 0;
-        for (const auto& [proximal_m, distal_m] : test::both_ends_wander(2000, 2e-4, 33)) {
-            const StepReport report = step.advance(
-                state, {EndCondition::position_m(-0.01 + proximal_m), EndCondition::position_m(distal_m)});
-            changes += report.pattern.proximal_moving_nodes < last_count;
-            last_count = report.pattern.proximal_moving_nodes;
-            ++steps;
-        }
-        return changes;
-    };
-    EXPECT_LE(changes_of_front(StictionRule::remembers_sliding), changes_of_front(StictionRule::memoryless));
-}
-
-TEST(MiddleOfASegment, MustMayRestBetweenTwoMovingSides) {
+TEST(ZeroVelocityPoint, LiesInsideASegmentWhereNoNodeRests) {
     // Both ends are pulled apart until no node rests: without E7 and E8 nothing verifies.
     const Cable cable = test::paper_cable(5);
     const QuasiStaticStep step(cable, ModelRules::cured());

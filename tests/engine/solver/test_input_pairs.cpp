@@ -2,6 +2,9 @@
 // cable must go the same way.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "example_cables.h"
 #include "trajectories.h"
 
@@ -41,28 +44,27 @@ TEST_P(InputPair, GoesTheWayThatPositionsDescribe) {
     CableState by_position = pretensioned(cable);
     const double rest_m = by_position.displacement_m.front();
     int mass_steps = 0;
-    int point_inside = 0;
+    int other_answers = 0;
     for (const auto& [proximal_m, distal_m] : test::both_ends_wander(1500, 2e-4, 21)) {
         CableState by_pair = by_position;
         const StepReport report = step.advance(
             by_position, {EndCondition::position_m(rest_m + proximal_m), EndCondition::position_m(distal_m)});
         mass_steps += report.pattern.kind == MotionKind::mass;
-        // The zero-velocity point (E7) stands in where no middle of a segment can rest (E8); with another
-        // pair of inputs one often can.
-        if (report.pattern.kind == MotionKind::opposed) {
-            ++point_inside;
-            continue;
-        }
         EXPECT_TRUE(step.advance(by_pair, seen_as(GetParam(), by_position)).verified);
+        double apart_N = 0.0;
         for (int node = 0; node < cable.nodes(); ++node) {
-            ASSERT_NEAR(by_pair.tension_N[node], by_position.tension_N[node], 1e-9) << "node " << node;
-            ASSERT_NEAR(by_pair.displacement_m[node], by_position.displacement_m[node], 1e-13)
-                << "node " << node;
+            apart_N = std::max(apart_N, std::abs(by_pair.tension_N[node] - by_position.tension_N[node]));
+        }
+        if (apart_N > 1e-9) {
+            // The zero-velocity point (E7) stands in where no pattern with a node at rest verifies; with
+            // another pair of inputs one may.
+            EXPECT_EQ(report.pattern.kind, MotionKind::opposed);
+            ++other_answers;
         }
     }
     EXPECT_GT(mass_steps, 50);  // the walk visits both regimes
     EXPECT_LT(mass_steps, 1400);
-    EXPECT_LT(point_inside, 150);
+    EXPECT_LT(other_answers, 30);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, InputPair,
