@@ -24,12 +24,19 @@ struct Bend {  // neighbouring segments of one radius
     double wrap_angle_rad = 0;
 };
 
+// Segments cut from one bend have its radius up to rounding.
+bool same_bend(std::optional<double> a_m, std::optional<double> b_m) {
+    if (!a_m || !b_m) return !a_m && !b_m;
+    return std::abs(*a_m - *b_m) <= 1e-9 * std::abs(*a_m);
+}
+
 std::vector<Bend> bends(const Table& segments) {
     std::vector<Bend> list;
     for (const Row& segment : segments.each()) {
         const auto radius_m = segment.maybe_number("bend_radius_m");
         const double start_m = segment.number("start_m");
-        if (list.empty() || list.back().radius_m != radius_m) list.push_back({start_m, start_m, radius_m, 0});
+        if (list.empty() || !same_bend(list.back().radius_m, radius_m))
+            list.push_back({start_m, start_m, radius_m, 0});
         list.back().end_m = start_m + segment.number("length_m");
         list.back().wrap_angle_rad += segment.number("wrap_angle_rad");
     }

@@ -21,10 +21,17 @@ std::string scope_words(const storage::RecommendationRecord& r) {
     return "When both sides move and the middle rests";
 }
 
+// What the paper would call the set, if it has a name for it. Several families can share one: the plainest
+// name wins.
 std::string layout_words(const storage::StudyDescription& study, int set_index) {
-    for (const storage::LayoutRecord& layout : study.layouts) {
-        if (layout.set_index == set_index && layout.family != "explicit") {
-            return " (" + layout.label.substr(0, layout.label.find(',')) + ")";
+    if (static_cast<int>(study.sensor_sets[set_index].nodes.size()) == study.study.segments + 1) {
+        return " (every node)";
+    }
+    for (const char* family : {"distal", "both", "even"}) {
+        for (const storage::LayoutRecord& layout : study.layouts) {
+            if (layout.set_index == set_index && layout.family == family) {
+                return " (" + layout.label.substr(0, layout.label.find(',')) + ")";
+            }
         }
     }
     return "";

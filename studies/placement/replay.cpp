@@ -35,20 +35,20 @@ std::string direction_signs(const DirectionBits& bits, int segments) {
 }
 
 // The weights are a result of the whole single-sensor stage, so that is run as in the study.
-std::vector<double> weights_of(const PreparedStudy& study, const ReplayAddress& address) {
+std::vector<double> weights_of(const PreparedStudy& study, const ReplayAddress& address, int jobs) {
     std::vector<std::vector<double>> errors_N;
     for (int s = 0; s < static_cast<int>(study.scenarios.size()); ++s) {
         const StudyPoint point{s, address.noise_index};
         double unused_s = 0.0;
-        const SolvedReadings solved = solve_readings(study, point, 0, unused_s);
-        errors_N.push_back(sensor_errors_N(summarise_sensors(study, point, solved, 0)));
+        const SolvedReadings solved = solve_readings(study, point, jobs, unused_s);
+        errors_N.push_back(sensor_errors_N(summarise_sensors(study, point, solved, jobs)));
     }
     return sensor_weights(study, errors_N, address.scenario_index);
 }
 
 }  // namespace
 
-Replay replay(const StudyPlan& plan, const ReplayAddress& address) {
+Replay replay(const StudyPlan& plan, const ReplayAddress& address, int jobs) {
     const PreparedStudy study = prepare(plan);
     demand_inside(study, address);
     const StudyPoint point{address.scenario_index, address.noise_index};
@@ -77,7 +77,7 @@ Replay replay(const StudyPlan& plan, const ReplayAddress& address) {
         replayed.sensors.push_back(std::move(seen));
     }
     const auto estimates =
-        fuse_repetition(study, point, solved, weights_of(study, address), address.repetition);
+        fuse_repetition(study, point, solved, weights_of(study, address, jobs), address.repetition);
     for (const PlannedLayout& planned : study.layouts) {
         for (std::size_t m = 0; m < study.methods.size(); ++m) {
             ReplayedEstimate estimate{planned.layout.label, planned.layout.nodes,

@@ -36,7 +36,7 @@ struct Replay {
     std::vector<ReplayedEstimate> estimates;
 };
 
-/// Throws InvalidInput if the address is outside the plan.
-Replay replay(const StudyPlan& plan, const ReplayAddress& address);
+/// On up to `jobs` threads (0: all processors). Throws InvalidInput if the address is outside the plan.
+Replay replay(const StudyPlan& plan, const ReplayAddress& address, int jobs);
 
 }  // namespace capstan

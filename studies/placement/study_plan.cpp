@@ -44,6 +44,9 @@ void check_motion(const TrueMotion& motion, Problems& problems) {
                                ": amplitude, frequency_Hz and phase_rad must be finite numbers, the "
                                "frequency not negative");
         }
+        if (!(end.start_s >= 0.0) || !(end.stop_s > end.start_s)) {
+            problems.push_back(where + ": start_s must be 0 or more, and stop_s later");
+        }
         if (end.kind == EndKind::spring &&
             (!usable(end.spring_stiffness_N_per_m) || end.spring_stiffness_N_per_m <= 0.0)) {
             problems.push_back(where + ".spring_stiffness_N_per_m must be above 0 for a spring");

@@ -12,9 +12,9 @@
 
 namespace capstan {
 
-/// What is prescribed at one end of the cable over time: `rest + amplitude * sin(2 pi f t + phase)`, where
-/// the rest value is that of the pretensioned cable (its displacement, its tension, the wall where it
-/// stands).
+/// What is prescribed at one end of the cable over time: a sine `amplitude * sin(2 pi f t + phase)` that
+/// moves from `start_s` to `stop_s` and holds still before and after, added to the value at rest of the
+/// pretensioned cable (its displacement, its tension, the wall where it stands) so that it begins there.
 enum class EndKind { position, tension, spring };
 
 struct EndMotion {
@@ -22,6 +22,8 @@ struct EndMotion {
     double amplitude = 0.0;  ///< position, spring (of its wall): m; tension: N
     double frequency_Hz = 0.0;
     double phase_rad = 0.0;
+    double start_s = 0.0;
+    double stop_s = 1e9;                    ///< longer than any motion
     double spring_stiffness_N_per_m = 0.0;  ///< spring only
 };
 

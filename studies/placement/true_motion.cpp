@@ -1,5 +1,6 @@
 #include "capstan/placement/true_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,9 +12,9 @@ double sine(const EndMotion& end, double time_s) {
     return end.amplitude * std::sin(2.0 * std::numbers::pi * end.frequency_Hz * time_s + end.phase_rad);
 }
 
-// The value that `end` starts from, so that sample 0 is the pretensioned cable whatever the phase.
+// From rest, so that sample 0 is the pretensioned cable whatever the phase.
 double moved_since_start(const EndMotion& end, double time_s) {
-    return sine(end, time_s) - sine(end, 0.0);
+    return sine(end, std::clamp(time_s, end.start_s, end.stop_s)) - sine(end, end.start_s);
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capstan/cli/exit_code.h"
+
+namespace capstan::cli {
+
+enum class OptionKind { flag, text, whole_number, real_number };
+
+/// One option of a command: everything that parsing and explaining it need.
+struct Option {
+    std::string_view name;  ///< without dashes
+    char letter = '\0';     ///< short form; '\0': none
+    OptionKind kind = OptionKind::text;
+    std::string_view value{};  ///< what to give, in capitals; flags: empty
+    std::string_view meaning{};
+    std::string_view default_value{};  ///< empty: none
+    std::vector<std::string> choices{};
+    double low = -std::numeric_limits<double>::infinity();  ///< numbers only, both limits allowed
+    double high = std::numeric_limits<double>::infinity();
+};
+
+enum class ArgumentNeed { required, optional };
+
+struct Argument {
+    std::string_view name;
+    std::string_view meaning;
+    ArgumentNeed need = ArgumentNeed::required;
+    std::string_view default_value{};
+};
+
+class Invocation;
+
+/// One command. Dispatch, --help, completion and man page all read the table of these.
+struct Command {
+    std::string_view name;  ///< "study run"
+    std::string_view summary;
+    std::string_view description;
+    std::vector<Argument> arguments;
+    std::vector<Option> options;
+    std::vector<std::string_view> examples;
+    ExitCode (*run)(const Invocation&);
+};
+
+/// What was asked of a command: checked values, defaults filled in.
+class Invocation {
+  public:
+    Invocation(const Command& command, std::map<std::string, std::string, std::less<>> options,
+               std::map<std::string, std::string, std::less<>> arguments)
+        : command_(&command), options_(std::move(options)), arguments_(std::move(arguments)) {}
+
+    const Command& command() const { return *command_; }
+    /// Given, or has a default.
+    bool has(std::string_view option) const { return options_.find(option) != options_.end(); }
+    const std::string& text(std::string_view option) const { return options_.find(option)->second; }
+    std::int64_t whole(std::string_view option) const { return std::stoll(text(option)); }
+    double real(std::string_view option) const { return std::stod(text(option)); }
+
+    bool has_argument(std::string_view name) const { return arguments_.find(name) != arguments_.end(); }
+    const std::string& argument(std::string_view name) const { return arguments_.find(name)->second; }
+
+  private:
+    const Command* command_;
+    std::map<std::string, std::string, std::less<>> options_;
+    std::map<std::string, std::string, std::less<>> arguments_;
+};
+
+}  // namespace capstan::cli

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <set>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/config_problem.h"
+#include "capstan/cli/config_reader.h"
+#include "capstan/cli/json_text.h"
+#include "capstan/cli/output.h"
+
+namespace capstan::cli {
+
+namespace {
+
+// How much work a plan is.
+struct PlanSize {
+    int nodes = 0;
+    std::size_t scenarios = 0;
+    std::size_t noise_levels = 0;
+    std::size_t sensor_sets = 0;
+    std::size_t methods = 0;
+    std::size_t cells = 0;
+};
+
+PlanSize size_of(const StudyPlan& plan) {
+    PlanSize size;
+    size.nodes = plan.transmission.cable.segments + 1;
+    for (const RegimeInstants& regime : plan.regimes) size.scenarios += regime.samples.size();
+    std::set<std::vector<int>> sets;
+    for (const std::string& family : plan.layout_families) {
+        for (const int count : plan.sensor_counts) {
+            for (const Layout& layout : find_layout_family(family)->layouts(count, size.nodes))
+                sets.insert(layout.nodes);
+        }
+    }
+    for (const auto& nodes : plan.explicit_layouts) sets.insert(explicit_layout(nodes).nodes);
+    size.noise_levels = plan.noise_levels.size();
+    size.sensor_sets = sets.size();
+    size.methods = plan.fusion_methods.size();
+    size.cells = size.scenarios * size.noise_levels * size.sensor_sets * size.methods;
+    return size;
+}
+
+std::string counted(std::size_t count, const std::string& thing) {
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+std::string in_words(const std::string& file, const StudyPlan& plan) {
+    const PlanSize size = size_of(plan);
+    return fmt::format("{}: ok\n  {} nodes, {}, {}, {}, {}: {} of {} repetitions\n", file, size.nodes,
+                       counted(size.scenarios, "instant"), counted(size.noise_levels, "noise level"),
+                       counted(size.sensor_sets, "sensor set"), counted(size.methods, "method"),
+                       counted(size.cells, "cell"), plan.repetitions);
+}
+
+nlohmann::ordered_json in_json(const StudyPlan& plan) {
+    const PlanSize size = size_of(plan);
+    return {{"ok", true},
+            {"name", plan.name},
+            {"nodes", size.nodes},
+            {"scenarios", size.scenarios},
+            {"noise_levels", size.noise_levels},
+            {"sensor_sets", size.sensor_sets},
+            {"methods", size.methods},
+            {"cells", size.cells},
+            {"repetitions", plan.repetitions}};
+}
+
+nlohmann::ordered_json problems_json(const ConfigError& error) {
+    nlohmann::ordered_json json = {{"ok", false}, {"problems", nlohmann::ordered_json::array()}};
+    for (const ConfigProblem& problem : error.problems()) {
+        json["problems"].push_back({{"line", problem.line},
+                                    {"column", problem.column},
+                                    {"key", problem.key},
+                                    {"message", problem.message}});
+    }
+    return json;
+}
+
+ExitCode run(const Invocation& invocation) {
+    const std::string& file = invocation.argument("CONFIG");
+    try {
+        const ReadConfig config = read_config(file);
+        require_runnable(config);
+        deliver(invocation,
+                invocation.has("json") ? json_text(in_json(config.plan)) : in_words(file, config.plan));
+        return ExitCode::success;
+    } catch (const ConfigError& error) {
+        if (!invocation.has("json")) throw;
+        deliver(invocation, json_text(problems_json(error)));
+        return ExitCode::wrong_input;
+    }
+}
+
+}  // namespace
+
+Command config_check_command() {
+    return {
+        "config check",
+        "Check a configuration; list every problem with its line.",
+        "Checks a configuration without running it, except for the true motion, which shows whether each instant is "
+        "in its regime. Prints ok and how much work the study is, or every problem with its line and what to try.",
+        {config_argument},
+        {output_option, json_option, help_option},
+        {"capstan config check my.toml"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,28 @@
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/config_writer.h"
+#include "capstan/cli/output.h"
+
+namespace capstan::cli {
+
+namespace {
+
+ExitCode run(const Invocation& invocation) {
+    deliver(invocation, config_text(default_plan(), Comments::every_key));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command config_default_command() {
+    return {
+        "config default",
+        "Print a complete configuration with every key explained.",
+        "Prints a complete configuration: every key with its meaning, unit, limits and default. It runs as it is.",
+        {},
+        {output_option, help_option},
+        {"capstan config default -o my.toml"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,147 @@
+#include "capstan/cli/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <charconv>
+
+#include "capstan/cli/nearest_name.h"
+#include "capstan/cli/usage_error.h"
+
+namespace capstan::cli {
+
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr const char* positional = "positional arguments";  // no option that anyone could type
+
+[[noreturn]] void refuse(const Command& command, const std::string& what) {
+    throw UsageError(fmt::format("capstan {0}: {1}\nTry `capstan {0} --help`.", command.name, what));
+}
+
+po::options_description description_of(const Command& command) {
+    po::options_description description;
+    for (const Option& option : command.options) {
+        std::string name(option.name);
+        if (option.letter != '\0') name += fmt::format(",{}", option.letter);
+        if (option.kind == OptionKind::flag) {
+            description.add_options()(name.c_str(), "");
+        } else {
+            description.add_options()(name.c_str(), po::value<std::string>());
+        }
+    }
+    description.add_options()(positional, po::value<std::vector<std::string>>());
+    return description;
+}
+
+std::string nearest_option(const Command& command, std::string given) {
+    given = given.substr(0, given.find('='));
+    const std::string bare = given.substr(std::min(given.find_first_not_of('-'), given.size()));
+    std::vector<std::string> known;
+    for (const Option& option : command.options) known.emplace_back(option.name);
+    const auto nearest = nearest_name(bare, known);
+    return fmt::format("unknown option '{}'{}", given, nearest ? "; did you mean '--" + *nearest + "'?" : "");
+}
+
+po::variables_map parse(const Command& command, const std::vector<std::string>& arguments) {
+    // Without guessing: an abbreviation that works today would change its meaning with the next option.
+    constexpr int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    const po::options_description description = description_of(command);
+    po::positional_options_description positions;
+    positions.add(positional, -1);
+    po::variables_map values;
+    try {
+        po::store(
+            po::command_line_parser(arguments).options(description).positional(positions).style(style).run(),
+            values);
+    } catch (const po::unknown_option& error) {
+        refuse(command, nearest_option(command, error.get_option_name()));
+    } catch (const po::multiple_occurrences& error) {
+        refuse(command, fmt::format("option '{}' is given twice", error.get_option_name()));
+    } catch (const po::invalid_command_line_syntax& error) {
+        const bool extra = error.kind() == po::invalid_syntax::extra_parameter;
+        refuse(command, fmt::format("option '{}' {}", error.get_option_name(),
+                                    extra ? "takes no value" : "needs a value"));
+    } catch (const po::error& error) {
+        refuse(command, error.what());
+    }
+    return values;
+}
+
+template <class Number>
+bool is_number(const std::string& text, Number& value) {
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return problem == std::errc{} && end == text.data() + text.size();
+}
+
+void check_number(const Command& command, const Option& option, const std::string& text) {
+    double value = 0.0;
+    std::int64_t whole = 0;
+    const bool is_whole = option.kind == OptionKind::whole_number;
+    if (!(is_whole ? is_number(text, whole) : is_number(text, value))) {
+        refuse(command, fmt::format("--{} is '{}', but must be a {}number", option.name, text,
+                                    is_whole ? "whole " : ""));
+    }
+    if (is_whole) value = static_cast<double>(whole);
+    if (value >= option.low && value <= option.high) return;
+    const std::string above = option.high >= 1e7 ? "" : fmt::format(" and at most {}", option.high);
+    refuse(command,
+           fmt::format("--{} is {}, but must be at least {}{}", option.name, text, option.low, above));
+}
+
+void check_value(const Command& command, const Option& option, const std::string& text) {
+    switch (option.kind) {
+        case OptionKind::flag:
+            return;
+        case OptionKind::whole_number:
+        case OptionKind::real_number:
+            return check_number(command, option, text);
+        case OptionKind::text:
+            break;
+    }
+    if (text.empty()) refuse(command, fmt::format("--{} is empty", option.name));
+    if (option.choices.empty()) return;
+    if (std::find(option.choices.begin(), option.choices.end(), text) != option.choices.end()) return;
+    refuse(command,
+           fmt::format("--{} is '{}', but must be {}", option.name, text, fmt::join(option.choices, ", ")));
+}
+
+}  // namespace
+
+Invocation parse_command_line(const Command& command, const std::vector<std::string>& arguments) {
+    const po::variables_map values = parse(command, arguments);
+
+    std::map<std::string, std::string, std::less<>> options;
+    for (const Option& option : command.options) {
+        const std::string name(option.name);
+        if (values.count(name) == 0) {
+            if (!option.default_value.empty()) options[name] = option.default_value;
+            continue;
+        }
+        const std::string text = option.kind == OptionKind::flag ? "yes" : values[name].as<std::string>();
+        check_value(command, option, text);
+        options[name] = text;
+    }
+
+    std::vector<std::string> given;
+    if (values.count(positional) != 0) given = values[positional].as<std::vector<std::string>>();
+    if (given.size() > command.arguments.size()) {
+        refuse(command, fmt::format("'{}' is one argument too many", given[command.arguments.size()]));
+    }
+    std::map<std::string, std::string, std::less<>> named;
+    for (std::size_t k = 0; k < command.arguments.size(); ++k) {
+        const Argument& argument = command.arguments[k];
+        if (k < given.size()) {
+            named[std::string(argument.name)] = given[k];
+        } else if (!argument.default_value.empty()) {
+            named[std::string(argument.name)] = argument.default_value;
+        } else if (argument.need == ArgumentNeed::required) {
+            refuse(command, fmt::format("{} is missing", argument.name));
+        }
+    }
+    return {command, std::move(options), std::move(named)};
+}
+
+}  // namespace capstan::cli

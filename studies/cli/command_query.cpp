@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/text_table.h"
+#include "capstan/cli/usage_error.h"
+#include "capstan/storage/error.h"
+#include "capstan/storage/read_only_query.h"
+#include "capstan/storage/schema.h"
+
+namespace capstan::cli {
+
+namespace {
+
+storage::QueryResult answer(storage::Database& database, const std::string& sql) {
+    try {
+        return storage::run_read_only(database, sql);
+    } catch (const storage::Error& error) {
+        throw UsageError(std::string("capstan query: ") + error.what());
+    }
+}
+
+std::string formatted(const storage::QueryResult& result, const std::string& format) {
+    if (format == "csv") return as_csv(result);
+    return format == "json" ? as_json(result) : as_table(result);
+}
+
+ExitCode run(const Invocation& invocation) {
+    if (invocation.has("schema")) {
+        deliver(invocation, storage::schema_text());
+        return ExitCode::success;
+    }
+    if (!invocation.has_argument("SQL")) {
+        throw UsageError(
+            "capstan query: SQL is missing, as \"SELECT * FROM v_progress\"; `capstan query --schema` shows "
+            "the tables");
+    }
+    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
+    const std::string format = invocation.has("json") ? "json" : invocation.text("format");
+    deliver(invocation, formatted(answer(database, invocation.argument("SQL")), format));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command query_command() {
+    return {
+        "query",
+        "Ask the database in SQL; it can only be read.",
+        "Runs one SELECT on the results and prints the rows. The views v_error_by_layout, v_best_method, "
+        "v_single_sensor_matrix, v_recommendation and v_progress answer the usual questions; --schema explains "
+        "every table, column and unit. Nothing can be changed, and after ten seconds a query is stopped.",
+        {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
+        {{"format",
+          '\0',
+          OptionKind::text,
+          "table|csv|json",
+          "How to print; csv and json in full precision.",
+          "table",
+          {"table", "csv", "json"}},
+         {"schema", '\0', OptionKind::flag, "", "Print all tables and views, with comments, instead."},
+         database_option,
+         output_option,
+         {"json", '\0', OptionKind::flag, "", "The same as --format json."},
+         help_option},
+        {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
+         "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/config_reader.h"
+#include "capstan/cli/output.h"
+#include "capstan/placement/true_motion.h"
+
+namespace capstan::cli {
+
+namespace {
+
+std::string_view kind_name(MotionKind kind) {
+    switch (kind) {
+        case MotionKind::rest:
+            return "rest";
+        case MotionKind::partial:
+            return "partial";
+        case MotionKind::mass:
+            return "mass";
+        case MotionKind::opposed:
+            return "opposed";
+        case MotionKind::slack:
+            return "slack";
+    }
+    return {};
+}
+
+std::string head_line(int nodes) {
+    std::string line =
+        "sample,time_s,motion,regime,proximal_moving_nodes,distal_moving_nodes,proximal_direction,distal_direction,"
+        "verified";
+    for (int node = 1; node <= nodes; ++node) line += fmt::format(",tension_{}_N", node);
+    for (int node = 1; node <= nodes; ++node) line += fmt::format(",displacement_{}_m", node);
+    return line + "\n";
+}
+
+void append_line(std::string& text, const TrueSample& sample, double sample_rate_Hz) {
+    const MotionPattern& pattern = sample.report.pattern;
+    const auto regime = regime_of(pattern);
+    auto out = std::back_inserter(text);
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{}", sample.sample, sample.sample / sample_rate_Hz,
+                   kind_name(pattern.kind), regime ? name_of(*regime) : "", pattern.proximal_moving_nodes,
+                   pattern.distal_moving_nodes, sign(pattern.proximal_direction),
+                   sign(pattern.distal_direction), sample.report.verified ? 1 : 0);
+    for (const double tension_N : sample.now.tension_N) fmt::format_to(out, ",{}", tension_N);
+    for (const double displacement_m : sample.now.displacement_m) fmt::format_to(out, ",{}", displacement_m);
+    text += "\n";
+}
+
+ExitCode run(const Invocation& invocation) {
+    const StudyPlan plan = read_config(invocation.argument("CONFIG")).plan;
+    const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
+    const CableState start = pretensioned(step.cable());
+    std::string text = head_line(step.cable().nodes());
+    const StepReport at_rest{};
+    append_line(text, {0, start, start, at_rest}, plan.motion.sample_rate_Hz);
+    simulate(step, plan.motion,
+             [&](const TrueSample& sample) { append_line(text, sample, plan.motion.sample_rate_Hz); });
+    deliver(invocation, text);
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command simulate_command() {
+    return {
+        "simulate",
+        "Simulate the true motion of a configuration, as CSV.",
+        "Simulates the motion that a configuration describes and writes one line per sample: time, kind of motion, "
+        "the study regime it belongs to, how many nodes move from each end (the last-moving nodes k and k' of the "
+        "paper, each counted from its own end) and which way (1 towards the load, -1 towards the motor), whether the "
+        "pattern passed the model's own check, tension and displacement of every node. Use it to find instants for "
+        "[[regime]].",
+        {config_argument},
+        {output_option, help_option},
+        {"capstan simulate configs/paper.toml -o motion.csv",
+         "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,35 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::cli {
+
+namespace {
+
+ExitCode run(const Invocation& invocation) {
+    storage::Database database = storage::Database::open_existing(invocation.text("db"));
+    const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+    const std::string name = storage::load_study(database, id).study.name;
+    storage::delete_study(database, id);
+    fmt::print(stderr, "Deleted study {} ({}).\n", id, name);
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command study_delete_command() {
+    return {
+        "study delete",
+        "Delete a study and everything that belongs to it.",
+        "Deletes a study and everything that belongs to it, at once and for good. The study must be named.",
+        {{"STUDY", "Its number, its name (the last one begun under it), or latest."}},
+        {database_option, help_option},
+        {"capstan study delete 3"},
+        run};
+}
+
+}  // namespace capstan::cli

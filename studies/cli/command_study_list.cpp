@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/text_table.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::cli {
+
+namespace {
+
+ExitCode run(const Invocation& invocation) {
+    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
+    const bool json = invocation.has("json");
+    storage::QueryResult table{{json ? "study_id" : "study", "name", "status", "units_done", "units"}, {}};
+    for (const storage::StudySummary& study : storage::list_studies(database)) {
+        table.rows.push_back({study.study_id, study.name, study.status, std::int64_t{study.units_done},
+                              std::int64_t{study.units}});
+    }
+    if (table.rows.empty() && !json) {
+        fmt::print(stderr, "{} holds no study; `capstan study run CONFIG` makes one.\n",
+                   invocation.text("db"));
+    }
+    deliver(invocation, json ? as_json(table) : as_table(table));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command study_list_command() {
+    return {"study list",
+            "List the studies of a database.",
+            "Lists the studies of a database, oldest first, with how far each has come.",
+            {},
+            {database_option, output_option, json_option, help_option},
+            {"capstan study list"},
+            run};
+}
+
+}  // namespace capstan::cli

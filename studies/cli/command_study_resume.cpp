@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/program.h"
+#include "capstan/cli/stored_study.h"
+#include "capstan/cli/study_session.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::cli {
+
+namespace {
+
+ExitCode run(const Invocation& invocation) {
+    storage::Database database = storage::Database::open_existing(invocation.text("db"));
+    const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+    const StoredStudy stored = load_stored_study(database, id);
+    const storage::StudyRecord& study = stored.description.study;
+    if (study.status == "complete") {
+        fmt::print(stderr, "Study {} ({}) is complete already; nothing to do.\n", id, study.name);
+        deliver_conclusions(invocation, database, id);
+        return ExitCode::success;
+    }
+    if (study.program_version != program_version()) {
+        fmt::print(
+            stderr,
+            "Note: study {} was begun by capstan {}, this is {}; the rest may differ in the last bits.\n", id,
+            study.program_version, program_version());
+    }
+    return run_session(invocation, database, study.name, [&](const RunOptions& options) {
+        return resume_study(database, id, stored.plan, options);
+    });
+}
+
+}  // namespace
+
+Command study_resume_command() {
+    return {
+        "study resume",
+        "Go on with a study that was stopped or killed.",
+        "Goes on with a study that was stopped or killed, from the configuration stored with it. The units that "
+        "are stored stay; the tables end with the same bits as without the interruption.",
+        {study_argument},
+        session_options(),
+        {"capstan study resume", "capstan study resume paper --db paper.db"},
+        run};
+}
+
+}  // namespace capstan::cli

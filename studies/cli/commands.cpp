@@ -1,0 +1,21 @@
+#include "capstan/cli/commands.h"
+
+namespace capstan::cli {
+
+const std::vector<Command>& commands() {
+    static const std::vector<Command> all = {
+        study_run_command(),    study_resume_command(), study_list_command(),     study_show_command(),
+        study_replay_command(), study_delete_command(), recommend_command(),      query_command(),
+        report_command(),       simulate_command(),     config_default_command(), config_check_command(),
+    };
+    return all;
+}
+
+const Command* find_command(std::string_view name) {
+    for (const Command& command : commands()) {
+        if (command.name == name) return &command;
+    }
+    return nullptr;
+}
+
+}  // namespace capstan::cli

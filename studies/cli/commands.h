@@ -1,0 +1,25 @@
+#pragma once
+// The one list of commands, and where each is defined.
+
+#include "capstan/cli/command.h"
+
+namespace capstan::cli {
+
+// One file each: command_<name>.cpp.
+Command study_run_command();
+Command study_resume_command();
+Command study_list_command();
+Command study_show_command();
+Command study_replay_command();
+Command study_delete_command();
+Command recommend_command();
+Command query_command();
+Command report_command();
+Command simulate_command();
+Command config_default_command();
+Command config_check_command();
+
+const std::vector<Command>& commands();
+const Command* find_command(std::string_view name);
+
+}  // namespace capstan::cli

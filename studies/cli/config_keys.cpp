@@ -1,0 +1,495 @@
+// The key table: one row per key. Defaults have their home here, and the reason for a default is in its help.
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "capstan/cli/config_key.h"
+#include "capstan/estimation/fusion_method.h"
+
+namespace capstan::cli {
+
+namespace {
+
+constexpr Limits above_zero{0.0, false};
+constexpr Limits zero_or_more{0.0, true};
+
+using Read = std::function<ConfigValue(const StudyPlan&, int)>;
+using Write = std::function<void(StudyPlan&, int, const ConfigValue&)>;
+
+// A key that is a field of the plan; `field(plan, row)` refers to it.
+template <class Stored, class Field>
+void bind_field(ConfigKey& key, Field field) {
+    key.read = [field](const StudyPlan& plan, int row) -> ConfigValue {
+        return static_cast<Stored>(field(plan, row));
+    };
+    key.write = [field](StudyPlan& plan, int row, const ConfigValue& value) {
+        auto& target = field(plan, row);
+        target = static_cast<std::remove_reference_t<decltype(target)>>(std::get<Stored>(value));
+    };
+}
+
+struct KeyText {
+    std::string_view section;
+    std::string_view name;
+    std::string_view unit;
+    std::string help;
+};
+
+template <class Field>
+ConfigKey text(KeyText about, ConfigValue default_value, Field field) {
+    ConfigKey key{about.section, about.name, ValueKind::text, about.unit};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    bind_field<std::string>(key, field);
+    return key;
+}
+
+template <class Field>
+ConfigKey whole(KeyText about, Limits limits, ConfigValue default_value, Field field) {
+    ConfigKey key{about.section, about.name, ValueKind::whole_number, about.unit, limits};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    bind_field<std::int64_t>(key, field);
+    return key;
+}
+
+template <class Field>
+ConfigKey real(KeyText about, Limits limits, ConfigValue default_value, Field field) {
+    ConfigKey key{about.section, about.name, ValueKind::real_number, about.unit, limits};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    bind_field<double>(key, field);
+    return key;
+}
+
+template <class Field>
+ConfigKey yes_or_no(KeyText about, bool default_value, Field field) {
+    ConfigKey key{about.section, about.name, ValueKind::yes_or_no, about.unit};
+    key.help = std::move(about.help);
+    key.default_value = default_value;
+    bind_field<bool>(key, field);
+    return key;
+}
+
+template <class Value>
+struct Named {
+    std::string name;
+    Value value;
+};
+
+template <class Value, class Field, class Same = std::equal_to<>>
+ConfigKey choice(KeyText about, std::vector<Named<Value>> all, ConfigValue default_value, Field field,
+                 Same same = {}) {
+    ConfigKey key{about.section, about.name, ValueKind::choice, about.unit};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    for (const auto& each : all) key.names.push_back(each.name);
+    key.read = [all, field, same](const StudyPlan& plan, int row) -> ConfigValue {
+        const auto found = std::find_if(all.begin(), all.end(),
+                                        [&](const auto& each) { return same(each.value, field(plan, row)); });
+        return found->name;
+    };
+    key.write = [all, field](StudyPlan& plan, int row, const ConfigValue& value) {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const auto& each) {
+            return each.name == std::get<std::string>(value);
+        });
+        field(plan, row) = found->value;
+    };
+    return key;
+}
+
+ConfigKey required(ConfigKey key) {
+    key.presence = Presence::required;
+    key.default_value = std::monostate{};
+    return key;
+}
+
+// ---- the whole study
+
+void add_study_keys(std::vector<ConfigKey>& keys) {
+    keys.push_back(text(
+        {"", "name", "", "Name of the study in lists and reports."}, std::string("study"),
+        [](auto& plan, int) -> auto& { return plan.name; }));
+    keys.push_back(whole(
+        {"", "seed", "", "Seed of all random numbers: the same seed gives the same bits."},
+        {0, true, 9223372036854774784.0}, std::int64_t{1},
+        [](auto& plan, int) -> auto& { return plan.seed; }));
+    keys.push_back(whole(
+        {"", "repetitions", "",
+         "Draws of sensor noise per instant and noise level. Standard errors shrink with the "
+         "square root; 2000 separate differences of about 0.01 N."},
+        {1, true, 1e7}, std::int64_t{2000}, [](auto& plan, int) -> auto& { return plan.repetitions; }));
+    keys.push_back(yes_or_no(
+        {"", "compare_with_paper", "",
+         "Show the paper's numbers beside ours. Only for the paper's own transmission, motion "
+         "and instants."},
+        false, [](auto& plan, int) -> auto& { return plan.compare_with_paper; }));
+}
+
+// ---- [transmission]
+
+bool same_rules(const ModelRules& a, const ModelRules& b) {
+    return a.elongation == b.elongation && a.stiction == b.stiction && a.check == b.check;
+}
+
+void add_transmission_keys(std::vector<ConfigKey>& keys) {
+    constexpr std::string_view at = "transmission";
+    keys.push_back(whole(
+        {at, "segments", "",
+         "Equal pieces into which the cable is cut; nodes are their ends, numbered 1 (proximal, "
+         "motor) to segments + 1 (distal, load). Sensors sit at nodes."},
+        {1, true, 10000}, std::int64_t{10},
+        [](auto& plan, int) -> auto& { return plan.transmission.cable.segments; }));
+    keys.push_back(real(
+        {at, "axial_stiffness_N", "N",
+         "Axial stiffness EA: force per unit strain, not per elongation. The paper's Table I says \"2 "
+         "kN/m\" for its 2 m cable; used directly as EA = 2000 N it reproduces the paper's figures "
+         "best."},
+        above_zero, 2000.0,
+        [](auto& plan, int) -> auto& { return plan.transmission.cable.axial_stiffness_N; }));
+    keys.push_back(real(
+        {at, "dynamic_friction", "", "Friction coefficient of a segment that slides."}, zero_or_more, 0.21,
+        [](auto& plan, int) -> auto& { return plan.transmission.cable.dynamic_friction; }));
+    keys.push_back(real(
+        {at, "static_friction", "",
+         "Friction coefficient of a segment about to slide; at least dynamic_friction."},
+        zero_or_more, 0.63,
+        [](auto& plan, int) -> auto& { return plan.transmission.cable.static_friction; }));
+    keys.push_back(real(
+        {at, "pretension_N", "N", "Tension of the whole cable before anything moves."}, zero_or_more, 10.0,
+        [](auto& plan, int) -> auto& { return plan.transmission.cable.pretension_N; }));
+    keys.push_back(choice<ModelRules>(
+        {at, "rules", "",
+         "How the model is read where the paper is silent or contradicts itself: \"cured\" is our consistent reading, "
+         "\"paper\" follows the paper to the letter."},
+        {{"cured", ModelRules::cured()}, {"paper", ModelRules::paper()}}, std::string("cured"),
+        [](auto& plan, int) -> auto& { return plan.transmission.rules; }, same_rules));
+
+    constexpr std::string_view piece = "transmission.curvature";
+    keys.push_back(required(real(
+        {piece, "length_m", "m", "Length of conduit along its axis."}, above_zero, {},
+        [](auto& plan, int row) -> auto& { return plan.transmission.cable.curvature[row].length_m; })));
+    ConfigKey radius = real(
+        {piece, "bend_radius_m", "m", "Bend radius of the piece; left out where it is straight."}, above_zero,
+        {},
+        [](auto& plan, int row) -> auto& { return plan.transmission.cable.curvature[row].bend_radius_m; });
+    radius.read = [](const StudyPlan& plan, int row) -> ConfigValue {
+        const double radius_m = plan.transmission.cable.curvature[row].bend_radius_m;
+        return radius_m == straight ? ConfigValue{} : ConfigValue{radius_m};
+    };
+    keys.push_back(std::move(radius));
+}
+
+// ---- [motion]
+
+// Both ends have the same keys; only what they do by default differs.
+struct EndText {
+    std::string_view section;
+    double default_amplitude_m;
+    EndMotion TrueMotion::*end;
+};
+
+void add_end_keys(std::vector<ConfigKey>& keys, const EndText& end) {
+    const auto at = end.section;
+    const auto motion = [member = end.end](auto& plan, int) -> auto& {
+        return plan.motion.*member;
+    };
+    const auto kind = [member = end.end](const StudyPlan& plan) { return (plan.motion.*member).kind; };
+
+    keys.push_back(choice<EndKind>(
+        {at, "kind", "",
+         "What is prescribed here: the cable's \"position\", its \"tension\", or a "
+         "\"spring\" between the cable and a wall that moves. Not a tension at both ends."},
+        {{"position", EndKind::position}, {"tension", EndKind::tension}, {"spring", EndKind::spring}},
+        std::string("position"), [motion](auto& plan, int row) -> auto& { return motion(plan, row).kind; }));
+
+    const auto amplitude = [motion](auto& plan, int row) -> auto& {
+        return motion(plan, row).amplitude;
+    };
+    ConfigKey amplitude_m =
+        real({at, "amplitude_m", "m",
+              "Amplitude of the motion, of the cable's end or of the spring's wall: rest + "
+              "amplitude sin(2 pi frequency time + phase), positive towards the distal end. 0: "
+              "blocked."},
+             zero_or_more, end.default_amplitude_m, amplitude);
+    amplitude_m.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) != EndKind::tension; },
+                             "kind = \"position\" or \"spring\""};
+    keys.push_back(std::move(amplitude_m));
+
+    ConfigKey amplitude_N = real({at, "amplitude_N", "N", "Amplitude of the tension about the pretension."},
+                                 zero_or_more, 0.0, amplitude);
+    amplitude_N.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) == EndKind::tension; },
+                             "kind = \"tension\""};
+    keys.push_back(std::move(amplitude_N));
+
+    keys.push_back(real(
+        {at, "frequency_Hz", "Hz", "Frequency of the motion."}, zero_or_more,
+        1.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).frequency_Hz; }));
+    keys.push_back(real(
+        {at, "phase_rad", "rad", "Phase of the motion at time 0."}, {},
+        0.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).phase_rad; }));
+    keys.push_back(real(
+        {at, "start_s", "s", "When the motion begins; the end holds still before."}, zero_or_more,
+        0.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).start_s; }));
+    keys.push_back(real(
+        {at, "stop_s", "s", "When it ends; the end holds still after."}, above_zero,
+        EndMotion{}.stop_s, [motion](auto& plan, int row) -> auto& { return motion(plan, row).stop_s; }));
+
+    ConfigKey stiffness = required(real(
+        {at, "spring_stiffness_N_per_m", "N/m", "Stiffness of the spring."}, above_zero,
+        {}, [motion](auto& plan, int row) -> auto& { return motion(plan, row).spring_stiffness_N_per_m; }));
+    stiffness.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) == EndKind::spring; },
+                           "kind = \"spring\""};
+    keys.push_back(std::move(stiffness));
+}
+
+void add_motion_keys(std::vector<ConfigKey>& keys) {
+    keys.push_back(real(
+        {"motion", "sample_rate_Hz", "Hz",
+         "Samples per second. Each sample is one quasi-static step; smaller steps follow the motion "
+         "better."},
+        above_zero, 100.0, [](auto& plan, int) -> auto& { return plan.motion.sample_rate_Hz; }));
+    keys.push_back(whole(
+        {"motion", "samples", "",
+         "How many samples are simulated; sample 0 is the pretensioned cable at rest."},
+        {1, true, 1e7}, std::int64_t{200}, [](auto& plan, int) -> auto& { return plan.motion.samples; }));
+    add_end_keys(keys, {"motion.proximal", 0.01, &TrueMotion::proximal});
+    add_end_keys(keys, {"motion.distal", 0.0, &TrueMotion::distal});
+}
+
+// ---- [[regime]], [[noise]]
+
+void add_regime_keys(std::vector<ConfigKey>& keys) {
+    std::vector<Named<Regime>> regimes;
+    for (const Regime regime : all_regimes) regimes.push_back({std::string(name_of(regime)), regime});
+    keys.push_back(required(choice<Regime>(
+        {"regime", "name", "",
+         "Motion regime: all of the cable slides (mass), or nodes at the proximal "
+         "end, the distal end or both move while others rest."},
+        regimes, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].regime; })));
+
+    ConfigKey samples{"regime", "samples", ValueKind::whole_numbers, "", {1, true, 1e7}};
+    samples.presence = Presence::required;
+    samples.help =
+        "Instants at which sensors are judged, as samples of the motion; each must be in this regime. "
+        "`capstan simulate CONFIG` shows which sample is in which.";
+    samples.read = [](const StudyPlan& plan, int row) -> ConfigValue {
+        return std::vector<std::int64_t>(plan.regimes[row].samples.begin(), plan.regimes[row].samples.end());
+    };
+    samples.write = [](StudyPlan& plan, int row, const ConfigValue& value) {
+        const auto& given = std::get<std::vector<std::int64_t>>(value);
+        plan.regimes[row].samples.assign(given.begin(), given.end());
+    };
+    keys.push_back(std::move(samples));
+
+    keys.push_back(required(real(
+        {"regime", "duty_share", "",
+         "Share of the working time in this regime, for the recommendation by duty cycle; "
+         "the shares of all regimes sum to 1."},
+        {0, true, 1}, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].duty_share; })));
+}
+
+void add_noise_keys(std::vector<ConfigKey>& keys) {
+    keys.push_back(required(text(
+        {"noise", "label", "", "Name of the noise level in tables and figures."}, {},
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].label; })));
+    keys.push_back(real(
+        {"noise", "multiplicative_ratio", "",
+         "Standard deviation of a reading's error as a share of the tension: 0.1 is 10 %."},
+        zero_or_more, 0.0,
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.multiplicative_ratio; }));
+    keys.push_back(real(
+        {"noise", "additive_N", "N", "Standard deviation of a reading's error at any tension."}, zero_or_more,
+        0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.additive_N; }));
+    keys.push_back(real(
+        {"noise", "bias_N", "N",
+         "Standard deviation of each sensor's offset, drawn once per repetition and the same at every "
+         "instant."},
+        zero_or_more, 0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.bias_N; }));
+}
+
+// ---- [layouts], [estimation], [recommendation]
+
+template <class Entry>
+std::vector<std::string> names_of(const std::vector<Entry>& catalogue) {
+    std::vector<std::string> names;
+    for (const Entry& entry : catalogue) names.emplace_back(entry.name);
+    return names;
+}
+
+// A list of names out of a catalogue, or "all".
+ConfigKey name_list(KeyText about, std::vector<std::string> catalogue,
+                    std::vector<std::string> StudyPlan::*field) {
+    ConfigKey key{about.section, about.name, ValueKind::names, about.unit};
+    key.help = std::move(about.help);
+    key.names = catalogue;
+    key.takes_all = true;
+    key.default_value = std::string("all");
+    key.read = [field](const StudyPlan& plan, int) -> ConfigValue { return plan.*field; };
+    key.write = [field, catalogue](StudyPlan& plan, int, const ConfigValue& value) {
+        const auto* given = std::get_if<std::vector<std::string>>(&value);
+        plan.*field = given ? *given : catalogue;
+    };
+    return key;
+}
+
+ConfigKey sensor_counts() {
+    ConfigKey key{"layouts", "counts", ValueKind::whole_numbers, "", {1, true, 10001}};
+    key.help = "Numbers of sensors tried with each family; \"all\" is 1 up to one at every node.";
+    key.takes_all = true;
+    key.default_value = std::string("all");
+    key.read = [](const StudyPlan& plan, int) -> ConfigValue {
+        return std::vector<std::int64_t>(plan.sensor_counts.begin(), plan.sensor_counts.end());
+    };
+    key.write = [](StudyPlan& plan, int, const ConfigValue& value) {
+        if (const auto* given = std::get_if<std::vector<std::int64_t>>(&value)) {
+            plan.sensor_counts.assign(given->begin(), given->end());
+        } else {
+            plan.sensor_counts.resize(plan.transmission.cable.segments + 1);
+            std::iota(plan.sensor_counts.begin(), plan.sensor_counts.end(), 1);
+        }
+    };
+    return key;
+}
+
+// People count nodes from 1, the plan from 0.
+ConfigKey explicit_layouts() {
+    ConfigKey key{"layouts", "explicit", ValueKind::node_sets, "", {1, true, 10001}};
+    key.help = "Further layouts as lists of nodes, counted from 1 at the proximal end: [[1, 6, 11], [3, 9]].";
+    key.default_value = std::vector<std::vector<std::int64_t>>{};
+    key.read = [](const StudyPlan& plan, int) -> ConfigValue {
+        std::vector<std::vector<std::int64_t>> sets;
+        for (const auto& nodes : plan.explicit_layouts) {
+            sets.emplace_back();
+            for (const int node : nodes) sets.back().push_back(node + 1);
+        }
+        return sets;
+    };
+    key.write = [](StudyPlan& plan, int, const ConfigValue& value) {
+        plan.explicit_layouts.clear();
+        for (const auto& set : std::get<std::vector<std::vector<std::int64_t>>>(value)) {
+            plan.explicit_layouts.emplace_back();
+            for (const auto node : set) plan.explicit_layouts.back().push_back(static_cast<int>(node) - 1);
+        }
+    };
+    return key;
+}
+
+void add_layout_keys(std::vector<ConfigKey>& keys) {
+    std::string help = "Rules that place sensors:";
+    for (const LayoutFamily& family : layout_families()) {
+        help += " \"" + std::string(family.name) + "\" " + std::string(family.meaning) + ";";
+    }
+    help.back() = '.';
+    keys.push_back(name_list({"layouts", "families", "", help}, names_of(layout_families()),
+                             &StudyPlan::layout_families));
+    keys.push_back(sensor_counts());
+    keys.push_back(explicit_layouts());
+}
+
+void add_estimation_keys(std::vector<ConfigKey>& keys) {
+    constexpr std::string_view at = "estimation";
+    std::string help = "Ways to fuse several sensors:";
+    for (const FusionMethod& method : fusion_methods()) {
+        help += " \"" + std::string(method.name) + "\" (" + std::string(method.title) + ") " +
+                std::string(method.meaning) + ";";
+    }
+    help.back() = '.';
+    keys.push_back(
+        name_list({at, "methods", "", help}, names_of(fusion_methods()), &StudyPlan::fusion_methods));
+    keys.push_back(choice<DistalSide>(
+        {at, "distal_side", "",
+         "Whether an estimate from one sensor may let the distal end set nodes of its own in motion. \"excluded\" fits "
+         "a blocked output, as in the paper; \"admitted\" fits an output that moves."},
+        {{"excluded", DistalSide::excluded}, {"admitted", DistalSide::admitted}}, std::string("excluded"),
+        [](auto& plan, int) -> auto& { return plan.distal_side; }));
+    keys.push_back(choice<WeightSource>(
+        {at, "weights", "",
+         "Where the W methods take their weights from: the single-sensor errors in \"mass_motion\" whatever the "
+         "regime, as the paper does (needs that regime), or those of the \"same_regime\"."},
+        {{"mass_motion", WeightSource::mass_motion}, {"same_regime", WeightSource::same_regime}},
+        std::string("mass_motion"), [](auto& plan, int) -> auto& { return plan.weight_source; }));
+    keys.push_back(real(
+        {at, "largest_distal_increment_m", "m",
+         "How far the distal end may have moved in one sample, either way: the flat prior of the "
+         "feasible-curve methods. 0.00063 m is the largest step of a 1 cm amplitude at 1 Hz and 100 "
+         "samples per second."},
+        above_zero, 0.00063, [](auto& plan, int) -> auto& { return plan.largest_distal_increment_m; }));
+    keys.push_back(whole(
+        {at, "curve_points", "", "Points along the curve of feasible states; a multiple of 8."},
+        {8, true, 100000}, std::int64_t{128}, [](auto& plan, int) -> auto& { return plan.curve_points; }));
+}
+
+std::vector<ConfigKey> all_keys() {
+    std::vector<ConfigKey> keys;
+    add_study_keys(keys);
+    add_transmission_keys(keys);
+    add_motion_keys(keys);
+    add_regime_keys(keys);
+    add_noise_keys(keys);
+    add_layout_keys(keys);
+    add_estimation_keys(keys);
+    keys.push_back(real(
+        {"recommendation", "worthwhile_gain_N", "N",
+         "One more sensor must lower the error by this much to be recommended."},
+        zero_or_more, 0.02, [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));
+    return keys;
+}
+
+}  // namespace
+
+std::string Limits::words() const {
+    const auto number = [](double value) {
+        std::string text = std::to_string(static_cast<long long>(value));
+        return text;
+    };
+    const bool open_above = std::isinf(high) || high >= 1e7;
+    if (std::isinf(low)) return open_above ? "" : "at most " + number(high);
+    if (open_above) return low_is_allowed ? number(low) + " or more" : "above " + number(low);
+    return (low_is_allowed ? "" : "above ") + number(low) + " to " + number(high);
+}
+
+const std::vector<ConfigSection>& config_sections() {
+    static const std::vector<ConfigSection> sections = {
+        {"", "The study."},
+        {"transmission", "The cable in its conduit."},
+        {"transmission.curvature",
+         "The conduit's course from the proximal end: pieces of one bend radius each.",
+         [](const StudyPlan& plan) { return static_cast<int>(plan.transmission.cable.curvature.size()); },
+         [](StudyPlan& plan, int count) { plan.transmission.cable.curvature.assign(count, {}); },
+         // The paper's: 2 m of conduit at its bend radius.
+         [](StudyPlan& plan) {
+             plan.transmission.cable.curvature = {{2.0, 0.28}};
+         }},
+        {"motion", "The true motion, which the estimators have to find out from the sensors."},
+        {"motion.proximal", "The proximal end, where the motor is."},
+        {"motion.distal", "The distal end, where the load is."},
+        {"regime", "Instants at which sensors are judged, by motion regime. Each regime once.",
+         [](const StudyPlan& plan) { return static_cast<int>(plan.regimes.size()); },
+         [](StudyPlan& plan, int count) { plan.regimes.assign(count, {}); },
+         // The paper's: samples 112 and 142 of its motion.
+         [](StudyPlan& plan) {
+             plan.regimes = {{Regime::mass, {112, 142}, 1.0}};
+         }},
+        {"noise",
+         "Noise levels: reading = T (1 + multiplicative_ratio e1) + additive_N e2 + bias_N e3, all e standard normal.",
+         [](const StudyPlan& plan) { return static_cast<int>(plan.noise_levels.size()); },
+         [](StudyPlan& plan, int count) { plan.noise_levels.assign(count, {}); },
+         // The paper's.
+         [](StudyPlan& plan) {
+             plan.noise_levels = {{"10 %", {.multiplicative_ratio = 0.1}}};
+         }},
+        {"layouts", "Where sensors may sit. Give families with counts, explicit layouts, or both."},
+        {"estimation", "How readings become tensions."},
+        {"recommendation", "What counts as better."},
+    };
+    return sections;
+}
+
+const std::vector<ConfigKey>& config_keys() {
+    static const std::vector<ConfigKey> keys = all_keys();
+    return keys;
+}
+
+}  // namespace capstan::cli

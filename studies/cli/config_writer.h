@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "capstan/placement/study_plan.h"
+
+namespace capstan::cli {
+
+enum class Comments { none, every_key };
+
+/// The configuration of a plan in full: every section and key in the order of the key table, so that equal
+/// plans have equal texts, and reading the text gives the plan again.
+std::string config_text(const StudyPlan& plan, Comments comments);
+
+/// The plan of an empty configuration: all defaults.
+StudyPlan default_plan();
+
+}  // namespace capstan::cli

@@ -1,0 +1,103 @@
+#include "capstan/cli/output.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+namespace capstan::cli {
+
+namespace {
+
+std::string what_to_try(int error) {
+    switch (error) {
+        case ENOSPC:
+        case EDQUOT:
+            return "the disk is full; free some space, or name a file on another disk";
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return "you may not write there; change the permission, or name a file in a folder of yours";
+        case ENOENT:
+        case ENOTDIR:
+            return "its folder does not exist; make it, or name a file elsewhere";
+        case EISDIR:
+            return "it is a folder; name a file in it";
+        default:
+            return std::strerror(error);
+    }
+}
+
+[[noreturn]] void refuse(const std::string& name, int error) {
+    throw std::runtime_error(fmt::format("cannot write {}: {}", name, what_to_try(error)));
+}
+
+bool write_all(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return false;
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+// Pipes, terminals and the like cannot be renamed over.
+bool is_special(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored) &&
+           !std::filesystem::is_directory(path, ignored);
+}
+
+void write_directly(const std::filesystem::path& path, std::string_view text) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) refuse(path.string(), errno);
+    const bool written = write_all(descriptor, text);
+    const int error = errno;
+    ::close(descriptor);
+    if (!written) refuse(path.string(), error);
+}
+
+}  // namespace
+
+void write_standard_output(std::string_view text) {
+    std::fflush(stdout);
+    if (!write_all(STDOUT_FILENO, text)) refuse("to standard output", errno);
+}
+
+void write_file(const std::filesystem::path& named, std::string_view text) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(named, ignored)) refuse(named.string(), EISDIR);
+    if (is_special(named)) return write_directly(named, text);
+
+    // A link keeps pointing where it does: what it names is replaced.
+    const std::filesystem::path path = std::filesystem::is_symlink(named, ignored)
+                                           ? std::filesystem::weakly_canonical(named, ignored)
+                                           : named;
+    const std::string temporary = fmt::format("{}.part-{}", path.string(), ::getpid());
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0) refuse(named.string(), errno);
+    bool good = write_all(descriptor, text) && ::fsync(descriptor) == 0;
+    int error = errno;
+    good = ::close(descriptor) == 0 && good;
+    if (good && ::rename(temporary.c_str(), path.c_str()) != 0) {
+        good = false;
+        error = errno;
+    }
+    if (good) return;
+    ::unlink(temporary.c_str());
+    refuse(named.string(), error);
+}
+
+void deliver(const Invocation& invocation, std::string_view text) {
+    const std::string& file = invocation.text("output");
+    if (file == "-") return write_standard_output(text);
+    write_file(file, text);
+}
+
+}  // namespace capstan::cli

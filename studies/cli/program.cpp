@@ -1,0 +1,131 @@
+#include "capstan/cli/program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/cli/command_line.h"
+#include "capstan/cli/commands.h"
+#include "capstan/cli/config_problem.h"
+#include "capstan/cli/help_text.h"
+#include "capstan/cli/nearest_name.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/usage_error.h"
+#include "capstan/storage/error.h"
+
+namespace capstan::cli {
+
+namespace {
+
+bool asks_for_help(const std::string& word) {
+    return word == "--help" || word == "-h";
+}
+
+// A command's name has one word or two.
+struct FoundCommand {
+    const Command* command = nullptr;
+    std::size_t words = 0;
+};
+
+FoundCommand find_command_in(const std::vector<std::string>& words) {
+    if (words.size() >= 2) {
+        if (const Command* command = find_command(words[0] + " " + words[1])) return {command, 2};
+    }
+    if (const Command* command = find_command(words[0])) return {command, 1};
+    return {};
+}
+
+[[noreturn]] void refuse_unknown(const std::vector<std::string>& words) {
+    const bool grouped = !group_help(words[0]).empty();
+    const bool second = grouped && words.size() >= 2;
+    if (grouped && !second)
+        throw UsageError(fmt::format("capstan {} what?\n\n{}", words[0], group_help(words[0])));
+    const std::string given = second ? words[0] + " " + words[1] : words[0];
+    std::vector<std::string> known;
+    for (const Command& command : commands()) {
+        const std::string name(command.name);
+        known.push_back(name);
+        if (!second && name.find(' ') != std::string::npos) known.push_back(name.substr(0, name.find(' ')));
+    }
+    if (!second) known.insert(known.end(), {"help", "--help", "--version"});
+    const auto nearest = nearest_name(given, known);
+    const bool is_option = given.starts_with("-");
+    throw UsageError(fmt::format("capstan: unknown {} '{}'{}\nTry `capstan --help`.",
+                                 is_option ? "option" : "command", given,
+                                 nearest ? "; did you mean '" + *nearest + "'?" : ""));
+}
+
+ExitCode show_help(const std::vector<std::string>& words) {
+    std::string text;
+    if (words.empty()) {
+        text = program_help();
+    } else if (const FoundCommand found = find_command_in(words); found.command != nullptr) {
+        text = command_help(*found.command);
+    } else if (words.size() == 1) {
+        text = group_help(words[0]);
+    }
+    if (text.empty()) refuse_unknown(words);
+    write_standard_output(text);
+    return ExitCode::success;
+}
+
+ExitCode dispatch(const std::vector<std::string>& words) {
+    if (words.empty()) {
+        write_standard_output(where_to_begin());
+        return ExitCode::success;
+    }
+    if (words[0] == "--version") {
+        write_standard_output("capstan " + program_version() + "\n");
+        return ExitCode::success;
+    }
+    if (words[0] == "help") return show_help({words.begin() + 1, words.end()});
+    const auto options_end = std::find(words.begin(), words.end(), "--");
+    if (std::any_of(words.begin(), options_end, asks_for_help)) {
+        std::vector<std::string> named(words.begin(),
+                                       std::find_if(words.begin(), options_end, asks_for_help));
+        named.resize(std::min<std::size_t>(named.size(), 2));
+        if (!named.empty() && group_help(named[0]).empty()) named.resize(1);
+        return show_help(named);
+    }
+    const FoundCommand found = find_command_in(words);
+    if (found.command == nullptr) refuse_unknown(words);
+    const auto rest = words.begin() + static_cast<std::ptrdiff_t>(found.words);
+    return found.command->run(parse_command_line(*found.command, {rest, words.end()}));
+}
+
+void say(const std::string& message) {
+    fmt::print(stderr, "{}{}", message, message.ends_with('\n') ? "" : "\n");
+}
+
+}  // namespace
+
+std::string program_version() {
+    return CAPSTAN_VERSION;
+}
+
+ExitCode run_program(const std::vector<std::string>& words) {
+    try {
+        return dispatch(words);
+    } catch (const UsageError& error) {
+        say(error.what());
+        return ExitCode::wrong_input;
+    } catch (const InvalidInput& error) {
+        for (const std::string& problem : error.problems()) say("capstan: " + problem);
+        return ExitCode::wrong_input;
+    } catch (const storage::Error& error) {
+        say(std::string("capstan: ") + error.what());
+        return ExitCode::database_problem;
+    } catch (const std::bad_alloc&) {
+        say("capstan: out of memory; try fewer repetitions or fewer samples");
+        return ExitCode::failure;
+    } catch (const std::exception& error) {
+        say(std::string("capstan: ") + error.what());
+        return ExitCode::failure;
+    }
+}
+
+}  // namespace capstan::cli

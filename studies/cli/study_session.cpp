@@ -1,0 +1,100 @@
+#include "capstan/cli/study_session.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/json_text.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/progress_display.h"
+#include "capstan/cli/recommendation_words.h"
+#include "capstan/cli/stop_request.h"
+#include "capstan/paper/placement_comparison.h"
+
+namespace capstan::cli {
+
+namespace {
+
+void say_times(const StudyTimes& times) {
+    const std::pair<const char*, double> rows[] = {
+        {"true motion, estimators' tables", times.prepare_s},
+        {"readings, single sensors, paper's methods", times.paper_methods_s},
+        {"feasible-curve methods", times.feasible_curve_s},
+        {"statistics", times.statistics_s},
+        {"recommendations, comparison", times.conclusions_s},
+        {"database (wall time)", times.storage_s},
+        {"from plan to database (wall time)", times.wall_s},
+    };
+    fmt::print(stderr, "Processor time over all threads:\n");
+    for (const auto& [what, seconds] : rows)
+        fmt::print(stderr, "  {:<42} {:>9.1f} ms\n", what, 1e3 * seconds);
+}
+
+void say_end(ProgressMode mode, const std::string& event, const std::string& words, std::int64_t study_id) {
+    if (mode == ProgressMode::none) return;
+    if (mode == ProgressMode::automatic) {
+        fmt::print(stderr, "{}\n", words);
+        return;
+    }
+    const nlohmann::ordered_json json = {{"event", event}, {"study_id", study_id}, {"message", words}};
+    fmt::print(stderr, "{}\n", json.dump());
+}
+
+}  // namespace
+
+std::vector<Option> session_options() {
+    return {database_option, jobs_option,  output_option, json_option,
+            progress_option, stats_option, help_option};
+}
+
+ExitCode run_session(const Invocation& invocation, storage::Database& database, const std::string& study_name,
+                     const std::function<RunOutcome(const RunOptions&)>& work) {
+    ProgressDisplay display(progress_mode(invocation.text("progress")), study_name);
+    RunOptions options;
+    options.jobs = static_cast<int>(invocation.whole("jobs"));
+    options.on_progress = [&](const StudyProgress& progress) { display.show(progress); };
+    options.compare_with_paper = paper::compare_placement;
+    RunOutcome outcome;
+    {
+        const StopRequest stoppable;
+        options.stop = StopRequest::flag();
+        try {
+            outcome = work(options);
+        } catch (...) {
+            display.end_line();
+            throw;
+        }
+    }
+    display.end_line();
+    if (invocation.has("stats")) say_times(outcome.times);
+
+    const std::string file = invocation.text("db");
+    switch (outcome.end) {
+        case RunEnd::stopped:
+            // Said even with --progress none: it is an answer, not progress.
+            say_end(display.mode() == ProgressMode::none ? ProgressMode::automatic : display.mode(),
+                    "stopped",
+                    fmt::format(
+                        "Stopped; every finished unit is kept. Go on with: capstan study resume {} --db {}",
+                        outcome.study_id, file),
+                    outcome.study_id);
+            return ExitCode::stopped;
+        case RunEnd::complete:
+            say_end(display.mode(), "complete",
+                    fmt::format("Study {} ({}) is complete in {}, after {:.2f} s.", outcome.study_id,
+                                study_name, file, outcome.times.wall_s),
+                    outcome.study_id);
+            deliver_conclusions(invocation, database, outcome.study_id);
+            return ExitCode::success;
+    }
+    return ExitCode::failure;
+}
+
+void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id) {
+    const Conclusions conclusions = read_conclusions(database, study_id);
+    deliver(invocation, invocation.has("json") ? json_text(in_json(conclusions)) : in_words(conclusions));
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+
+#include "capstan/cli/command.h"
+#include "capstan/placement/study_run.h"
+#include "capstan/storage/database.h"
+
+namespace capstan::cli {
+
+/// Options of every command that computes a study.
+std::vector<Option> session_options();
+
+/// Runs `work` with progress shown and Ctrl-C caught, then gives the study's conclusions, or says how to go
+/// on.
+ExitCode run_session(const Invocation& invocation, storage::Database& database, const std::string& study_name,
+                     const std::function<RunOutcome(const RunOptions&)>& work);
+
+/// The answer of a study that is complete.
+void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id);
+
+}  // namespace capstan::cli

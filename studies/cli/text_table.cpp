@@ -1,0 +1,114 @@
+#include "capstan/cli/text_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "capstan/cli/json_text.h"
+#include "capstan/cli/wrapped_text.h"
+
+namespace capstan::cli {
+
+namespace {
+
+using storage::QueryResult;
+using storage::QueryValue;
+
+bool is_number(const QueryValue& value) {
+    return std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value);
+}
+
+// Line breaks would tear a table apart.
+std::string on_one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+struct ForPeople {
+    std::string operator()(std::monostate) const { return ""; }
+    std::string operator()(std::int64_t value) const { return std::to_string(value); }
+    std::string operator()(double value) const { return fmt::format("{:.6g}", value); }
+    std::string operator()(const std::string& value) const { return on_one_line(value); }
+};
+
+struct ForCsv {
+    std::string operator()(std::monostate) const { return ""; }
+    std::string operator()(std::int64_t value) const { return std::to_string(value); }
+    std::string operator()(double value) const { return fmt::format("{}", value); }
+    std::string operator()(const std::string& value) const {
+        if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
+        std::string quoted = "\"";
+        for (const char c : value) quoted += c == '"' ? "\"\"" : std::string(1, c);
+        return quoted + "\"";
+    }
+};
+
+struct ForJson {
+    nlohmann::ordered_json operator()(std::monostate) const { return nullptr; }
+    nlohmann::ordered_json operator()(const auto& value) const { return value; }
+};
+
+std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
+    const std::string blanks(width - std::min(width, columns_of(text)), ' ');
+    return to_the_right ? blanks + text : text + blanks;
+}
+
+std::string without_trailing_blanks(std::string line) {
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + "\n";
+}
+
+}  // namespace
+
+std::string as_table(const QueryResult& result) {
+    std::vector<std::size_t> width;
+    std::vector<bool> numeric;
+    for (std::size_t c = 0; c < result.columns.size(); ++c) {
+        width.push_back(columns_of(result.columns[c]));
+        numeric.push_back(!result.rows.empty());
+        for (const auto& row : result.rows) {
+            width[c] = std::max(width[c], columns_of(std::visit(ForPeople{}, row[c])));
+            if (!is_number(row[c]) && !std::holds_alternative<std::monostate>(row[c])) numeric[c] = false;
+        }
+    }
+    std::string head, rule, body;
+    for (std::size_t c = 0; c < width.size(); ++c) {
+        head += padded(result.columns[c], width[c], numeric[c]) + "  ";
+        rule += std::string(width[c], '-') + "  ";
+    }
+    for (const auto& row : result.rows) {
+        std::string line;
+        for (std::size_t c = 0; c < width.size(); ++c) {
+            line += padded(std::visit(ForPeople{}, row[c]), width[c], numeric[c]) + "  ";
+        }
+        body += without_trailing_blanks(std::move(line));
+    }
+    return without_trailing_blanks(std::move(head)) + without_trailing_blanks(std::move(rule)) + body;
+}
+
+std::string as_csv(const QueryResult& result) {
+    std::string text;
+    for (std::size_t c = 0; c < result.columns.size(); ++c)
+        text += (c == 0 ? "" : ",") + ForCsv{}(result.columns[c]);
+    text += "\n";
+    for (const auto& row : result.rows) {
+        for (std::size_t c = 0; c < row.size(); ++c)
+            text += (c == 0 ? "" : ",") + std::visit(ForCsv{}, row[c]);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string as_json(const QueryResult& result) {
+    auto rows = nlohmann::ordered_json::array();
+    for (const auto& row : result.rows) {
+        auto object = nlohmann::ordered_json::object();
+        for (std::size_t c = 0; c < row.size(); ++c)
+            object[result.columns[c]] = std::visit(ForJson{}, row[c]);
+        rows.push_back(std::move(object));
+    }
+    return json_text(rows);
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,44 @@
+# Debian packages of capstan: the one list, and how to install what is missing. To be sourced.
+
+build_packages=(
+    g++ cmake ninja-build ccache
+    libeigen3-dev libtbb-dev libsqlite3-dev libboost-program-options-dev libboost-math-dev
+    librandom123-dev libhwy-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
+    nodejs npm
+)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev sqlite3 python3 chromium)
+
+# Programs count however they were installed; a package that only brings programs is missing only without them.
+package_is_there() {
+    case $1 in
+        g++ | cmake | ccache | npm | sqlite3 | python3 | chromium) command -v "$1" >/dev/null && return ;;
+        ninja-build) command -v ninja >/dev/null && return ;;
+        nodejs) command -v node >/dev/null && return ;;
+    esac
+    [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+# Installs those of the named packages that are missing; does nothing, and asks for nothing, when all are there.
+install_missing() {
+    local missing=() package
+    for package in "$@"; do
+        package_is_there "$package" || missing+=("$package")
+    done
+    [[ ${#missing[@]} -eq 0 ]] && return
+    if ! command -v apt-get >/dev/null; then
+        echo "These Debian packages are missing, and there is no apt-get: ${missing[*]}" >&2
+        echo "Install what they are called on this system, then try again." >&2
+        return 1
+    fi
+    echo "Installing ${missing[*]}" >&2
+    local as_root=(env DEBIAN_FRONTEND=noninteractive)
+    if [[ $(id -u) -ne 0 ]]; then
+        if ! command -v sudo >/dev/null; then
+            echo "That needs root: run as root apt-get install ${missing[*]}" >&2
+            return 1
+        fi
+        as_root=(sudo "${as_root[@]}")
+    fi
+    "${as_root[@]}" apt-get update >&2
+    "${as_root[@]}" apt-get install --yes --no-install-recommends "${missing[@]}" >&2
+}

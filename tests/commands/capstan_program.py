@@ -1,0 +1,56 @@
+"""Running the program under test in a folder of its own."""
+
+import os
+import pathlib
+import sqlite3
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CAPSTAN"]
+CONFIGS = pathlib.Path(os.environ["CAPSTAN_CONFIGS"])
+
+
+class CapstanTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_capstan(self, *words, expect=0, **options):
+        """The finished process; fails unless it ends with the expected exit code."""
+        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                              **options)
+        self.assertEqual(done.returncode, expect, f"capstan {' '.join(map(str, words))}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def start_capstan(self, *words):
+        process = subprocess.Popen([PROGRAM, *map(str, words)], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.end, process)
+        return process
+
+    @staticmethod
+    def end(process):
+        process.kill()
+        process.communicate()
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+    def tables(self, name):
+        """Every row of every table; Python prints and compares doubles bit for bit."""
+        connection = sqlite3.connect(self.folder / name)
+        self.addCleanup(connection.close)
+        names = [row[0] for row in connection.execute("SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name")]
+        self.assertIn("cell", names)
+        return {table: sorted(connection.execute(f"SELECT * FROM {table}").fetchall(), key=repr) for table in names}
+
+    def assert_same_bits(self, expected, actual):
+        """Names the first difference instead of printing two databases."""
+        self.assertEqual(sorted(expected), sorted(actual))
+        for table, rows in expected.items():
+            self.assertEqual(len(rows), len(actual[table]), table)
+            for row, other in zip(rows, actual[table]):
+                self.assertEqual(repr(row), repr(other), table)

@@ -1,0 +1,55 @@
+"""A newcomer finds the way: help names everything, a slip of the finger gets the nearest name."""
+
+import re
+import unittest
+
+from capstan_program import CapstanTest
+
+
+class Help(CapstanTest):
+    def commands(self):
+        listing = self.run_capstan("--help").stdout.split("Commands:\n")[1].split("\n\n")[0]
+        return [re.match(r"  (\S+(?: \S+)?)  ", line).group(1) for line in listing.splitlines() if line.startswith("  ")
+                and not re.match(r"  (help|--version)", line)]
+
+    def test_alone_shows_where_to_begin(self):
+        self.assertIn("capstan study run", self.run_capstan().stdout)
+
+    def test_every_command_explains_itself_the_same_way_twice(self):
+        names = self.commands()
+        self.assertGreaterEqual(len(names), 12)
+        for name in names:
+            asked = self.run_capstan(*name.split(), "--help").stdout
+            self.assertEqual(asked, self.run_capstan("help", *name.split()).stdout)
+            for part in ("Usage: capstan " + name, "Options:", "--help", "Exit codes:", "130"):
+                self.assertIn(part, asked)
+
+    def test_every_option_in_an_example_is_explained(self):
+        for name in self.commands():
+            text = self.run_capstan(*name.split(), "--help").stdout
+            options, _, examples = text.partition("Examples:")
+            for option in re.findall(r"(?<=\s)--[a-z-]+", examples.partition("Exit codes:")[0]):
+                self.assertIn(option, options, name)
+
+    def test_slips_get_the_nearest_name(self):
+        for words, text in (
+            (("reprot",), "did you mean 'report'?"),
+            (("study", "rum"), "did you mean 'study run'?"),
+            (("studdy",), "did you mean 'study'?"),
+            (("study", "run", "x.toml", "--job", "3"), "did you mean '--jobs'?"),
+            (("--versoin",), "did you mean '--version'?"),
+            (("study",), "study resume"),
+            (("study", "run"), "CONFIG is missing"),
+            (("study", "delete"), "STUDY is missing"),
+            (("query",), "SQL is missing"),
+        ):
+            done = self.run_capstan(*words, expect=2)
+            self.assertIn(text, done.stderr)
+            self.assertEqual(done.stdout, "")
+
+    def test_version(self):
+        self.assertRegex(self.run_capstan("--version").stdout, r"^capstan \d+\.\d+\.\d+\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()
