@@ -32,8 +32,10 @@ std::vector<PairedDifference> simultaneous_differences(const std::vector<Score>&
         }
         const double standard_error_N = mean_and_error(difference_N).standard_error;
         const double mean_N = scores[other].objective_N - reference.objective_N;
-        // Two sets that give the same estimates differ by nothing, however wide a t interval may be.
-        const double reach_N = standard_error_N > 0.0 ? half_width * standard_error_N : 0.0;
+        // Two sets that give the same estimates differ by nothing; a single block tells nothing of the
+        // spread.
+        const bool identical = blocks > 1 && standard_error_N == 0.0;
+        const double reach_N = identical ? 0.0 : blocks > 1 ? half_width * standard_error_N : half_width;
         differences.push_back({other, mean_N, mean_N - reach_N, mean_N + reach_N});
     }
     return differences;

@@ -98,11 +98,12 @@ SingleSensorResult example_single_sensor(int scenario_index, int noise_index, co
 
 FusionResult example_fusion(int scenario_index, int noise_index, const ExampleSize& size) {
     Distinct value(100 + scenario_index + 0.01 * noise_index);
-    FusionResult result{scenario_index, noise_index, {}, {}};
+    FusionResult result{scenario_index, noise_index, {}, {}, {}};
     for (int sensor = 1; sensor <= size.nodes; ++sensor) result.weights.push_back({sensor, 1.0 / size.nodes});
     for (int set = 0; set < size.sensor_sets; ++set) {
         for (const char* method : {"w_mean_r", "mean"})
             result.cells.push_back(cell(set, method, size, value));
+        result.bounds.push_back({set, value.next()});
     }
     return result;
 }

@@ -90,7 +90,8 @@ CableSpecification straight_conduit() {
 }
 
 INSTANTIATE_TEST_SUITE_P(NoFrictionOrNoBend, IdealCable,
-                         testing::Values(without_friction(), straight_conduit()));
+                         testing::Values(without_friction(), straight_conduit()),
+                         [](const auto& which) { return which.index == 0 ? "NoFriction" : "NoBend"; });
 
 TEST(PartialMotion, ReachesTheFarEndWhereMassMotionBegins) {
     CableSpecification specification = test::paper_specification(10);

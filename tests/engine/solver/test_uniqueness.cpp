@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "example_cables.h"
 #include "sign_vector_enumeration.h"
@@ -134,11 +136,19 @@ TEST_P(EveryMode, WithStictionTheStepsAnswerVerifiesAndMovesTheFewestNodes) {
     EXPECT_EQ(tally.unverified, 0);
 }
 
+std::string name_of_mode(const testing::TestParamInfo<std::tuple<int, Mode>>& info) {
+    const std::vector<std::string> names = {"PositionPosition", "PositionTension", "TensionPosition",
+                                            "PositionSpring", "SpringPosition"};
+    const auto [segments, mode] = info.param;
+    return names[static_cast<std::size_t>(mode)] + std::to_string(segments) + "Segments";
+}
+
 INSTANTIATE_TEST_SUITE_P(Uniqueness, EveryMode,
                          testing::Combine(testing::Values(4, 5),
                                           testing::Values(Mode::position_position, Mode::position_tension,
                                                           Mode::tension_position, Mode::position_spring,
-                                                          Mode::spring_position)));
+                                                          Mode::spring_position)),
+                         name_of_mode);
 
 TEST(Uniqueness, HoldsAtStepsOfFourTenthsOfAMillimetreToo) {
     const Tally tally = walk_and_compare({4, 0.21, Mode::position_position, 4e-4}, 3000, 11);

@@ -180,8 +180,8 @@ TEST(ConfigWriter, AwkwardValuesRoundTrip) {
     plan.transmission.cable.pretension_N = 0.1 + 0.2;
     plan.transmission.cable.axial_stiffness_N = 1e20;
     plan.transmission.cable.curvature.push_back({0.5, straight});
-    plan.motion.distal = {EndKind::spring, 1e-7, 0.3, -1.5, 123.456};
-    plan.motion.proximal = {EndKind::tension, 3.0, 0.5, 0.0, 0.0};
+    plan.motion.distal = {EndKind::spring, 1e-7, 0.3, -1.5, 0.25, 2.5, 123.456};
+    plan.motion.proximal = {EndKind::tension, 3.0, 0.5, 0.0, 0.0, 1e9, 0.0};
     plan.explicit_layouts = {{10, 0}, {4}};
     expect_round_trip(plan);
 }

@@ -1,0 +1,145 @@
+// Cells made by hand, so that the best choice is plain to see.
+#include <gtest/gtest.h>
+
+#include "capstan/placement/recommendation.h"
+#include "capstan/storage/study_store.h"
+#include "temporary_study.h"
+
+namespace capstan {
+namespace {
+
+constexpr int blocks = 40;
+
+struct HandMadeSet {
+    std::vector<int> nodes;  // from 1
+    double mass_error_N;
+    double partial_error_N;
+};
+
+// In mass motion two sensors halve the error of one and a third gains nothing; in partial motion the proximal
+// sensor alone is best.
+const std::vector<HandMadeSet> sets = {{{11}, 1.0, 0.5},
+                                       {{1}, 2.0, 0.2},
+                                       {{1, 11}, 0.5, 0.4},
+                                       {{10, 11}, 0.502, 0.9},
+                                       {{9, 10, 11}, 0.495, 0.395}};
+
+storage::StudyDescription description() {
+    storage::StudyDescription study;
+    study.study = {0, "by hand", "", "test", 1, 400, 10, "running"};
+    study.regimes = {{"mass", 0.75}, {"partial_proximal", 0.25}};
+    for (const char* regime : {"mass", "partial_proximal"}) {
+        storage::ScenarioRecord scenario;
+        scenario.regime = regime;
+        scenario.motion = "forward";
+        study.scenarios.push_back(scenario);
+    }
+    study.noise_levels = {{"10 %", 0.1, 0.0, 0.0}};
+    study.fusion_methods = {{"mean_known", "Mean, direction known", "direction_known", ""},
+                            {"w_mean", "W Mean", "direction_unknown", ""}};
+    for (const HandMadeSet& set : sets) study.sensor_sets.push_back({set.nodes});
+    study.layouts = {{"both", "", 2, "Both, 2 sensors", 2}, {"distal", "", 2, "Distal, 2 sensors", 3}};
+    study.work_units = {{"fusion", 0, 0}, {"fusion", 1, 0}};
+    return study;
+}
+
+// Blocks spread by 0.012 N around the mean, each set in an order of its own.
+storage::CellRecord cell(int set_index, const std::string& method, double error_N) {
+    storage::CellRecord record;
+    record.set_index = set_index;
+    record.method = method;
+    record.repetitions = 400;
+    record.mean_abs_error_N = error_N;
+    record.standard_error_N = 0.002;
+    record.worst_node = 1;
+    for (int b = 0; b < blocks; ++b) {
+        record.block_mean_abs_error_N.push_back(error_N + 0.001 * ((7 * b + 3 * set_index) % blocks - 19.5));
+    }
+    return record;
+}
+
+std::vector<storage::RecommendationRecord> recommended() {
+    test::TemporaryStudy study;
+    const std::int64_t id = storage::begin_study(study.database(), description());
+    for (int scenario = 0; scenario < 2; ++scenario) {
+        storage::FusionResult result{scenario, 0, {}, {}, {}};
+        for (int s = 0; s < static_cast<int>(sets.size()); ++s) {
+            result.cells.push_back(cell(s, "mean_known", 0.001));
+            result.cells.push_back(
+                cell(s, "w_mean", scenario == 0 ? sets[s].mass_error_N : sets[s].partial_error_N));
+        }
+        storage::write_fusion(study.database(), id, scenario, result);
+    }
+    return recommend(study.database(), id, {0.02});
+}
+
+storage::RecommendationRecord find(const std::string& scope, const std::string& regime) {
+    for (const auto& record : recommended()) {
+        if (record.scope == scope && record.regime == regime) return record;
+    }
+    ADD_FAILURE() << "no recommendation for " << scope << " " << regime;
+    return {};
+}
+
+TEST(Recommendation, AnswersEachRegimeAndBothWaysOfWeighingThem) {
+    EXPECT_EQ(recommended().size(), 4u);
+}
+
+TEST(Recommendation, StopsAtTheCountWhereTheGainFlattens) {
+    const auto mass = find("regime", "mass");
+    EXPECT_EQ(mass.sensor_count, 2);
+    EXPECT_EQ(mass.set_index, 2);
+    EXPECT_EQ(mass.method, "w_mean") << "a method that is told the direction is no choice";
+    EXPECT_DOUBLE_EQ(mass.error_N, 0.5);
+    EXPECT_NEAR(mass.interval_high_N - mass.interval_low_N, 2.0 * 1.96 * 0.002, 1e-6);
+    ASSERT_EQ(mass.counts.size(), 3u);
+    EXPECT_EQ(mass.counts[0].set_index, 0);
+    EXPECT_EQ(mass.counts[1].set_index, 2);
+    EXPECT_EQ(mass.counts[2].set_index, 4);
+
+    const auto partial = find("regime", "partial_proximal");
+    EXPECT_EQ(partial.sensor_count, 1);
+    EXPECT_EQ(partial.set_index, 1);
+}
+
+// Nodes 10 and 11 are 0.002 N behind, with a standard error of the difference of about 0.003 N.
+TEST(Recommendation, NamesWhatCannotBeToldFromIt) {
+    const auto mass = find("regime", "mass");
+    ASSERT_EQ(mass.alternatives.size(), 1u);
+    EXPECT_EQ(mass.alternatives[0].set_index, 3);
+    EXPECT_NEAR(mass.alternatives[0].difference_N, 0.002, 1e-12);
+    EXPECT_LE(mass.alternatives[0].interval_low_N, 0.0);
+    EXPECT_TRUE(find("regime", "partial_proximal").alternatives.empty());
+}
+
+// Regrets: mass 0.505, 1.505, 0.005, 0.007, 0; partial 0.3, 0, 0.2, 0.7, 0.195.
+TEST(Recommendation, MinimaxRegretTakesTheSmallestOfTheLargest) {
+    const auto safe = find("minimax_regret", "");
+    EXPECT_EQ(safe.set_index, 2);
+    EXPECT_NEAR(safe.error_N, 0.2, 1e-12);
+    ASSERT_EQ(safe.counts.size(), 3u);
+    EXPECT_NEAR(safe.counts[0].error_N, 0.505, 1e-12);
+    EXPECT_NEAR(safe.counts[2].error_N, 0.195, 1e-12);
+}
+
+TEST(Recommendation, TheDutyCycleWeighsRegimesByTheirTime) {
+    const auto duty = find("duty_cycle", "");
+    EXPECT_EQ(duty.set_index, 2);
+    EXPECT_NEAR(duty.error_N, 0.75 * 0.5 + 0.25 * 0.4, 1e-12);
+}
+
+TEST(Recommendation, TheSentenceNamesNodesMethodAndInterval) {
+    const std::string sentence = find("regime", "mass").sentence;
+    for (const char* part : {"2 sensors at nodes 1 and 11", "W Mean", "0.500 N (0.496 to 0.504 N at 95%)",
+                             "10 %", "One more sensor", "1 other choice", "whole cable moves"}) {
+        EXPECT_NE(sentence.find(part), std::string::npos) << part << " is not in: " << sentence;
+    }
+    const std::string alone = find("regime", "partial_proximal").sentence;
+    EXPECT_NE(alone.find("1 sensor at node 1"), std::string::npos) << alone;
+    EXPECT_NE(alone.find("worse beyond doubt"), std::string::npos) << alone;
+    const std::string safe = find("minimax_regret", "").sentence;
+    EXPECT_NE(safe.find("at most 0.200 N"), std::string::npos) << safe;
+}
+
+}  // namespace
+}  // namespace capstan
