@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/solver/sliding_run.h"
+
 namespace capstan {
 
 namespace {
 
-// Rounding of displacements of up to a metre, with three digits to spare.
-constexpr double displacement_rounding_m = 1e-12;
 // Relative rounding of a tension against the friction cone.
 constexpr double tension_rounding = 1e-10;
 
@@ -37,25 +37,6 @@ EndValues proximal_values(const EndConditions& ends, double tension_ratio, doubl
 bool cone_holds(const StepView& view, int segment, double tension_a_N, double tension_b_N) {
     const double ratio = view.holding_ratio(segment) * (1.0 + tension_rounding);
     return tension_a_N <= tension_b_N * ratio && tension_b_N <= tension_a_N * ratio;
-}
-
-bool moves_along(const StepView& view, const Candidate& candidate, int first, int last, Direction direction) {
-    const auto increment_m = [&](int node) {
-        return sign(direction) * (moving_displacement_m(view, candidate, node) - view.displacement_m(node));
-    };
-    switch (view.rules.check) {
-        case VelocityCheck::every_node:
-            for (int node = first; node <= last; ++node) {
-                if (increment_m(node) < -displacement_rounding_m) return false;
-            }
-            return true;
-        case VelocityCheck::segment_mean:
-            for (int node = first; node < last; ++node) {
-                if (increment_m(node) + increment_m(node + 1) < -displacement_rounding_m) return false;
-            }
-            return true;
-    }
-    return false;
 }
 
 // A prescribed value is written as prescribed: the rounding of a sum must not drive the next step.
@@ -144,12 +125,9 @@ bool verifies(const StepView& view, const Candidate& candidate) {
     const int far_first =
         last_node + 1 - pattern.distal_moving_nodes;  // first moving node of the distal side
 
-    if (near > 0 && !moves_along(view, candidate, 0, near - 1, pattern.proximal_direction)) return false;
+    if (!moves_along(proximal_run(view, candidate), pattern.proximal_direction, view)) return false;
     if (pattern.kind == MotionKind::mass) return true;
-    if (far_first <= last_node &&
-        !moves_along(view, candidate, far_first, last_node, pattern.distal_direction)) {
-        return false;
-    }
+    if (!moves_along(distal_run(view, candidate), pattern.distal_direction, view)) return false;
     if (pattern.kind == MotionKind::opposed) return true;
     if (near == far_first) return holding_reserve(view, candidate) * (1.0 + tension_rounding) >= 1.0;  // E8
     const bool near_holds =
@@ -182,15 +160,8 @@ void write_state(const StepView& view, const Candidate& candidate, const EndCond
             state.displacement_m[node] = start_m + gap_m * node / (nodes - 1);
         }
     } else {
-        for (int node = 0; node < pattern.proximal_moving_nodes; ++node) {
-            state.tension_N[node] = moving_tension_N(view, candidate, node);
-            state.displacement_m[node] = moving_displacement_m(view, candidate, node);
-        }
-        const int first = std::max(pattern.proximal_moving_nodes, nodes - pattern.distal_moving_nodes);
-        for (int node = first; node < nodes; ++node) {
-            state.tension_N[node] = moving_tension_N(view, candidate, node);
-            state.displacement_m[node] = moving_displacement_m(view, candidate, node);
-        }
+        write_run(proximal_run(view, candidate), state);
+        write_run(distal_run(view, candidate), state);
         if (pattern.proximal_moving_nodes > 0) pin(ends.proximal, 0, state);
         if (pattern.distal_moving_nodes > 0) pin(ends.distal, nodes - 1, state);
     }

@@ -15,7 +15,17 @@ namespace capstan {
 
 namespace {
 
-void demand_solvable(const EndConditions& ends) {
+bool is_line(const EndCondition& end) {
+    return std::isfinite(end.displacement_factor) && std::isfinite(end.tension_factor) &&
+           std::isfinite(end.value) && (end.displacement_factor != 0.0 || end.tension_factor != 0.0);
+}
+
+bool solvable(const EndConditions& ends) {
+    return is_line(ends.proximal) && is_line(ends.distal) &&
+           (ends.proximal.displacement_factor != 0.0 || ends.distal.displacement_factor != 0.0);
+}
+
+[[noreturn]] void refuse(const EndConditions& ends) {
     std::vector<std::string> problems;
     const auto check = [&](const EndCondition& end, const char* name) {
         if (!std::isfinite(end.displacement_factor) || !std::isfinite(end.tension_factor) ||
@@ -27,13 +37,12 @@ void demand_solvable(const EndConditions& ends) {
     };
     check(ends.proximal, "proximal");
     check(ends.distal, "distal");
-    if (problems.empty() && ends.proximal.displacement_factor == 0.0 &&
-        ends.distal.displacement_factor == 0.0) {
+    if (problems.empty()) {
         problems.push_back(
             "a tension is prescribed at both ends, so the displacement is undetermined; prescribe a position "
             "or a spring at one end");
     }
-    if (!problems.empty()) throw InvalidInput(problems);
+    throw InvalidInput(problems);
 }
 
 // Which way an end node would go if it moved alone against its resting neighbour (E3 with E6); an input that
@@ -155,7 +164,7 @@ QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
     : cable_(cable), rules_(rules), tables_(cable_, rules) {}
 
 StepReport QuasiStaticStep::advance(CableState& state, const EndConditions& ends) const {
-    demand_solvable(ends);
+    if (!solvable(ends)) refuse(ends);
     const StepView view{tables_, rules_, state};
     int patterns_tried = 0;
 
