@@ -6,7 +6,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/stored_study.h"
-#include "capstan/cli/study_session.h"
+#include "capstan/cli/watched_run.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
@@ -29,7 +29,7 @@ ExitCode run(const Invocation& invocation) {
             "Note: study {} was begun by capstan {}, this is {}; the rest may differ in the last bits.\n", id,
             study.program_version, program_version());
     }
-    return run_session(invocation, database, study.name, [&](const RunOptions& options) {
+    return run_watched(invocation, database, study.name, [&](const RunOptions& options) {
         return resume_study(database, id, stored.plan, options);
     });
 }
@@ -43,7 +43,7 @@ Command study_resume_command() {
         "Goes on with a study that was stopped or killed, from the configuration stored with it. The units that "
         "are stored stay; the tables end with the same bits as without the interruption.",
         {study_argument},
-        session_options(),
+        watched_run_options(),
         {"capstan study resume", "capstan study resume paper --db paper.db"},
         run};
 }

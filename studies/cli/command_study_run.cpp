@@ -5,7 +5,7 @@
 #include "capstan/cli/config_reader.h"
 #include "capstan/cli/config_writer.h"
 #include "capstan/cli/program.h"
-#include "capstan/cli/study_session.h"
+#include "capstan/cli/watched_run.h"
 
 namespace capstan::cli {
 
@@ -23,7 +23,7 @@ ExitCode run(const Invocation& invocation) {
     override_from(invocation, config.plan);
     require_runnable(config);
     storage::Database database = storage::Database::open_or_create(invocation.text("db"));
-    return run_session(invocation, database, config.plan.name, [&](const RunOptions& options) {
+    return run_watched(invocation, database, config.plan.name, [&](const RunOptions& options) {
         return run_study(database, config.plan, program_version(), options);
     });
 }
@@ -31,7 +31,7 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command study_run_command() {
-    std::vector<Option> options = session_options();
+    std::vector<Option> options = watched_run_options();
     options.insert(options.begin() + 2, {seed_option, repetitions_option});
     return {
         "study run",

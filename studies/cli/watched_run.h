@@ -9,11 +9,11 @@
 namespace capstan::cli {
 
 /// Options of every command that computes a study.
-std::vector<Option> session_options();
+std::vector<Option> watched_run_options();
 
 /// Runs `work` with progress shown and Ctrl-C caught, then gives the study's conclusions, or says how to go
 /// on.
-ExitCode run_session(const Invocation& invocation, storage::Database& database, const std::string& study_name,
+ExitCode run_watched(const Invocation& invocation, storage::Database& database, const std::string& study_name,
                      const std::function<RunOutcome(const RunOptions&)>& work);
 
 /// The answer of a study that is complete.

@@ -1,4 +1,4 @@
-#include "capstan/cli/study_session.h"
+#include "capstan/cli/watched_run.h"
 
 #include <fmt/format.h>
 
@@ -44,12 +44,12 @@ void say_end(ProgressMode mode, const std::string& event, const std::string& wor
 
 }  // namespace
 
-std::vector<Option> session_options() {
+std::vector<Option> watched_run_options() {
     return {database_option, jobs_option,  output_option, json_option,
             progress_option, stats_option, help_option};
 }
 
-ExitCode run_session(const Invocation& invocation, storage::Database& database, const std::string& study_name,
+ExitCode run_watched(const Invocation& invocation, storage::Database& database, const std::string& study_name,
                      const std::function<RunOutcome(const RunOptions&)>& work) {
     ProgressDisplay display(progress_mode(invocation.text("progress")), study_name);
     RunOptions options;
