@@ -1,6 +1,8 @@
 #include "capstan/estimation/consensus.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 
 namespace capstan {
 
@@ -22,12 +24,12 @@ class BitCounts {
         }
     }
 
-    /// Places whose count is at least `threshold`, above 0.
-    std::uint64_t at_least(int threshold) const {
+    /// Places whose count is at least `threshold`, above 0, when no count is above `most`.
+    std::uint64_t at_least(int threshold, int most) const {
         // count >= threshold unless the highest differing bit is set in the threshold only
         std::uint64_t larger = 0;
         std::uint64_t equal = ~std::uint64_t{0};
-        for (int p = planes - 1; p >= 0; --p) {
+        for (int p = std::bit_width(static_cast<unsigned>(most)) - 1; p >= 0; --p) {
             const std::uint64_t wanted = threshold >> p & 1 ? ~std::uint64_t{0} : 0;
             larger |= equal & planes_[p] & ~wanted;
             equal &= ~(planes_[p] ^ wanted);
@@ -46,6 +48,12 @@ DirectionConsensus median_direction(std::span<const DirectionBits> votes, int se
     const int count = static_cast<int>(votes.size());
     DirectionConsensus consensus;
     if (count == 0) return consensus;
+    // Most often all agree, and the median is what they say.
+    if (std::all_of(votes.begin(), votes.end(),
+                    [&](const DirectionBits& vote) { return vote == votes[0]; })) {
+        consensus.directions = votes[0];
+        return consensus;
+    }
     BitCounts forward;
     BitCounts backward;
     for (const DirectionBits& vote : votes) {
@@ -55,10 +63,10 @@ DirectionConsensus median_direction(std::span<const DirectionBits> votes, int se
     // In rising order the votes are -1s, 0s, +1s. The median is between the votes at places `low` and `high`.
     const int low = (count - 1) / 2;
     const int high = count / 2;
-    const std::uint64_t low_backward = backward.at_least(low + 1);
-    const std::uint64_t high_backward = backward.at_least(high + 1);
-    const std::uint64_t low_forward = forward.at_least(count - low);
-    const std::uint64_t high_forward = forward.at_least(count - high);
+    const std::uint64_t low_backward = backward.at_least(low + 1, count);
+    const std::uint64_t high_backward = backward.at_least(high + 1, count);
+    const std::uint64_t low_forward = forward.at_least(count - low, count);
+    const std::uint64_t high_forward = forward.at_least(count - high, count);
     const std::uint64_t all = lowest_bits(segments);
     consensus.directions.forward = low_forward & all;
     consensus.directions.backward = high_backward & all;

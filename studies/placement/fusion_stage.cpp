@@ -1,5 +1,6 @@
 #include "capstan/placement/fusion_stage.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "capstan/estimation/information_bound.h"
@@ -63,6 +64,9 @@ bool on_curve(const FusionMethod& method) {
     return method.knowledge == Knowledge::feasible_curve;
 }
 
+// Repetitions fused together: few enough that their profiles and likelihoods stay in the nearest caches.
+constexpr int at_a_time = 10;
+
 // The estimates of one sensor set over consecutive repetitions: methods of one half of the catalogue x
 // repetitions x nodes.
 struct SetEstimates {
@@ -72,6 +76,7 @@ struct SetEstimates {
     int nodes = 0;
     std::vector<double> tension_N;
 
+    int end_repetition() const { return first_repetition + repetitions; }
     std::span<double> of(std::size_t method, int repetition) {
         const std::size_t row = method * repetitions + (repetition - first_repetition);
         return std::span<double>(tension_N).subspan(row * nodes, nodes);
@@ -272,22 +277,24 @@ storage::FusionResult fuse_readings(const PreparedStudy& study, const StudyPoint
                 if (on_curve(*study.methods[m]) != curve) continue;
                 const std::size_t cell = estimates.set * methods + m;
                 BlockSums& sums = table.block_sums[cell][block];
-                for (int r = blocks.first(block); r < blocks.end(block); ++r) {
+                for (int r = estimates.first_repetition; r < estimates.end_repetition(); ++r) {
                     add_error(sums, table.repetition_error_N[cell][r], estimates.of(m, r),
                               scenario.truth.tension_N);
                 }
                 if (study.methods[m]->knowledge == Knowledge::direction_unknown) {
-                    sums.unverified = verification.unverified;
-                    sums.ambiguous = verification.ambiguous;
+                    sums.unverified += verification.unverified;
+                    sums.ambiguous += verification.ambiguous;
                 }
             }
             clock.enter(&FusionTimes::statistics_s);
         };
-        fusion.paper_methods(blocks.first(block), blocks.end(block),
-                             [&](SetEstimates& estimates) { sum_up(estimates, false); });
-        if (study.uses(Knowledge::feasible_curve)) {
-            fusion.curve_methods(blocks.first(block), blocks.end(block),
-                                 [&](SetEstimates& estimates) { sum_up(estimates, true); });
+        const int end = blocks.end(block);
+        for (int first = blocks.first(block); first < end; first += at_a_time) {
+            const int past = std::min(first + at_a_time, end);
+            fusion.paper_methods(first, past, [&](SetEstimates& estimates) { sum_up(estimates, false); });
+            if (study.uses(Knowledge::feasible_curve)) {
+                fusion.curve_methods(first, past, [&](SetEstimates& estimates) { sum_up(estimates, true); });
+            }
         }
         block_times[block] = clock.processor_times();
     });
