@@ -38,7 +38,8 @@ int chart_height_px(const Table& table, const Figure& figure, const FigureRows& 
         }
         panel_rows = std::max<std::size_t>(1, values.size());
     }
-    return figure.frame_height_px +
+    constexpr int legend_row_px = 16;  // a legend may need one more row on a narrow screen
+    return figure.frame_height_px + legend_row_px +
            static_cast<int>(panel_rows) * (figure.panel_height_px + figure.row_frame_height_px);
 }
 

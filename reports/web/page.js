@@ -94,12 +94,12 @@
     return filled;
   }
 
-  function specOf(figure) {
+  function specOf(figure, trim) {
     const info = about(figure);
     const datasets = {};
     for (const table of info.tables) datasets[table] = rowsOf(figure, table);
     const rows = datasets[info.tables[0]];
-    const room = figure.querySelector(".chart").clientWidth;
+    const room = figure.querySelector(".chart").clientWidth - trim;
     let columns = info.columns_by ? distinct(rows, info.columns_by).length : info.columns ?? 1;
     const template = { ...study.figures[figure.dataset.figure] };
     let frame = info.frame_width_px;
@@ -153,11 +153,18 @@
       figure.classList.toggle("empty", empty);
       if (empty) continue;
       const chart = figure.querySelector(".chart");
-      const done = await vegaEmbed(chart, specOf(figure), {
+      const options = {
         renderer: "svg", tooltip: { theme: dark.matches ? "dark" : "light" }, downloadFileName: figure.id,
         actions: { export: { svg: true, png: true }, source: false, compiled: false, editor: false },
         i18n: { CLICK_TO_VIEW_ACTIONS: "Save this figure" },
-      });
+      };
+      let done = await vegaEmbed(chart, specOf(figure, 0), options);
+      // Long tick labels and legends take more width than a figure's frame allows for: draw again by as much narrower.
+      const excess = Math.ceil(chart.querySelector("svg").getBoundingClientRect().width) - chart.clientWidth;
+      if (excess > 0) {
+        done.finalize();
+        done = await vegaEmbed(chart, specOf(figure, excess + 1), options);
+      }
       chart.querySelector("summary")?.setAttribute("aria-label", "Save this figure");
       figure.view = done.view;
       const data = figure.querySelector("details.data");
