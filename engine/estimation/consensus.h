@@ -11,7 +11,7 @@ namespace capstan {
 /// estimates the median can fall between two directions; such a segment is `undecided` and nobody agrees
 /// there.
 struct DirectionConsensus {
-    DirectionBits directions;
+    DirectionBits directions{};
     std::uint64_t undecided = 0;
 };
 

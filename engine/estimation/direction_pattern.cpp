@@ -17,13 +17,13 @@ void set(DirectionBits& bits, int segment, Direction direction) {
 }  // namespace
 
 DirectionBits direction_bits(const DirectionPattern& pattern, int segments) {
-    DirectionBits bits;
+    DirectionBits bits{};
     for (int i = 0; i < segments; ++i) set(bits, i, pattern.segment(i, segments));
     return bits;
 }
 
 DirectionBits direction_bits(const MotionPattern& pattern, int segments) {
-    DirectionBits bits;
+    DirectionBits bits{};
     for (int i = 0; i < segments; ++i) set(bits, i, segment_direction(pattern, i, segments));
     return bits;
 }

@@ -24,8 +24,8 @@ struct DirectionPattern {
 
 /// The directions as bits, segment i at bit i.
 struct DirectionBits {
-    std::uint64_t forward = 0;
-    std::uint64_t backward = 0;
+    std::uint64_t forward;
+    std::uint64_t backward;
 
     friend bool operator==(const DirectionBits&, const DirectionBits&) = default;
 };

@@ -12,7 +12,7 @@ namespace capstan {
 /// The estimate that one pattern gives from a reading z at one node: every tension is intercept + slope * z,
 /// and the pattern verifies (E4, E5) for low_N < z < high_N, because every check is linear in z.
 struct SensorBranch {
-    DirectionBits directions;
+    DirectionBits directions{};
     bool verified = true;  ///< false: no pattern verifies, and this is the previous state instead
     double low_N = 0.0;
     double high_N = 0.0;

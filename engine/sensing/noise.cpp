@@ -12,20 +12,23 @@ double reading_deviation_N(const NoiseLevel& noise, double tension_N) {
                      noise.bias_N * noise.bias_N);
 }
 
-ReadingDraws draw_readings(const DrawAddress& address, int nodes) {
+ReadingDraws draw_readings(const DrawAddress& address, int nodes, const NoiseLevel& for_noise) {
     ReadingDraws draws;
-    draws.multiplicative.reserve(nodes);
-    draws.additive.reserve(nodes);
-    draws.bias.reserve(nodes);
+    draws.multiplicative.assign(nodes, 0.0);
+    draws.additive.assign(nodes, 0.0);
+    draws.bias.assign(nodes, 0.0);
     for (int node = 0; node < nodes; ++node) {
         const auto number = static_cast<std::uint32_t>(node);
-        const auto fresh = standard_normals(
-            {address.seed, RandomPurpose::reading_noise, address.scenario, address.repetition, number});
-        const auto lasting =
-            standard_normals({address.seed, RandomPurpose::sensor_bias, 0, address.repetition, number});
-        draws.multiplicative.push_back(fresh[0]);
-        draws.additive.push_back(fresh[1]);
-        draws.bias.push_back(lasting[0]);
+        if (for_noise.multiplicative_ratio != 0.0 || for_noise.additive_N != 0.0) {
+            const auto fresh = standard_normals(
+                {address.seed, RandomPurpose::reading_noise, address.scenario, address.repetition, number});
+            draws.multiplicative[node] = fresh[0];
+            draws.additive[node] = fresh[1];
+        }
+        if (for_noise.bias_N != 0.0) {
+            draws.bias[node] = standard_normals(
+                {address.seed, RandomPurpose::sensor_bias, 0, address.repetition, number})[0];
+        }
     }
     return draws;
 }

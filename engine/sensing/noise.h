@@ -32,7 +32,9 @@ struct ReadingDraws {
     std::vector<double> bias;            // nodes
 };
 
-ReadingDraws draw_readings(const DrawAddress& address, int nodes);
+/// All draws; with `for_noise` those that this noise has no use for are left out, at 0.
+ReadingDraws draw_readings(const DrawAddress& address, int nodes,
+                           const NoiseLevel& for_noise = {1.0, 1.0, 1.0});
 
 /// One reading per node [N].
 void read_tensions(const NoiseLevel& noise, const ReadingDraws& draws, std::span<const double> tension_N,

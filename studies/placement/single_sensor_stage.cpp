@@ -95,7 +95,7 @@ void solve_block(const PreparedStudy& study, const StudyPoint& point, int first,
         const ReadingDraws draws =
             draw_readings({study.plan.seed, static_cast<std::uint32_t>(point.scenario_index),
                            static_cast<std::uint32_t>(r)},
-                          solved.nodes);
+                          solved.nodes, noise);
         const std::span<double> readings(solved.reading_N.data() + solved.at(r, 0), solved.nodes);
         read_tensions(noise, draws, scenario.truth.tension_N, readings);
         for (int node = 0; node < solved.nodes; ++node) {

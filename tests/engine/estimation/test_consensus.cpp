@@ -15,7 +15,7 @@ int way_of(const DirectionBits& bits, int segment) {
 
 // Any directions, also ones that no pattern has; `lean` makes a vote forward (2), backward (0) or even (1).
 DirectionBits random_vote(int segments, int lean, std::mt19937_64& random) {
-    DirectionBits vote;
+    DirectionBits vote{};
     for (int i = 0; i < segments; ++i) {
         const int way = std::clamp(
             static_cast<int>(random() % 3) - 1 + static_cast<int>(random() % 2) * (lean - 1), -1, 1);
