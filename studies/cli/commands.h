@@ -18,6 +18,10 @@ Command report_command();
 Command simulate_command();
 Command config_default_command();
 Command config_check_command();
+Command bench_solver_command();
+Command paper_solver_command();
+Command paper_exp1_command();
+Command paper_exp2_command();
 
 const std::vector<Command>& commands();
 const Command* find_command(std::string_view name);
