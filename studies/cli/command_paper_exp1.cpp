@@ -7,6 +7,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/paper_experiment.h"
 #include "capstan/cli/wrapped_text.h"
 #include "capstan/paper/pretension_ramps.h"
 
@@ -97,22 +98,11 @@ std::string in_csv(const std::vector<std::vector<RampRun>>& runs) {
 }
 
 ExitCode run(const Invocation& invocation) {
-    std::vector<std::vector<RampRun>> runs;  // settings x pretensions
-    for (const CableSetting& setting : paper::cable_settings()) {
-        runs.emplace_back();
-        for (const double pretension_N : setting.pretensions_N) {
-            runs.back().push_back(paper::run_pretension_ramps(setting, pretension_N, {}));
-        }
-    }
-    if (invocation.has("output")) {
-        if (invocation.text("output") == "-") {
-            write_standard_output(in_csv(runs));
-            return ExitCode::success;
-        }
-        write_file(invocation.text("output"), in_csv(runs));
-    }
-    write_standard_output(invocation.has("json") ? json_text(in_json(runs)) : in_words(runs));
-    return ExitCode::success;
+    const auto runs = run_every_setting([](const CableSetting& setting, double pretension_N) {
+        return paper::run_pretension_ramps(setting, pretension_N, {});
+    });
+    return deliver_experiment(invocation, in_csv(runs),
+                              invocation.has("json") ? json_text(in_json(runs)) : in_words(runs));
 }
 
 }  // namespace
@@ -127,10 +117,7 @@ Command paper_exp1_command() {
         "load: table_1, and reproduces with less wrap and pretension. 100 segments to a cable and 5 ms to a step: "
         "the stiction rule depends on the length of a segment, and with fewer of them so would the numbers.",
         {},
-        {{"output", 'o', OptionKind::text, "FILE",
-          "Also write the trajectories to FILE, as CSV; - writes them to standard output, and no table.", ""},
-         json_option,
-         help_option},
+        {trajectories_option, json_option, help_option},
         {"capstan paper exp1", "capstan paper exp1 --json -o ramps.csv"},
         run};
 }

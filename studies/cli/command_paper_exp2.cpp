@@ -6,6 +6,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/paper_experiment.h"
 #include "capstan/cli/wrapped_text.h"
 #include "capstan/paper/error_reduction_tunnel.h"
 
@@ -92,22 +93,11 @@ std::string in_csv(const std::vector<std::vector<TunnelRun>>& runs) {
 }
 
 ExitCode run(const Invocation& invocation) {
-    std::vector<std::vector<TunnelRun>> runs;  // settings x pretensions
-    for (const CableSetting& setting : paper::cable_settings()) {
-        runs.emplace_back();
-        for (const double pretension_N : setting.pretensions_N) {
-            runs.back().push_back(paper::run_error_reduction_tunnel(setting, pretension_N, {}));
-        }
-    }
-    if (invocation.has("output")) {
-        if (invocation.text("output") == "-") {
-            write_standard_output(in_csv(runs));
-            return ExitCode::success;
-        }
-        write_file(invocation.text("output"), in_csv(runs));
-    }
-    write_standard_output(invocation.has("json") ? json_text(in_json(runs)) : in_words(runs));
-    return ExitCode::success;
+    const auto runs = run_every_setting([](const CableSetting& setting, double pretension_N) {
+        return paper::run_error_reduction_tunnel(setting, pretension_N, {});
+    });
+    return deliver_experiment(invocation, in_csv(runs),
+                              invocation.has("json") ? json_text(in_json(runs)) : in_words(runs));
 }
 
 }  // namespace
@@ -123,10 +113,7 @@ Command paper_exp2_command() {
         "numbers. Both cable settings of `capstan paper exp1`, 100 segments to a cable, 5 ms to a step. The viscous "
         "friction of the paper's Fig. 6 is not part of it.",
         {},
-        {{"output", 'o', OptionKind::text, "FILE",
-          "Also write the trajectories to FILE, as CSV; - writes them to standard output, and no table.", ""},
-         json_option,
-         help_option},
+        {trajectories_option, json_option, help_option},
         {"capstan paper exp2", "capstan paper exp2 --json -o tunnel.csv"},
         run};
 }
