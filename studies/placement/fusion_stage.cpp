@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/estimation/information_bound.h"
+#include "capstan/parallel/parallel_for.h"
 #include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/repetition_blocks.h"
 

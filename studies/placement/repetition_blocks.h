@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 namespace capstan {
 
 /// Repetitions are worked on, and summed, in fixed consecutive blocks, so that neither the number of threads
@@ -21,10 +19,6 @@ struct RepetitionBlocks {
     }
     int size(int block) const { return end(block) - first(block); }
 };
-
-/// Calls body(i) for i from 0 to count - 1 on up to `jobs` threads (0: all processors), in any order. The
-/// first exception that a call throws comes out here.
-void parallel_for_each_index(int count, int jobs, const std::function<void(int)>& body);
 
 /// Processor time of the calling thread so far [s]. Costs most of a microsecond.
 double thread_processor_time_s();

@@ -5,6 +5,7 @@
 
 #include "capstan/estimation/consensus.h"
 #include "capstan/placement/cell_statistics.h"
+#include "capstan/parallel/parallel_for.h"
 #include "capstan/placement/repetition_blocks.h"
 
 namespace capstan {

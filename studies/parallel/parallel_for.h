@@ -1,0 +1,12 @@
+#pragma once
+
+#include <functional>
+
+namespace capstan {
+
+/// Calls body(i) for i from 0 to count - 1 on up to `jobs` threads (0: all processors), in any order. The
+/// first exception that a call throws comes out here. Give each call a slot of its own to fill and sum the
+/// slots in order afterwards: then neither the number of threads nor their timing changes a bit.
+void parallel_for_each_index(int count, int jobs, const std::function<void(int)>& body);
+
+}  // namespace capstan
