@@ -5,7 +5,9 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/config_reader.h"
+#include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/simulated_recording.h"
 #include "capstan/placement/true_motion.h"
 
 namespace capstan::cli {
@@ -51,6 +53,7 @@ void append_line(std::string& text, const TrueSample& sample, double sample_rate
 }
 
 ExitCode run(const Invocation& invocation) {
+    if (names_a_recording(invocation.argument("CONFIG"))) return simulate_recording(invocation);
     const StudyPlan plan = read_config(invocation.argument("CONFIG")).plan;
     const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
     const CableState start = pretensioned(step.cable());
@@ -63,21 +66,28 @@ ExitCode run(const Invocation& invocation) {
     return ExitCode::success;
 }
 
+const Option parameters_option{
+    "parameters", '\0', OptionKind::text, "FILE",
+    "Recordings only: the model's parameters, as `capstan calibrate --save` wrote them."};
+
 }  // namespace
 
 Command simulate_command() {
     return {
         "simulate",
-        "Simulate the true motion of a configuration, as CSV.",
-        "Simulates the motion that a configuration describes and writes one line per sample: time, kind of motion, "
-        "the study regime it belongs to, how many nodes move from each end (the last-moving nodes k and k' of the "
-        "paper, each counted from its own end) and which way (1 towards the load, -1 towards the motor), whether the "
-        "pattern passed the model's own check, tension and displacement of every node. Use it to find instants for "
-        "[[regime]].",
-        {config_argument},
-        {output_option, help_option},
+        "Simulate the motion of a configuration, or the model of a recorded bench, as CSV.",
+        "With a configuration: simulates the motion that it describes and writes one line per sample: time, kind of "
+        "motion, the study regime it belongs to, how many nodes move from each end (the last-moving nodes k and k' of "
+        "the paper, each counted from its own end) and which way (1 towards the load, -1 towards the motor), whether "
+        "the pattern passed the model's own check, tension and displacement of every node. Use it to find instants for "
+        "[[regime]]. With a recording (NAME.csv and NAME.json): moves the bench's model with the recording's driven "
+        "channels and writes, in the recording's own form, what it was fed (freed of noise) and what it says that the "
+        "other channels should have measured.",
+        {Argument{"CONFIG", "A study's configuration (TOML), or a recording (CSV with its JSON sidecar)."}},
+        {parameters_option, segments_option, output_option, help_option},
         {"capstan simulate configs/paper.toml -o motion.csv",
-         "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'"},
+         "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'",
+         "capstan simulate bench.csv --parameters fitted.json -o model.csv"},
         run};
 }
 

@@ -16,6 +16,7 @@ Command recommend_command();
 Command query_command();
 Command report_command();
 Command simulate_command();
+Command calibrate_command();
 Command config_default_command();
 Command config_check_command();
 Command bench_solver_command();

@@ -47,6 +47,17 @@ const Option progress_option{
     "auto",
     {"auto", "json", "none"}};
 const Option stats_option{"stats", '\0', OptionKind::flag, "", "Say on standard error where the time went."};
+const Option segments_option{
+    "segments",
+    '\0',
+    OptionKind::whole_number,
+    "N",
+    "Segments to a cable of a recorded bench's model; friction at rest depends on their "
+    "length, from about 100 on hardly.",
+    "100",
+    {},
+    2,
+    100000};
 
 const Argument config_argument{
     "CONFIG", "The study's configuration (TOML); `capstan config default` explains every key."};

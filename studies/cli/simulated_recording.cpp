@@ -1,0 +1,68 @@
+#include "capstan/cli/simulated_recording.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/cli/output.h"
+#include "capstan/gap/driven_inputs.h"
+#include "capstan/gap/parameter_file.h"
+#include "capstan/gap/recording_reader.h"
+#include "capstan/gap/twin.h"
+
+namespace capstan::cli {
+
+namespace {
+
+using gap::Recording;
+using gap::TwinRun;
+
+// What a run was driven by and what the model says to it, channel by channel.
+std::vector<std::vector<double>> fed_and_predicted(const Recording& recording, std::size_t run,
+                                                   TwinRun twin) {
+    gap::DrivenInputs inputs = gap::driven_inputs(recording, recording.runs[run]);
+    for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+        if (!inputs.values[channel].empty()) twin.values[channel] = std::move(inputs.values[channel]);
+    }
+    return std::move(twin.values);
+}
+
+std::string head_line(const Recording& recording) {
+    std::string line = "run,t";
+    for (const gap::Channel& channel : recording.channels) line += "," + channel.name;
+    return line + "\n";
+}
+
+void append_run(std::string& text, const gap::RecordedRun& run,
+                const std::vector<std::vector<double>>& values) {
+    auto out = std::back_inserter(text);
+    for (std::size_t sample = 0; sample < run.time_s.size(); ++sample) {
+        fmt::format_to(out, "{},{}", run.number, run.time_s[sample]);
+        for (const std::vector<double>& channel : values) {
+            if (channel.empty()) {
+                fmt::format_to(out, ",");
+            } else {
+                fmt::format_to(out, ",{}", channel[sample]);
+            }
+        }
+        text += "\n";
+    }
+}
+
+}  // namespace
+
+ExitCode simulate_recording(const Invocation& invocation) {
+    const Recording recording = gap::read_recording(invocation.argument("CONFIG"));
+    const auto twin = gap::make_twin(recording, static_cast<int>(invocation.whole("segments")));
+    std::vector<double> values = gap::nominal_values(*twin);
+    if (invocation.has("parameters"))
+        values = gap::read_parameter_values(invocation.text("parameters"), twin->parameters());
+    std::string text = head_line(recording);
+    for (std::size_t run = 0; run < recording.runs.size(); ++run)
+        append_run(text, recording.runs[run], fed_and_predicted(recording, run, twin->run(run, values)));
+    deliver(invocation, text);
+    return ExitCode::success;
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,277 @@
+#include "capstan/gap/calibration.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap/least_squares.h"
+#include "capstan/gap/twin_residuals.h"
+
+namespace capstan::gap {
+
+namespace {
+
+// A parameter that could as well be twice or half as large is not known.
+constexpr double least_known_factor = 2.0;
+// Two estimates that move together this much are told about.
+constexpr double trading_correlation = 0.95;
+constexpr double two_sided_95 = 1.959964;
+
+// Logarithms of the fitted parameters over their nominal values, and how they spread.
+struct LogFit {
+    LeastSquaresFit fit;
+    Eigen::MatrixXd covariance;  // fitted x fitted
+};
+
+std::vector<double> values_of(const std::vector<TwinParameter>& parameters, const std::vector<int>& fitted,
+                              const Eigen::VectorXd& logs) {
+    std::vector<double> values;
+    for (const TwinParameter& parameter : parameters) values.push_back(parameter.nominal);
+    for (std::size_t k = 0; k < fitted.size(); ++k)
+        values[static_cast<std::size_t>(fitted[k])] *= std::exp(logs[static_cast<Eigen::Index>(k)]);
+    return values;
+}
+
+LogFit fit_logs(const TwinResiduals& residuals, const std::vector<TwinParameter>& parameters,
+                const std::vector<int>& fitted, const std::vector<RunPart>& parts,
+                const Eigen::VectorXd& start) {
+    const auto function = [&](const Eigen::MatrixXd& logs) {
+        std::vector<std::vector<double>> sets;
+        for (Eigen::Index column = 0; column < logs.cols(); ++column)
+            sets.push_back(values_of(parameters, fitted, logs.col(column)));
+        const Eigen::MatrixXd measured = residuals.of(parts, sets);
+        // A weak belief in the nominal values keeps what nothing confines from running away.
+        Eigen::MatrixXd all(measured.rows() + logs.rows(), logs.cols());
+        all << measured, logs;
+        return all;
+    };
+    LogFit log_fit;
+    log_fit.fit = fit_least_squares(function, start);
+
+    // Sandwich: residuals within a block hang together in any way, blocks do not.
+    const LeastSquaresFit& fit = log_fit.fit;
+    const std::vector<Eigen::Index> blocks = residuals.block_ends(parts);
+    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(fit.parameters.size(), fit.parameters.size());
+    Eigen::Index first = 0;
+    for (const Eigen::Index end : blocks) {
+        const Eigen::VectorXd score = fit.jacobian.middleRows(first, end - first).transpose() *
+                                      fit.residuals.segment(first, end - first);
+        scores += score * score.transpose();
+        first = end;
+    }
+    const Eigen::MatrixXd normal = fit.jacobian.transpose() * fit.jacobian;
+    const Eigen::MatrixXd inverse =
+        normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+    // Never below what independent residuals of unit spread give, however few blocks there are.
+    log_fit.covariance = inverse * scores * inverse;
+    for (Eigen::Index k = 0; k < inverse.rows(); ++k) {
+        if (log_fit.covariance(k, k) < inverse(k, k)) log_fit.covariance(k, k) = inverse(k, k);
+    }
+    return log_fit;
+}
+
+double correlation(const Eigen::MatrixXd& covariance, Eigen::Index a, Eigen::Index b) {
+    return covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
+}
+
+// Half widths of 95% intervals of the logarithms: the sandwich's, or the jackknife's over runs if larger.
+Eigen::VectorXd half_widths(const LogFit& whole, const std::vector<LogFit>& without_a_run) {
+    Eigen::VectorXd widths = two_sided_95 * whole.covariance.diagonal().cwiseSqrt();
+    const auto runs = static_cast<double>(without_a_run.size());
+    if (without_a_run.size() < 3) return widths;
+    const double quantile = boost::math::quantile(boost::math::students_t(runs - 1.0), 0.975);
+    for (Eigen::Index k = 0; k < widths.size(); ++k) {
+        double mean = 0.0;
+        for (const LogFit& other : without_a_run) mean += other.fit.parameters[k] / runs;
+        double squares = 0.0;
+        for (const LogFit& other : without_a_run) squares += std::pow(other.fit.parameters[k] - mean, 2);
+        widths[k] = std::max(widths[k], quantile * std::sqrt((runs - 1.0) / runs * squares));
+    }
+    return widths;
+}
+
+std::vector<int> indices_of(const std::vector<TwinParameter>& parameters,
+                            const std::vector<std::string>& names) {
+    std::vector<int> indices;
+    if (names.empty()) {
+        indices.resize(parameters.size());
+        std::iota(indices.begin(), indices.end(), 0);
+        return indices;
+    }
+    std::vector<std::string> problems;
+    for (const std::string& name : names) {
+        const auto found =
+            std::find_if(parameters.begin(), parameters.end(),
+                         [&](const TwinParameter& parameter) { return parameter.name == name; });
+        if (found != parameters.end()) {
+            indices.push_back(static_cast<int>(found - parameters.begin()));
+            continue;
+        }
+        std::string known;
+        for (const TwinParameter& parameter : parameters)
+            known += (known.empty() ? "" : ", ") + parameter.name;
+        problems.push_back("no parameter '" + name + "' to fit; this bench has " + known);
+    }
+    if (!problems.empty()) throw InvalidInput(problems);
+    std::sort(indices.begin(), indices.end());
+    return indices;
+}
+
+class Calibrator {
+  public:
+    Calibrator(const Recording& recording, const CalibrationOptions& options)
+        : recording_(recording),
+          twin_(make_twin(recording, options.segments)),
+          residuals_(recording, *twin_, options.threads),
+          fitted_(indices_of(twin_->parameters(), options.fitted)) {
+        for (const TwinParameter& parameter : twin_->parameters()) {
+            ParameterEstimate estimate;
+            estimate.parameter = parameter;
+            estimate.value = estimate.low = estimate.high = parameter.nominal;
+            estimate.fitted = false;
+            calibration_.parameters.push_back(estimate);
+        }
+        for (const int index : fitted_) estimate(index).fitted = true;
+    }
+
+    Calibration run() {
+        const std::vector<RunPart> all = residuals_.whole_runs();
+        start_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted_.size()));
+        const std::vector<double> nominal = nominal_values(*twin_);
+        residuals_.set_scales(nominal);
+        LogFit whole = fit(all);
+        // Twice: the first fit's scales are those of the nominal model's misfit.
+        for (int round = 0; round < 2; ++round) {
+            residuals_.set_scales(values_of(twin_->parameters(), fitted_, whole.fit.parameters));
+            start_ = whole.fit.parameters;
+            whole = fit(all);
+        }
+        start_ = whole.fit.parameters;
+        std::vector<LogFit> without = fits_without_a_run();
+        while (!fitted_.empty() && drop_least_known(whole, half_widths(whole, without))) {
+            whole = fit(all);
+            start_ = whole.fit.parameters;
+            without = fits_without_a_run();
+        }
+        take_estimates(whole, half_widths(whole, without));
+        score(nominal, without);
+        return std::move(calibration_);
+    }
+
+  private:
+    ParameterEstimate& estimate(int index) {
+        return calibration_.parameters[static_cast<std::size_t>(index)];
+    }
+
+    LogFit fit(const std::vector<RunPart>& parts) {
+        LogFit log_fit = fit_logs(residuals_, twin_->parameters(), fitted_, parts, start_);
+        calibration_.evaluations += log_fit.fit.evaluations;
+        return log_fit;
+    }
+
+    // Takes the parameter that the recording says least about out of the fit, if that is too little.
+    bool drop_least_known(const LogFit& whole, const Eigen::VectorXd& widths) {
+        Eigen::Index worst = 0;
+        const double width = widths.maxCoeff(&worst);
+        if (width < std::log(least_known_factor)) return false;
+        const int index = fitted_[static_cast<std::size_t>(worst)];
+        estimate(index).identifiable = false;
+        estimate(index).reason = why_unknown(whole, worst);
+        fitted_.erase(fitted_.begin() + worst);
+        start_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted_.size()));
+        return true;
+    }
+
+    std::string why_unknown(const LogFit& whole, Eigen::Index worst) {
+        const std::string partner = trading_partner(whole, worst);
+        if (!partner.empty()) return partner;
+        const double alone = two_sided_95 * std::sqrt(whole.covariance(worst, worst));
+        return alone < std::log(least_known_factor) ? "the runs disagree about it"
+                                                    : "hardly changes what was measured here";
+    }
+
+    // The parameter that an estimate moves together with most, if that is almost wholly; else empty.
+    std::string trading_partner(const LogFit& whole, Eigen::Index row) {
+        double most = trading_correlation;
+        std::string words;
+        for (Eigen::Index other = 0; other < whole.covariance.rows(); ++other) {
+            const double together = correlation(whole.covariance, row, other);
+            if (other == row || std::abs(together) < most) continue;
+            most = std::abs(together);
+            words = fmt::format("trades with {} (correlation {:.3f})",
+                                estimate(fitted_[static_cast<std::size_t>(other)]).parameter.name, together);
+        }
+        return words;
+    }
+
+    std::vector<LogFit> fits_without_a_run() {
+        std::vector<LogFit> fits;
+        if (recording_.runs.size() < 2) return fits;
+        for (std::size_t left_out = 0; left_out < recording_.runs.size(); ++left_out) {
+            std::vector<RunPart> parts = residuals_.whole_runs();
+            parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(left_out));
+            fits.push_back(fit(parts));
+        }
+        return fits;
+    }
+
+    void take_estimates(const LogFit& whole, const Eigen::VectorXd& widths) {
+        calibration_.converged = whole.fit.converged;
+        for (std::size_t k = 0; k < fitted_.size(); ++k) {
+            const auto row = static_cast<Eigen::Index>(k);
+            ParameterEstimate& found = estimate(fitted_[k]);
+            found.value = found.parameter.nominal * std::exp(whole.fit.parameters[row]);
+            found.low = found.value * std::exp(-widths[row]);
+            found.high = found.value * std::exp(widths[row]);
+            found.reason = trading_partner(whole, row);
+        }
+    }
+
+    void score(const std::vector<double>& nominal, const std::vector<LogFit>& without) {
+        const std::vector<double> values = calibration_.values();
+        for (std::size_t run = 0; run < recording_.runs.size(); ++run) {
+            const std::vector<double> others =
+                without.empty() ? values
+                                : values_of(twin_->parameters(), fitted_, without[run].fit.parameters);
+            const ChannelErrors before = residuals_.rms(run, nominal);
+            const ChannelErrors after = residuals_.rms(run, values);
+            const ChannelErrors held_out = residuals_.rms(run, others);
+            calibration_.unsolved_steps += after.unsolved_steps;
+            for (std::size_t channel = 0; channel < recording_.channels.size(); ++channel) {
+                if (!after.rms[channel]) continue;
+                const Channel& described = recording_.channels[channel];
+                calibration_.channels.push_back({recording_.runs[run].number, described.name, described.unit,
+                                                 described.noise_std.value_or(0.0), *before.rms[channel],
+                                                 *after.rms[channel], *held_out.rms[channel],
+                                                 !without.empty()});
+            }
+        }
+    }
+
+    const Recording& recording_;
+    std::unique_ptr<Twin> twin_;
+    TwinResiduals residuals_;
+    std::vector<int> fitted_;  // indices of the twin's parameters
+    Eigen::VectorXd start_;    // fitted: logarithms at which a fit starts
+    Calibration calibration_;
+};
+
+}  // namespace
+
+std::vector<double> Calibration::values() const {
+    std::vector<double> all;
+    for (const ParameterEstimate& estimate : parameters) all.push_back(estimate.value);
+    return all;
+}
+
+Calibration calibrate(const Recording& recording, const CalibrationOptions& options) {
+    return Calibrator(recording, options).run();
+}
+
+}  // namespace capstan::gap

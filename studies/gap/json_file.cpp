@@ -1,0 +1,23 @@
+#include "capstan/gap/json_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap/number_table.h"
+
+namespace capstan::gap {
+
+nlohmann::json read_json_file(const std::filesystem::path& path) {
+    const std::string text = file_text(path);
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::parse_error& error) {
+        // Line and column stand behind a code of the library's own.
+        const std::string message = error.what();
+        const std::size_t start = message.find("parse error");
+        throw InvalidInput(
+            {path.string() + ": no JSON: " + (start == std::string::npos ? message : message.substr(start))});
+    }
+}
+
+}  // namespace capstan::gap

@@ -1,0 +1,185 @@
+#include "capstan/gap/lumped_drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap/predicted_channels.h"
+#include "capstan/solver/pull_pull.h"
+
+namespace capstan::gap {
+
+namespace {
+
+enum ParameterIndex : std::size_t { friction_exponent, stiffness, pretension, speed_ratio };
+
+// No stiction here (mu_s alone cannot be identified), so a coarse cut does.
+constexpr int lumped_segments = 40;
+// What happened before a run is not known; by then the first motion has written over it.
+constexpr double forgetting_s = 1.0;
+// Where a fit starts: half a radian of wrap at a usual friction, a stiffness that gives a few degrees at the
+// torque of the loop.
+constexpr double start_exponent = 0.5;
+constexpr double start_give_rad = 0.05;
+
+const std::vector<double>& samples_of(const Recording& recording, const RecordedRun& run,
+                                      const char* channel) {
+    return run.values[static_cast<std::size_t>(*recording.channel(channel))];
+}
+
+double mean_of(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+// Sum over all runs of (x - run's mean) (y - run's mean).
+double covariation(const Recording& recording, const char* x, const char* y) {
+    double sum = 0.0;
+    for (const RecordedRun& run : recording.runs) {
+        const std::vector<double>& a = samples_of(recording, run, x);
+        const std::vector<double>& b = samples_of(recording, run, y);
+        const double mean_a = mean_of(a);
+        const double mean_b = mean_of(b);
+        for (std::size_t sample = 0; sample < a.size(); ++sample)
+            sum += (a[sample] - mean_a) * (b[sample] - mean_b);
+    }
+    return sum;
+}
+
+// Work of the motor torque over all runs, and the path along which it was done.
+struct LoopWork {
+    double work_J = 0.0;
+    double path_rad = 0.0;
+};
+
+LoopWork loop_work(const Recording& recording) {
+    LoopWork loop;
+    for (const RecordedRun& run : recording.runs) {
+        const std::vector<double>& angle = samples_of(recording, run, "motor_angle");
+        const std::vector<double>& torque = samples_of(recording, run, "motor_torque");
+        // Whatever is stored in a constant torque comes back; only friction's share counts.
+        const double mean_torque = mean_of(torque);
+        for (std::size_t sample = 1; sample < angle.size(); ++sample) {
+            const double turned = angle[sample] - angle[sample - 1];
+            loop.work_J += (0.5 * (torque[sample] + torque[sample - 1]) - mean_torque) * turned;
+            loop.path_rad += std::abs(turned);
+        }
+    }
+    return loop;
+}
+
+// Sum over runs of mean load torque times mean motor torque, both from their means over the runs.
+double load_covariation(const Recording& recording) {
+    std::vector<double> motor;
+    std::vector<double> load;
+    for (const RecordedRun& run : recording.runs) {
+        motor.push_back(mean_of(samples_of(recording, run, "motor_torque")));
+        load.push_back(mean_of(samples_of(recording, run, "load_torque")));
+    }
+    double sum = 0.0;
+    for (std::size_t run = 0; run < motor.size(); ++run)
+        sum += (motor[run] - mean_of(motor)) * (load[run] - mean_of(load));
+    // One run, or one load: the mean torques themselves must agree.
+    return sum != 0.0 ? sum : mean_of(motor) * mean_of(load);
+}
+
+class LumpedDrive final : public Twin {
+  public:
+    explicit LumpedDrive(const Recording& recording)
+        : recording_(recording), orientation_(drive_orientation(recording)) {
+        for (const RecordedRun& run : recording.runs) {
+            if (!run.drives("motor_angle") || !run.drives("load_torque"))
+                throw InvalidInput(
+                    {recording.name + ": a lumped drive is driven by motor_angle and load_torque"});
+            inputs_.push_back(driven_inputs(recording, run));
+        }
+        const LoopWork loop = loop_work(recording);
+        const double friction_Nm = std::abs(loop.work_J) / loop.path_rad;
+        parameters_ = {
+            {"friction_exponent", "", "mu_d times the wrap angle of one cable", start_exponent},
+            {"stiffness", "N m/rad", "of one cable, about the motor pulley", friction_Nm / start_give_rad},
+            {"pretension", "N m", "of one cable, about the motor pulley",
+             friction_Nm / (2.0 * start_exponent)},
+            {"speed_ratio", "", "motor angle over load angle",
+             1.0 / std::abs(orientation_.load_per_motor_angle)}};
+    }
+
+    const std::vector<TwinParameter>& parameters() const override { return parameters_; }
+    double unscored_s() const override { return forgetting_s; }
+
+    TwinRun run(std::size_t run, std::span<const double> values) const override {
+        const RecordedRun& recorded = recording_.runs[run];
+        const PullPull pair = pair_of(values);
+        PredictedChannels channels(recording_, recorded, inputs_[run]);
+        PullPullState state = pair.at_rest();
+        const double start_rad = channels.driven("motor_angle", 0);
+        const double way = orientation_.load_per_motor_angle < 0.0 ? -1.0 : 1.0;
+        std::vector<double> load_angle_rad;  // samples
+        for (int sample = 0; sample < recorded.samples(); ++sample) {
+            const double torque_Nm = orientation_.load_torque_sign * channels.driven("load_torque", sample);
+            const PullPullReport report = pair.advance(
+                state,
+                {MotorAngle{channels.driven("motor_angle", sample) - start_rad}, LoadTorque{torque_Nm}});
+            if (!report.solved()) channels.count_unsolved();
+            channels.predict("motor_torque", sample,
+                             orientation_.motor_torque_sign * pair.motor_torque_Nm(state));
+            load_angle_rad.push_back(way * state.load_angle_rad);
+        }
+        const double zero_rad = load_angle_zero_rad(recorded, load_angle_rad);
+        for (int sample = 0; sample < recorded.samples(); ++sample)
+            channels.predict("load_angle", sample,
+                             zero_rad + load_angle_rad[static_cast<std::size_t>(sample)]);
+        return channels.take();
+    }
+
+  private:
+    PullPull pair_of(std::span<const double> values) const {
+        CableSpecification cable;
+        cable.curvature = {{1.0, 1.0}};  // one radian of wrap, so that the coefficient is the exponent
+        cable.segments = lumped_segments;
+        cable.axial_stiffness_N = values[stiffness];
+        cable.dynamic_friction = cable.static_friction = values[friction_exponent];
+        cable.pretension_N = values[pretension];
+        return {Cable(cable), Cable(cable), {1.0, values[speed_ratio]}};
+    }
+
+    // Where the load angle counts from is not known: the mean of the run is the measured one.
+    double load_angle_zero_rad(const RecordedRun& recorded, const std::vector<double>& predicted_rad) const {
+        if (!recording_.channel("load_angle")) return 0.0;
+        return mean_of(samples_of(recording_, recorded, "load_angle")) - mean_of(predicted_rad);
+    }
+
+    const Recording& recording_;
+    DriveOrientation orientation_;
+    std::vector<DrivenInputs> inputs_;
+    std::vector<TwinParameter> parameters_;
+};
+
+}  // namespace
+
+DriveOrientation drive_orientation(const Recording& recording) {
+    for (const char* channel : {"motor_angle", "motor_torque", "load_torque", "load_angle"}) {
+        if (!recording.channel(channel))
+            throw InvalidInput({recording.name + ": a lumped drive needs the channel " + channel});
+    }
+    DriveOrientation orientation;
+    const double motor_motion = covariation(recording, "motor_angle", "motor_angle");
+    if (motor_motion > 0.0)
+        orientation.load_per_motor_angle = covariation(recording, "motor_angle", "load_angle") / motor_motion;
+    const LoopWork loop = loop_work(recording);
+    if (orientation.load_per_motor_angle == 0.0 || loop.work_J == 0.0)
+        throw InvalidInput({recording.name +
+                            ": motor and load do not move together, so the drive's ratio and "
+                            "signs cannot be read off the recording"});
+    orientation.motor_torque_sign = loop.work_J > 0.0 ? 1.0 : -1.0;
+    orientation.load_torque_sign =
+        orientation.motor_torque_sign * (load_covariation(recording) < 0.0 ? -1.0 : 1.0);
+    return orientation;
+}
+
+std::unique_ptr<Twin> make_lumped_drive_twin(const Recording& recording) {
+    return std::make_unique<LumpedDrive>(recording);
+}
+
+}  // namespace capstan::gap

@@ -1,0 +1,24 @@
+#include "capstan/gap/problem_list.h"
+
+#include <fmt/format.h>
+
+#include "capstan/cable/invalid_input.h"
+
+namespace capstan::gap {
+
+void ProblemList::add(const std::string& place, const std::string& problem) {
+    problems_.push_back(place + ": " + problem);
+}
+
+void ProblemList::throw_if_any() const {
+    constexpr std::size_t most_told = 12;
+    if (problems_.empty()) return;
+    std::vector<std::string> told = problems_;
+    if (told.size() > most_told) {
+        told.resize(most_told);
+        told.push_back(fmt::format("and {} problems more", problems_.size() - most_told));
+    }
+    throw InvalidInput(told);
+}
+
+}  // namespace capstan::gap
