@@ -59,6 +59,8 @@ struct NominalBench {
     double axial_stiffness_N = 0.0;
     double dynamic_friction = 0.0;
     double static_friction = 0.0;
+    double rotor_inertia_kg_m2 = 0.0;        ///< with the motor pulley; 0: not stated
+    double load_pulley_inertia_kg_m2 = 0.0;  ///< 0: not stated
 };
 
 /// A session on a bench: several runs, all with the same channels.

@@ -47,6 +47,8 @@ NominalBench nominal_of(const JsonObject& nominal) {
     bench.axial_stiffness_N = nominal.positive("K") * nominal.positive("L");  // K: N/m of the whole cable
     bench.dynamic_friction = nominal.number("mu_d");
     bench.static_friction = nominal.number("mu_s");
+    bench.rotor_inertia_kg_m2 = nominal.optional_number("rotor_inertia").value_or(0.0);
+    bench.load_pulley_inertia_kg_m2 = nominal.optional_number("load_pulley_inertia").value_or(0.0);
     if (bench.dynamic_friction < 0.0) nominal.add_problem("mu_d", "must not be negative");
     if (bench.static_friction < bench.dynamic_friction)
         nominal.add_problem("mu_s",

@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/effects/effect_catalogue.h"
+#include "capstan/solver/bench_simulation.h"
+
+namespace capstan {
+namespace {
+
+constexpr double time_step_s = 0.005;
+constexpr Pulleys pulleys{0.02, 0.104};
+
+Cable cable_with(int segments) {
+    CableSpecification specification;
+    specification.curvature = {{0.6, 5.0}, {0.8, 0.28}, {0.6, 5.0}};
+    specification.segments = segments;
+    specification.axial_stiffness_N = 4000.0;
+    specification.dynamic_friction = specification.static_friction = 0.21;
+    specification.pretension_N = 6.0;
+    return Cable(specification);
+}
+
+// A hand that moves the handle to and fro against a motor torque that pushes it back.
+BenchInputs hand_at(int step) {
+    const double time_s = step * time_step_s;
+    const double angle = 0.3 * std::sin(2.0 * std::numbers::pi * time_s) * std::min(1.0, 4.0 * time_s);
+    return {MotorTorque{-0.3 * angle}, LoadAngle{angle}, time_step_s, time_s};
+}
+
+struct Track {
+    std::vector<double> motor_angle_rad;
+    std::vector<double> load_torque_Nm;
+    int not_converged = 0;
+
+    friend bool operator==(const Track&, const Track&) = default;
+};
+
+Track track_of(BenchSimulation& bench, int steps) {
+    Track track;
+    for (int step = 1; step <= steps; ++step) {
+        if (!bench.advance(hand_at(step)).converged) ++track.not_converged;
+        track.motor_angle_rad.push_back(bench.motor_angle_rad());
+        track.load_torque_Nm.push_back(bench.load_torque_Nm());
+    }
+    return track;
+}
+
+Track with_effects(const BenchEffects& effects, int steps = 400) {
+    BenchSimulation bench({cable_with(50), true, pulleys, {}}, effects);
+    return track_of(bench, steps);
+}
+
+std::vector<double> typical(const Effect& effect, double severity) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k)
+        values.push_back(effect.absent[k] + severity * (effect.parameters[k].typical - effect.absent[k]));
+    return values;
+}
+
+double rms_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) squares += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(squares / static_cast<double>(a.size()));
+}
+
+TEST(BenchSimulation, WithoutEffectsItIsThePullPullPair) {
+    const Cable cable = cable_with(100);
+    const PullPull pair(cable, cable, pulleys);
+    PullPullState state = pair.at_rest();
+    BenchSimulation bench({cable, true, pulleys, {}}, {});
+    const Track track = track_of(bench, 800);
+    EXPECT_EQ(track.not_converged, 0);
+    std::vector<double> torque_Nm;
+    std::vector<double> angle_rad;
+    for (int step = 1; step <= 800; ++step) {
+        const BenchInputs inputs = hand_at(step);
+        pair.advance(state, {inputs.motor, inputs.load});
+        torque_Nm.push_back(pair.load_torque_Nm(state));
+        angle_rad.push_back(state.motor_angle_rad);
+    }
+    // Load torque swings by 1.4 N m, the motor by 1.6 rad.
+    EXPECT_LT(rms_difference(track.load_torque_Nm, torque_Nm), 0.01);
+    EXPECT_LT(rms_difference(track.motor_angle_rad, angle_rad), 5e-4);
+}
+
+TEST(BenchSimulation, WithoutEffectsASingleCableIsTheClosedFormStep) {
+    const Cable cable = cable_with(100);
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    CableState state = pretensioned(cable);
+    const double rest_m = state.displacement_m.front();
+    BenchSimulation bench({cable, false, pulleys, {}}, {});
+    for (int n = 1; n <= 600; ++n) {
+        const double angle = 0.3 * std::sin(2.0 * std::numbers::pi * n / 200.0);
+        bench.advance({MotorAngle{angle}, LoadAngle{0.0}, time_step_s, 0.0});
+        step.advance(state, {EndCondition::position_m(rest_m - pulleys.motor_radius_m * angle),
+                             EndCondition::position_m(0.0)});
+        EXPECT_NEAR(bench.motor_torque_Nm(), pulleys.motor_radius_m * state.tension_N.front(), 3e-3) << n;
+        EXPECT_NEAR(bench.load_torque_Nm(), pulleys.load_radius_m * state.tension_N.back(), 2e-2) << n;
+    }
+}
+
+class EveryEffect : public testing::TestWithParam<Effect> {};
+
+TEST_P(EveryEffect, AbsentIsTheBaseModelBitForBit) {
+    static const Track base = with_effects({});
+    BenchEffects effects;
+    GetParam().apply(effects, GetParam().absent);
+    EXPECT_TRUE(with_effects(effects) == base);
+}
+
+TEST_P(EveryEffect, ChangesSomethingAndStaysFinite) {
+    static const Track base = with_effects({});
+    for (const double severity : {1.0, 4.0}) {
+        BenchEffects effects;
+        GetParam().apply(effects, typical(GetParam(), severity));
+        const Track track = with_effects(effects);
+        EXPECT_FALSE(track == base);
+        for (std::size_t step = 0; step < track.load_torque_Nm.size(); ++step) {
+            ASSERT_TRUE(std::isfinite(track.load_torque_Nm[step])) << severity << " at " << step;
+            ASSERT_LT(std::abs(track.load_torque_Nm[step]), 20.0) << severity << " at " << step;
+            ASSERT_LT(std::abs(track.motor_angle_rad[step]), 10.0) << severity << " at " << step;
+        }
+    }
+}
+
+TEST_P(EveryEffect, GrowsFromNothing) {
+    static const Track base = with_effects({});
+    BenchEffects faint;
+    GetParam().apply(faint, typical(GetParam(), 1e-4));
+    BenchEffects whole;
+    GetParam().apply(whole, typical(GetParam(), 1.0));
+    EXPECT_LT(rms_difference(with_effects(faint).motor_angle_rad, base.motor_angle_rad),
+              0.05 * rms_difference(with_effects(whole).motor_angle_rad, base.motor_angle_rad) + 1e-5);
+}
+
+// Over whole cycles hand and motor put in at least as much work as they get back.
+TEST_P(EveryEffect, GivesNoWorkAway) {
+    BenchEffects effects;
+    GetParam().apply(effects, typical(GetParam(), 2.0));
+    BenchSimulation bench({cable_with(50), true, pulleys, {}}, effects);
+    double work_J = 0.0;
+    double motor_before_rad = 0.0;
+    double load_before_Nm = 0.0;
+    for (int step = 1; step <= 1000; ++step) {
+        const BenchInputs inputs = hand_at(step);
+        bench.advance(inputs);
+        const double motor_Nm = 0.5 * (std::get<MotorTorque>(inputs.motor).torque_Nm +
+                                       std::get<MotorTorque>(hand_at(step - 1).motor).torque_Nm);
+        const double turned_rad = std::get<LoadAngle>(inputs.load).angle_rad -
+                                  std::get<LoadAngle>(hand_at(step - 1).load).angle_rad;
+        if (step > 400) {
+            work_J += motor_Nm * (bench.motor_angle_rad() - motor_before_rad) -
+                      0.5 * (bench.load_torque_Nm() + load_before_Nm) * turned_rad;
+        }
+        motor_before_rad = bench.motor_angle_rad();
+        load_before_Nm = bench.load_torque_Nm();
+    }
+    EXPECT_GT(work_J, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(effect_catalogue()),
+                         [](const auto& effect) {
+                             std::string name =
+                                 effect.param.name +
+                                 (effect.param.variant.empty() ? "" : "_" + effect.param.variant);
+                             std::replace(name.begin(), name.end(), ' ', '_');
+                             return name;
+                         });
+
+TEST(BenchSimulation, RefusesInputsThatMoveNothingDefinite) {
+    BenchSimulation bench({cable_with(10), true, pulleys, {}}, {});
+    EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadTorque{0.1}, time_step_s, 0.0}), InvalidInput);
+    EXPECT_THROW(bench.advance({MotorTorque{std::nan("")}, LoadAngle{0.0}, time_step_s, 0.0}), InvalidInput);
+    EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadAngle{0.0}, 0.0, 0.0}), InvalidInput);
+    EXPECT_EQ(bench.motor_angle_rad(), 0.0);
+}
+
+}  // namespace
+}  // namespace capstan
