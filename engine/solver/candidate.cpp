@@ -45,6 +45,24 @@ void pin(const EndCondition& end, int node, CableState& state) {
     if (end.displacement_factor == 0.0) state.tension_N[node] = end.value / end.tension_factor;
 }
 
+void lay_slack(const Candidate& candidate, CableState& state) {
+    const double start_m = candidate.proximal.displacement_m;
+    const double gap_m = candidate.distal.displacement_m - start_m;
+    const int segments = static_cast<int>(state.tension_N.size()) - 1;
+    for (int node = 0; node <= segments; ++node) {
+        state.tension_N[node] = 0.0;
+        state.displacement_m[node] = start_m + gap_m * node / segments;
+    }
+}
+
+void finish(const MotionPattern& pattern, const EndConditions& ends, CableState& state) {
+    if (pattern.proximal_moving_nodes > 0) pin(ends.proximal, 0, state);
+    if (pattern.distal_moving_nodes > 0) {
+        pin(ends.distal, static_cast<int>(state.tension_N.size()) - 1, state);
+    }
+    state.last_motion = pattern;
+}
+
 }  // namespace
 
 Candidate partial_motion(const SideMotion& proximal, const SideMotion& distal) {
@@ -118,17 +136,17 @@ double moving_displacement_m(const StepView& view, const Candidate& candidate, i
 }
 
 bool verifies(const StepView& view, const Candidate& candidate) {
+    return resting_nodes_hold(view, candidate) && moves(proximal_run(view, candidate), view) &&
+           moves(distal_run(view, candidate), view);
+}
+
+bool resting_nodes_hold(const StepView& view, const Candidate& candidate) {
     const MotionPattern& pattern = candidate.pattern;
-    if (pattern.kind == MotionKind::slack || pattern.kind == MotionKind::rest) return true;
+    if (pattern.kind != MotionKind::partial) return true;
     const int last_node = view.segments();
     const int near = pattern.proximal_moving_nodes;
     const int far_first =
         last_node + 1 - pattern.distal_moving_nodes;  // first moving node of the distal side
-
-    if (!moves_along(proximal_run(view, candidate), pattern.proximal_direction, view)) return false;
-    if (pattern.kind == MotionKind::mass) return true;
-    if (!moves_along(distal_run(view, candidate), pattern.distal_direction, view)) return false;
-    if (pattern.kind == MotionKind::opposed) return true;
     if (near == far_first) return holding_reserve(view, candidate) * (1.0 + tension_rounding) >= 1.0;  // E8
     const bool near_holds =
         near == 0 ||
@@ -150,22 +168,25 @@ double holding_reserve(const StepView& view, const Candidate& candidate) {
 
 void write_state(const StepView& view, const Candidate& candidate, const EndConditions& ends,
                  CableState& state) {
-    const MotionPattern& pattern = candidate.pattern;
-    const int nodes = view.nodes();
-    if (pattern.kind == MotionKind::slack) {
-        const double start_m = candidate.proximal.displacement_m;
-        const double gap_m = candidate.distal.displacement_m - start_m;
-        for (int node = 0; node < nodes; ++node) {
-            state.tension_N[node] = 0.0;
-            state.displacement_m[node] = start_m + gap_m * node / (nodes - 1);
-        }
+    if (candidate.pattern.kind == MotionKind::slack) {
+        lay_slack(candidate, state);
     } else {
         write_run(proximal_run(view, candidate), state);
         write_run(distal_run(view, candidate), state);
-        if (pattern.proximal_moving_nodes > 0) pin(ends.proximal, 0, state);
-        if (pattern.distal_moving_nodes > 0) pin(ends.distal, nodes - 1, state);
     }
-    state.last_motion = pattern;
+    finish(candidate.pattern, ends, state);
+}
+
+bool write_if_verified(const StepView& view, const Candidate& candidate, const EndConditions& ends,
+                       CableState& state) {
+    if (!resting_nodes_hold(view, candidate)) return false;
+    if (candidate.pattern.kind == MotionKind::slack) {
+        lay_slack(candidate, state);
+    } else if (!write_if_both_move(proximal_run(view, candidate), distal_run(view, candidate), view, state)) {
+        return false;
+    }
+    finish(candidate.pattern, ends, state);
+    return true;
 }
 
 }  // namespace capstan

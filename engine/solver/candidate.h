@@ -43,9 +43,16 @@ double moving_displacement_m(const StepView& view, const Candidate& candidate, i
 /// The rules' velocity check and, next to resting nodes, both sides of the friction cone (E4, E5).
 bool verifies(const StepView& view, const Candidate& candidate);
 
+/// The part of it next to resting nodes.
+bool resting_nodes_hold(const StepView& view, const Candidate& candidate);
+
 /// How much larger the tension ratio across the segment between two sides that meet could be before it gives
 /// way (E4); below 1 it has, and 0 if a side is slack.
 double holding_reserve(const StepView& view, const Candidate& candidate);
+
+/// `verifies` and `write_state` in one; `state` stays as it is if the candidate does not verify.
+bool write_if_verified(const StepView& view, const Candidate& candidate, const EndConditions& ends,
+                       CableState& state);
 
 /// Writes the moving nodes into `state` (which `view` sees as before) and remembers the motion.
 void write_state(const StepView& view, const Candidate& candidate, const EndConditions& ends,

@@ -58,10 +58,11 @@ Direction driven_direction(const CableEnd& end, const StepView& view) {
                             (std::abs(condition.displacement_factor) * displacement_scale_m +
                              std::abs(tension_part) + std::abs(condition.value));
     if (std::abs(change) <= rounding) return Direction::none;
-    const double compliance = view.tables.half_compliance_m_per_N;
-    const double increment_per_change = compliance / (condition.displacement_factor * compliance -
-                                                      end.orientation * condition.tension_factor);
-    return direction_of(change * increment_per_change);
+    // The increment is h / this times the change, and h is positive.
+    const double change_per_increment =
+        condition.displacement_factor * view.tables.half_compliance_m_per_N -
+        end.orientation * condition.tension_factor;
+    return (change > 0.0) != std::signbit(change_per_increment) ? Direction::forward : Direction::backward;
 }
 
 // True if the resting node next to the front cannot hold and joins the motion (E4).
@@ -124,38 +125,73 @@ std::optional<Candidate> best_held_middle(const StepView& view, const EndConditi
     return best;
 }
 
-// The sides meet and no node rests. Driven against each other: the zero-velocity point is where it falls
-// (E7). Driven one way: all slides, or the middle of a segment between the sides still rests (E8).
-Candidate where_sides_meet(const StepView& view, const EndConditions& ends, const SideMotion& proximal,
-                           const SideMotion& distal, int& patterns_tried) {
-    if (proximal.direction != Direction::none && distal.direction == opposite(proximal.direction)) {
-        return opposed_motion(view, ends, proximal.direction, patterns_tried);
+// Both sides as far as they go.
+struct Sides {
+    SideMotion proximal;
+    SideMotion distal;
+
+    bool meet(const StepView& view) const {
+        return proximal.moving_nodes + distal.moving_nodes >= view.nodes();
     }
-    const Direction direction = proximal.direction != Direction::none ? proximal.direction : distal.direction;
-    const Candidate mass = mass_motion(view, ends, direction);
-    ++patterns_tried;
-    if (proximal.direction != distal.direction || verifies(view, mass)) return mass;
-    return best_held_middle(view, ends, proximal, distal, patterns_tried).value_or(mass);
+    bool driven_one_way() const { return proximal.direction == distal.direction; }
+    bool driven_against_each_other() const {
+        return proximal.direction != Direction::none && distal.direction == opposite(proximal.direction);
+    }
+};
+
+enum class FrontStart { remembered, end_of_cable };
+
+SideMotion side_from(const CableEnd& end, const StepView& view, FrontStart start, int& patterns_tried) {
+    const Direction direction = driven_direction(end, view);
+    if (direction == Direction::none) return {};
+    const int first = start == FrontStart::remembered
+                          ? remembered_front(view.before.last_motion, end.orientation > 0, direction, view.nodes())
+                          : 0;
+    return find_front(end, view, direction, first, patterns_tried);
 }
 
-Candidate from_fronts(const StepView& view, const EndConditions& ends, bool remember, int& patterns_tried) {
-    const CableEnd proximal = CableEnd::proximal(ends.proximal, view.nodes());
-    const CableEnd distal = CableEnd::distal(ends.distal, view.nodes());
-    const Direction proximal_direction = driven_direction(proximal, view);
-    const Direction distal_direction = driven_direction(distal, view);
-    const auto side = [&](const CableEnd& end, Direction direction) -> SideMotion {
-        if (direction == Direction::none) return {};
-        const int first =
-            remember ? remembered_front(view.before.last_motion, end.orientation > 0, direction, view.nodes())
-                     : 0;
-        return find_front(end, view, direction, first, patterns_tried);
-    };
-    const SideMotion proximal_side = side(proximal, proximal_direction);
-    const SideMotion distal_side = side(distal, distal_direction);
-    if (proximal_side.moving_nodes + distal_side.moving_nodes < view.nodes()) {
-        return partial_motion(proximal_side, distal_side);
+Sides find_sides(const StepView& view, const EndConditions& ends, FrontStart start, int& patterns_tried) {
+    return {side_from(CableEnd::proximal(ends.proximal, view.nodes()), view, start, patterns_tried),
+            side_from(CableEnd::distal(ends.distal, view.nodes()), view, start, patterns_tried)};
+}
+
+// Sides that meet leave no node at rest. Driven against each other: the zero-velocity point is where it falls
+// (E7). Else all slides.
+Candidate from_sides(const StepView& view, const EndConditions& ends, const Sides& sides,
+                     int& patterns_tried) {
+    if (!sides.meet(view)) return partial_motion(sides.proximal, sides.distal);
+    if (sides.driven_against_each_other()) {
+        return opposed_motion(view, ends, sides.proximal.direction, patterns_tried);
     }
-    return where_sides_meet(view, ends, proximal_side, distal_side, patterns_tried);
+    ++patterns_tried;
+    return mass_motion(
+        view, ends,
+        sides.proximal.direction != Direction::none ? sides.proximal.direction : sides.distal.direction);
+}
+
+// Where sides driven one way meet and not all slides: the middle of a segment between them still rests (E8).
+std::optional<Candidate> instead_of_mass(const StepView& view, const EndConditions& ends, const Sides& sides,
+                                         int& patterns_tried) {
+    if (!sides.meet(view) || !sides.driven_one_way()) return std::nullopt;
+    return best_held_middle(view, ends, sides.proximal, sides.distal, patterns_tried);
+}
+
+// The first candidate did not verify: a remembered front can be too far on, and the ends' own increments can
+// mislead about the whole.
+std::optional<Candidate> another_that_verifies(const StepView& view, const EndConditions& ends,
+                                               const Sides& sides, int& patterns_tried) {
+    if (auto held = instead_of_mass(view, ends, sides, patterns_tried)) return held;
+    const Sides anew = find_sides(view, ends, FrontStart::end_of_cable, patterns_tried);
+    const Candidate again = from_sides(view, ends, anew, patterns_tried);
+    if (verifies(view, again)) return again;
+    if (auto held = instead_of_mass(view, ends, anew, patterns_tried)) return held;
+    for (const Direction direction : {Direction::forward, Direction::backward}) {
+        const Candidate mass = mass_motion(view, ends, direction);
+        if (verifies(view, mass)) return mass;
+        const Candidate opposed = opposed_motion(view, ends, direction, patterns_tried);
+        if (verifies(view, opposed)) return opposed;
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -167,25 +203,13 @@ StepReport QuasiStaticStep::advance(CableState& state, const EndConditions& ends
     if (!solvable(ends)) refuse(ends);
     const StepView view{tables_, rules_, state};
     int patterns_tried = 0;
+    const Sides sides = find_sides(view, ends, FrontStart::remembered, patterns_tried);
+    const Candidate likely = from_sides(view, ends, sides, patterns_tried);
+    if (write_if_verified(view, likely, ends, state)) return {state.last_motion, true, patterns_tried};
 
-    Candidate candidate = from_fronts(view, ends, true, patterns_tried);
-    bool verified = verifies(view, candidate);
-    if (!verified) {
-        // A remembered front can be too far on, and the ends' own increments can mislead about the whole.
-        const auto retry = [&](const Candidate& other) {
-            if (!verified && verifies(view, other)) {
-                candidate = other;
-                verified = true;
-            }
-        };
-        retry(from_fronts(view, ends, false, patterns_tried));
-        for (const Direction direction : {Direction::forward, Direction::backward}) {
-            retry(mass_motion(view, ends, direction));
-            retry(opposed_motion(view, ends, direction, patterns_tried));
-        }
-    }
-    write_state(view, candidate, ends, state);
-    return {state.last_motion, verified, patterns_tried};
+    const std::optional<Candidate> other = another_that_verifies(view, ends, sides, patterns_tried);
+    write_state(view, other.value_or(likely), ends, state);
+    return {state.last_motion, other.has_value(), patterns_tried};
 }
 
 }  // namespace capstan

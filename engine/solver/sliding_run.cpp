@@ -17,49 +17,81 @@ HWY_BEFORE_NAMESPACE();
 namespace capstan::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// True if every node of the run moves by `lowest` or more along `direction` (+1 or -1).
-bool every_node_moves(const SlidingRun& run, double direction, const double* HWY_RESTRICT before_m,
-                      double lowest) {
-    const hn::ScalableTag<double> d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
+using Tag = hn::ScalableTag<double>;
+
+// Calls `at(node)` for whole vectors of the run, four in a row where it is long. The last one overlaps the one
+// before instead of leaving single nodes over. False if the run is shorter than a vector.
+template <class AtVector>
+HWY_INLINE bool for_each_vector(const SlidingRun& run, AtVector&& at) {
+    const int lanes = static_cast<int>(hn::Lanes(Tag()));
+    const int last = run.end - lanes;
+    if (last < run.first) return false;
+    int node = run.first;
+    for (; node <= last - 4 * lanes; node += 4 * lanes) {
+        at(node);
+        at(node + lanes);
+        at(node + 2 * lanes);
+        at(node + 3 * lanes);
+    }
+    for (; node < last; node += lanes) at(node);
+    at(last);
+    return true;
+}
+
+// True if `now` is at most displacement_rounding_m behind `before`, seen along the direction, at every node.
+template <class Increment>
+HWY_INLINE bool no_node_lags(const SlidingRun& run, const double* HWY_RESTRICT before_m, Increment&& increment) {
+    const Tag d;
     const double* HWY_RESTRICT elongation = run.elongation_m_per_N;
-    const auto way = hn::Set(d, direction);
     const auto anchor = hn::Set(d, run.anchor_m);
     const auto slope = hn::Set(d, run.slope_N);
-    const auto limit = hn::Set(d, lowest);
-    auto least = limit;
-    int node = run.first;
-    for (; node + lanes <= run.end; node += lanes) {
+    const auto lowest = hn::Set(d, -displacement_rounding_m);
+    auto least = lowest;
+    const bool vectors = for_each_vector(run, [&](int node) HWY_ATTR {
         const auto now = hn::Add(anchor, hn::Mul(slope, hn::LoadU(d, elongation + node)));
-        const auto increment = hn::Mul(way, hn::Sub(now, hn::LoadU(d, before_m + node)));
-        least = hn::Min(least, increment);
-    }
-    if (!hn::AllTrue(d, hn::Ge(least, limit))) return false;
-    for (; node < run.end; ++node) {
+        least = hn::Min(least, increment(now, hn::LoadU(d, before_m + node)));
+    });
+    if (vectors) return hn::AllTrue(d, hn::Ge(least, lowest));
+    const double way = sign(run.direction);
+    for (int node = run.first; node < run.end; ++node) {
         const double increment_m = run.anchor_m + run.slope_N * elongation[node] - before_m[node];
-        if (direction * increment_m < lowest) return false;
+        if (way * increment_m < -displacement_rounding_m) return false;
     }
     return true;
 }
 
+bool every_node_moves(const SlidingRun& run, const double* HWY_RESTRICT before_m) {
+    if (run.direction == Direction::forward) {
+        return no_node_lags(run, before_m, [](auto now, auto before) HWY_ATTR { return hn::Sub(now, before); });
+    }
+    return no_node_lags(run, before_m, [](auto now, auto before) HWY_ATTR { return hn::Sub(before, now); });
+}
+
 void write_nodes(const SlidingRun& run, double* HWY_RESTRICT tension_N, double* HWY_RESTRICT displacement_m) {
-    const hn::ScalableTag<double> d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
+    const Tag d;
     const double* HWY_RESTRICT ratio = run.ratio;
     const double* HWY_RESTRICT elongation = run.elongation_m_per_N;
     const auto scale = hn::Set(d, run.scale_N);
     const auto anchor = hn::Set(d, run.anchor_m);
     const auto slope = hn::Set(d, run.slope_N);
-    int node = run.first;
-    for (; node + lanes <= run.end; node += lanes) {
+    const bool vectors = for_each_vector(run, [&](int node) HWY_ATTR {
         hn::StoreU(hn::Mul(scale, hn::LoadU(d, ratio + node)), d, tension_N + node);
-        hn::StoreU(hn::Add(anchor, hn::Mul(slope, hn::LoadU(d, elongation + node))), d,
-                   displacement_m + node);
-    }
-    for (; node < run.end; ++node) {
+        hn::StoreU(hn::Add(anchor, hn::Mul(slope, hn::LoadU(d, elongation + node))), d, displacement_m + node);
+    });
+    if (vectors) return;
+    for (int node = run.first; node < run.end; ++node) {
         tension_N[node] = run.scale_N * ratio[node];
         displacement_m[node] = run.anchor_m + run.slope_N * elongation[node];
     }
+}
+
+bool write_if_every_node_moves(const SlidingRun& proximal, const SlidingRun& distal, double* HWY_RESTRICT tension_N,
+                               double* HWY_RESTRICT displacement_m) {
+    if (!proximal.empty() && !every_node_moves(proximal, displacement_m)) return false;
+    if (!distal.empty() && !every_node_moves(distal, displacement_m)) return false;
+    if (!proximal.empty()) write_nodes(proximal, tension_N, displacement_m);
+    if (!distal.empty()) write_nodes(distal, tension_N, displacement_m);
+    return true;
 }
 
 }  // namespace capstan::HWY_NAMESPACE
@@ -70,19 +102,18 @@ namespace capstan {
 
 HWY_EXPORT(every_node_moves);
 HWY_EXPORT(write_nodes);
+HWY_EXPORT(write_if_every_node_moves);
 
 namespace {
 
-// Rounding of displacements of up to a metre, with three digits to spare.
-constexpr double displacement_rounding_m = 1e-12;
-
 // The paper's check, for its own figures.
-bool every_segment_moves_in_the_mean(const SlidingRun& run, double direction, const double* before_m) {
+bool every_segment_moves_in_the_mean(const SlidingRun& run, const double* before_m) {
+    const double way = sign(run.direction);
     const auto increment_m = [&](int node) {
         return run.anchor_m + run.slope_N * run.elongation_m_per_N[node] - before_m[node];
     };
     for (int node = run.first; node + 1 < run.end; ++node) {
-        if (direction * (increment_m(node) + increment_m(node + 1)) < -displacement_rounding_m) return false;
+        if (way * (increment_m(node) + increment_m(node + 1)) < -displacement_rounding_m) return false;
     }
     return true;
 }
@@ -94,6 +125,7 @@ SlidingRun proximal_run(const StepView& view, const Candidate& candidate) {
     const SideTable& table = view.tables.proximal(sign(pattern.proximal_direction));
     return {0,
             pattern.proximal_moving_nodes,
+            pattern.proximal_direction,
             candidate.proximal.tension_N,
             candidate.proximal.displacement_m,
             candidate.proximal.tension_N,
@@ -107,6 +139,7 @@ SlidingRun distal_run(const StepView& view, const Candidate& candidate) {
     // In mass motion the proximal run has all nodes already.
     return {std::max(pattern.proximal_moving_nodes, view.nodes() - pattern.distal_moving_nodes),
             view.nodes(),
+            pattern.distal_direction,
             candidate.distal.tension_N,
             candidate.distal.displacement_m,
             -candidate.distal.tension_N,
@@ -114,22 +147,37 @@ SlidingRun distal_run(const StepView& view, const Candidate& candidate) {
             table.elongation_m_per_N.data()};
 }
 
-bool moves_along(const SlidingRun& run, Direction direction, const StepView& view) {
-    if (run.first >= run.end) return true;
+bool moves(const SlidingRun& run, const StepView& view) {
+    if (run.empty()) return true;
     const double* before_m = view.before.displacement_m.data();
     switch (view.rules.check) {
         case VelocityCheck::every_node:
-            return HWY_DYNAMIC_DISPATCH(every_node_moves)(run, sign(direction), before_m,
-                                                          -displacement_rounding_m);
+            return HWY_DYNAMIC_DISPATCH(every_node_moves)(run, before_m);
         case VelocityCheck::segment_mean:
-            return every_segment_moves_in_the_mean(run, sign(direction), before_m);
+            return every_segment_moves_in_the_mean(run, before_m);
     }
     return false;
 }
 
 void write_run(const SlidingRun& run, CableState& state) {
-    if (run.first >= run.end) return;
+    if (run.empty()) return;
     HWY_DYNAMIC_DISPATCH(write_nodes)(run, state.tension_N.data(), state.displacement_m.data());
+}
+
+bool write_if_both_move(const SlidingRun& proximal, const SlidingRun& distal, const StepView& view,
+                        CableState& state) {
+    if (view.rules.check == VelocityCheck::every_node) {
+        // Looked up once: Highway's own look-up would be a tenth of a step of a short cable.
+        static const auto write = [] {
+            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            return &HWY_DYNAMIC_DISPATCH(write_if_every_node_moves);
+        }();
+        return write(proximal, distal, state.tension_N.data(), state.displacement_m.data());
+    }
+    if (!moves(proximal, view) || !moves(distal, view)) return false;
+    write_run(proximal, state);
+    write_run(distal, state);
+    return true;
 }
 
 }  // namespace capstan
