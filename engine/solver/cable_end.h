@@ -30,26 +30,39 @@ struct EndValues {
     double displacement_m = 0.0;
 };
 
+enum class End { proximal, distal };
+
 /// One end of the cable seen outward from it, so that both ends share one code: k = 0 is the end node, and
 /// `orientation` is +1 where outward is towards the distal end, -1 where it is towards the proximal one.
+template <End which>
 struct CableEnd {
-    EndCondition condition;
-    int end_node = 0;
-    int orientation = 1;
+    static constexpr int orientation = which == End::proximal ? 1 : -1;
 
-    static CableEnd proximal(const EndCondition& condition, int) { return {condition, 0, 1}; }
-    static CableEnd distal(const EndCondition& condition, int nodes) { return {condition, nodes - 1, -1}; }
+    const StepView& view;
+    const EndCondition& condition;
 
-    int node(int k) const { return end_node + orientation * k; }
-    int segment(int k) const { return orientation > 0 ? k : end_node - 1 - k; }
+    CableEnd(const StepView& step, const EndConditions& ends)
+        : view(step), condition(which == End::proximal ? ends.proximal : ends.distal) {}
 
-    const SideTable& table(const PrefixTables& tables, Direction direction) const {
-        return orientation > 0 ? tables.proximal(sign(direction)) : tables.distal(sign(direction));
+    int node(int k) const { return which == End::proximal ? k : view.segments() - k; }
+    int segment(int k) const { return which == End::proximal ? k : view.segments() - 1 - k; }
+
+    const SideTable& table(Direction direction) const {
+        return which == End::proximal ? view.tables.proximal(sign(direction))
+                                      : view.tables.distal(sign(direction));
+    }
+    Direction last_direction() const {
+        const MotionPattern& last = view.before.last_motion;
+        return which == End::proximal ? last.proximal_direction : last.distal_direction;
+    }
+    int last_moving_nodes() const {
+        const MotionPattern& last = view.before.last_motion;
+        return which == End::proximal ? last.proximal_moving_nodes : last.distal_moving_nodes;
     }
 
     /// The first `moving_nodes` nodes slide, the next one rests (E3 with E6): two lines in u and T of the
     /// end.
-    EndValues partial_motion(const StepView& view, const SideTable& side, int moving_nodes) const {
+    EndValues partial_motion(const SideTable& side, int moving_nodes) const {
         const int resting = node(moving_nodes);
         const double compliance = side.front_compliance_m_per_N[node(moving_nodes - 1)];
         const double anchor_m = view.displacement_m(resting) -

@@ -1,12 +1,30 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <new>
 #include <vector>
 
 #include "capstan/cable/cable.h"
 #include "capstan/solver/model_rules.h"
 
 namespace capstan {
+
+/// A whole number of SIMD vectors lies in a cache line, if the first one begins there.
+template <class T>
+struct CacheLineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t line_bytes{64};
+
+    CacheLineAllocator() = default;
+    template <class Other>
+    CacheLineAllocator(const CacheLineAllocator<Other>&) {}
+
+    T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), line_bytes)); }
+    void deallocate(T* first, std::size_t) { ::operator delete(first, line_bytes); }
+    friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+};
+using NodeTable = std::vector<double, CacheLineAllocator<double>>;
 
 /// Elongation [m] of a sliding segment per newton at its first node, whose tension grows by exp(exponent)
 /// along it (E2).
@@ -15,11 +33,11 @@ double sliding_elongation_m_per_N(ElongationRule rule, double compliance_m_per_N
 /// All nodes of a sliding side follow from its end node (E1, E2). Arrays are in node order for both ends:
 /// T_node = T_end * tension_ratio[node], |u_node - u_end| = T_end * elongation_m_per_N[node].
 struct SideTable {
-    std::vector<double> tension_ratio;       // nodes
-    std::vector<double> elongation_m_per_N;  // nodes
+    NodeTable tension_ratio;       // nodes
+    NodeTable elongation_m_per_N;  // nodes
     /// The same elongation to the next node outward, taken as half a segment at rest (E3's h added):
     /// displacement of the end per newton when this node is the last one moving.
-    std::vector<double> front_compliance_m_per_N;  // nodes
+    NodeTable front_compliance_m_per_N;  // nodes
 };
 
 /// Everything about a cable that a step needs and that does not change from step to step.

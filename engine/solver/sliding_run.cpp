@@ -3,8 +3,6 @@
 // every processor.
 #include "capstan/solver/sliding_run.h"
 
-#include <algorithm>
-
 // foreach_target.h comes before highway.h.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
@@ -19,8 +17,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::ScalableTag<double>;
 
-// Calls `at(node)` for whole vectors of the run, four in a row where it is long. The last one overlaps the one
-// before instead of leaving single nodes over. False if the run is shorter than a vector.
+// Calls `at(node)` for whole vectors of the run, four in a row where it is long. The last one overlaps the
+// one before instead of leaving single nodes over. False if the run is shorter than a vector.
 template <class AtVector>
 HWY_INLINE bool for_each_vector(const SlidingRun& run, AtVector&& at) {
     const int lanes = static_cast<int>(hn::Lanes(Tag()));
@@ -40,7 +38,8 @@ HWY_INLINE bool for_each_vector(const SlidingRun& run, AtVector&& at) {
 
 // True if `now` is at most displacement_rounding_m behind `before`, seen along the direction, at every node.
 template <class Increment>
-HWY_INLINE bool no_node_lags(const SlidingRun& run, const double* HWY_RESTRICT before_m, Increment&& increment) {
+HWY_INLINE bool no_node_lags(const SlidingRun& run, const double* HWY_RESTRICT before_m,
+                             Increment&& increment) {
     const Tag d;
     const double* HWY_RESTRICT elongation = run.elongation_m_per_N;
     const auto anchor = hn::Set(d, run.anchor_m);
@@ -60,14 +59,16 @@ HWY_INLINE bool no_node_lags(const SlidingRun& run, const double* HWY_RESTRICT b
     return true;
 }
 
-bool every_node_moves(const SlidingRun& run, const double* HWY_RESTRICT before_m) {
+HWY_INLINE bool run_moves(const SlidingRun& run, const double* HWY_RESTRICT before_m) {
     if (run.direction == Direction::forward) {
-        return no_node_lags(run, before_m, [](auto now, auto before) HWY_ATTR { return hn::Sub(now, before); });
+        return no_node_lags(run, before_m,
+                            [](auto now, auto before) HWY_ATTR { return hn::Sub(now, before); });
     }
     return no_node_lags(run, before_m, [](auto now, auto before) HWY_ATTR { return hn::Sub(before, now); });
 }
 
-void write_nodes(const SlidingRun& run, double* HWY_RESTRICT tension_N, double* HWY_RESTRICT displacement_m) {
+HWY_INLINE void write(const SlidingRun& run, double* HWY_RESTRICT tension_N,
+                      double* HWY_RESTRICT displacement_m) {
     const Tag d;
     const double* HWY_RESTRICT ratio = run.ratio;
     const double* HWY_RESTRICT elongation = run.elongation_m_per_N;
@@ -76,7 +77,8 @@ void write_nodes(const SlidingRun& run, double* HWY_RESTRICT tension_N, double* 
     const auto slope = hn::Set(d, run.slope_N);
     const bool vectors = for_each_vector(run, [&](int node) HWY_ATTR {
         hn::StoreU(hn::Mul(scale, hn::LoadU(d, ratio + node)), d, tension_N + node);
-        hn::StoreU(hn::Add(anchor, hn::Mul(slope, hn::LoadU(d, elongation + node))), d, displacement_m + node);
+        hn::StoreU(hn::Add(anchor, hn::Mul(slope, hn::LoadU(d, elongation + node))), d,
+                   displacement_m + node);
     });
     if (vectors) return;
     for (int node = run.first; node < run.end; ++node) {
@@ -85,12 +87,25 @@ void write_nodes(const SlidingRun& run, double* HWY_RESTRICT tension_N, double* 
     }
 }
 
-bool write_if_every_node_moves(const SlidingRun& proximal, const SlidingRun& distal, double* HWY_RESTRICT tension_N,
-                               double* HWY_RESTRICT displacement_m) {
-    if (!proximal.empty() && !every_node_moves(proximal, displacement_m)) return false;
-    if (!distal.empty() && !every_node_moves(distal, displacement_m)) return false;
-    if (!proximal.empty()) write_nodes(proximal, tension_N, displacement_m);
-    if (!distal.empty()) write_nodes(distal, tension_N, displacement_m);
+bool every_node_moves(const SlidingRun& run, const double* before_m) {
+    return run_moves(run, before_m);
+}
+
+void write_nodes(const SlidingRun& run, double* tension_N, double* displacement_m) {
+    write(run, tension_N, displacement_m);
+}
+
+bool write_if_every_node_moves(const SlidingRun& proximal, const SlidingRun& distal, double* tension_N,
+                               double* displacement_m) {
+    if (distal.empty()) {
+        if (!run_moves(proximal, displacement_m)) return false;
+        write(proximal, tension_N, displacement_m);
+        return true;
+    }
+    if (!every_node_moves(proximal, displacement_m) || !every_node_moves(distal, displacement_m))
+        return false;
+    write_nodes(proximal, tension_N, displacement_m);
+    write_nodes(distal, tension_N, displacement_m);
     return true;
 }
 
@@ -119,33 +134,6 @@ bool every_segment_moves_in_the_mean(const SlidingRun& run, const double* before
 }
 
 }  // namespace
-
-SlidingRun proximal_run(const StepView& view, const Candidate& candidate) {
-    const MotionPattern& pattern = candidate.pattern;
-    const SideTable& table = view.tables.proximal(sign(pattern.proximal_direction));
-    return {0,
-            pattern.proximal_moving_nodes,
-            pattern.proximal_direction,
-            candidate.proximal.tension_N,
-            candidate.proximal.displacement_m,
-            candidate.proximal.tension_N,
-            table.tension_ratio.data(),
-            table.elongation_m_per_N.data()};
-}
-
-SlidingRun distal_run(const StepView& view, const Candidate& candidate) {
-    const MotionPattern& pattern = candidate.pattern;
-    const SideTable& table = view.tables.distal(sign(pattern.distal_direction));
-    // In mass motion the proximal run has all nodes already.
-    return {std::max(pattern.proximal_moving_nodes, view.nodes() - pattern.distal_moving_nodes),
-            view.nodes(),
-            pattern.distal_direction,
-            candidate.distal.tension_N,
-            candidate.distal.displacement_m,
-            -candidate.distal.tension_N,
-            table.tension_ratio.data(),
-            table.elongation_m_per_N.data()};
-}
 
 bool moves(const SlidingRun& run, const StepView& view) {
     if (run.empty()) return true;

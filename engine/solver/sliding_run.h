@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "capstan/solver/candidate.h"
 
 namespace capstan {
@@ -22,8 +24,32 @@ struct SlidingRun {
     bool empty() const { return first >= end; }
 };
 
-SlidingRun proximal_run(const StepView& view, const Candidate& candidate);
-SlidingRun distal_run(const StepView& view, const Candidate& candidate);
+inline SlidingRun proximal_run(const StepView& view, const Candidate& candidate) {
+    const MotionPattern& pattern = candidate.pattern;
+    const SideTable& table = view.tables.proximal(sign(pattern.proximal_direction));
+    return {0,
+            pattern.proximal_moving_nodes,
+            pattern.proximal_direction,
+            candidate.proximal.tension_N,
+            candidate.proximal.displacement_m,
+            candidate.proximal.tension_N,
+            table.tension_ratio.data(),
+            table.elongation_m_per_N.data()};
+}
+
+inline SlidingRun distal_run(const StepView& view, const Candidate& candidate) {
+    const MotionPattern& pattern = candidate.pattern;
+    const SideTable& table = view.tables.distal(sign(pattern.distal_direction));
+    // In mass motion the proximal run has all nodes already.
+    return {std::max(pattern.proximal_moving_nodes, view.nodes() - pattern.distal_moving_nodes),
+            view.nodes(),
+            pattern.distal_direction,
+            candidate.distal.tension_N,
+            candidate.distal.displacement_m,
+            -candidate.distal.tension_N,
+            table.tension_ratio.data(),
+            table.elongation_m_per_N.data()};
+}
 
 /// The velocity check (E5) over a run.
 bool moves(const SlidingRun& run, const StepView& view);

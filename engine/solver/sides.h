@@ -1,0 +1,31 @@
+#pragma once
+
+#include "capstan/solver/sliding_front.h"
+
+namespace capstan {
+
+/// Both sides as far as they go.
+struct Sides {
+    SideMotion proximal;
+    SideMotion distal;
+
+    bool meet(const StepView& view) const {
+        return proximal.moving_nodes + distal.moving_nodes >= view.nodes();
+    }
+    /// Of sides not driven against each other.
+    Direction common_direction() const {
+        return proximal.direction != Direction::none ? proximal.direction : distal.direction;
+    }
+    bool driven_one_way() const { return proximal.direction == distal.direction; }
+    bool driven_against_each_other() const {
+        return proximal.direction != Direction::none && distal.direction == opposite(proximal.direction);
+    }
+};
+
+inline Sides find_sides(const StepView& view, const EndConditions& ends, FrontStart start,
+                        int& patterns_tried) {
+    return {side_from(CableEnd<End::proximal>(view, ends), start, patterns_tried),
+            side_from(CableEnd<End::distal>(view, ends), start, patterns_tried)};
+}
+
+}  // namespace capstan

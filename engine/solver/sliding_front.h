@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "capstan/solver/candidate.h"
+
+namespace capstan {
+
+// One side of a step: which way its end drives it, and how far its front goes. The two sides know nothing of
+// each other.
+
+/// Which way an end node would go if it moved alone against its resting neighbour (E3 with E6); an input that
+/// has not changed beyond rounding drives nothing.
+template <End which>
+Direction driven_direction(const CableEnd<which>& end) {
+    const StepView& view = end.view;
+    const EndCondition& condition = end.condition;
+    const double displacement_part = condition.displacement_factor * view.displacement_m(end.node(0));
+    const double tension_part = condition.tension_factor * view.tension_N(end.node(0));
+    const double change = condition.value - (displacement_part + tension_part);
+    const double displacement_scale_m =
+        std::abs(view.displacement_m(0)) + std::abs(view.displacement_m(view.segments()));
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() *
+                            (std::abs(condition.displacement_factor) * displacement_scale_m +
+                             std::abs(tension_part) + std::abs(condition.value));
+    if (std::abs(change) <= rounding) return Direction::none;
+    // The increment is h / this times the change, and h is positive.
+    const double change_per_increment = condition.displacement_factor * view.tables.half_compliance_m_per_N -
+                                        end.orientation * condition.tension_factor;
+    return (change > 0.0) != std::signbit(change_per_increment) ? Direction::forward : Direction::backward;
+}
+
+/// True if the resting node next to the front cannot hold and joins the motion (E4).
+template <End which>
+bool neighbour_gives_way(const CableEnd<which>& end, Direction direction, int moving_nodes,
+                         double last_tension_N) {
+    const double resting_tension_N = end.view.tension_N(end.node(moving_nodes));
+    const double ratio = end.view.holding_ratio(end.segment(moving_nodes - 1));
+    return end.orientation * sign(direction) > 0 ? resting_tension_N >= last_tension_N * ratio
+                                                 : last_tension_N >= resting_tension_N * ratio;
+}
+
+template <End which>
+SideMotion side_motion(const CableEnd<which>& end, Direction direction, int moving_nodes) {
+    return {direction, moving_nodes, end.partial_motion(end.table(direction), moving_nodes)};
+}
+
+/// Moves a side's front on until its resting neighbour holds; `nodes` when nothing holds.
+template <End which>
+SideMotion find_front(const CableEnd<which>& end, Direction direction, int first_count, int& patterns_tried) {
+    const SideTable& table = end.table(direction);
+    const int nodes = end.view.nodes();
+    for (int count = std::max(first_count, 1); count < nodes; ++count) {
+        const EndValues values = end.partial_motion(table, count);
+        ++patterns_tried;
+        const double last_tension_N = values.tension_N * table.tension_ratio[end.node(count - 1)];
+        if (!neighbour_gives_way(end, direction, count, last_tension_N)) return {direction, count, values};
+    }
+    return {direction, nodes, {}};
+}
+
+/// How many nodes the side moved in the step before, if it goes on the same way; else 0: start at the end.
+template <End which>
+int remembered_front(const CableEnd<which>& end, Direction direction) {
+    if (end.view.before.last_motion.kind == MotionKind::slack) return end.view.nodes();
+    return end.last_direction() == direction ? end.last_moving_nodes() : 0;
+}
+
+enum class FrontStart { remembered, end_of_cable };
+
+/// The side as its end drives it; nothing moves where the input has not changed.
+template <End which>
+SideMotion side_from(const CableEnd<which>& end, FrontStart start, int& patterns_tried) {
+    const Direction direction = driven_direction(end);
+    if (direction == Direction::none) return {};
+    const int first = start == FrontStart::remembered ? remembered_front(end, direction) : 0;
+    return find_front(end, direction, first, patterns_tried);
+}
+
+}  // namespace capstan
