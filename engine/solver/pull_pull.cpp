@@ -66,7 +66,7 @@ Pulleys checked(const Pulleys& pulleys) {
 // One guess of the angles, always made from the state before the step.
 struct PullPull::Trial {
     const PullPullState& before;
-    PullPullState after;
+    PullPullState& after;
     PullPullReport report;
 };
 
@@ -92,8 +92,14 @@ double PullPull::load_torque_Nm(const PullPullState& state) const {
 }
 
 PullPullReport PullPull::advance(PullPullState& state, const PullPullInputs& inputs) const {
+    PullPullState room = state;
+    return advance(state, inputs, room);
+}
+
+PullPullReport PullPull::advance(PullPullState& state, const PullPullInputs& inputs,
+                                 PullPullState& room) const {
     demand_solvable(inputs);
-    Trial trial{state, state, {}};
+    Trial trial{state, room, {}};
     std::visit(Overloaded{[&](const MotorAngle& motor) {
                               load_settles(trial, motor.angle_rad, inputs.load, torque_tolerance_Nm);
                           },
@@ -107,9 +113,8 @@ PullPullReport PullPull::advance(PullPullState& state, const PullPullInputs& inp
                                   });
                           }},
                inputs.motor);
-    PullPullReport report = trial.report;
-    state = std::move(trial.after);
-    return report;
+    std::swap(state, room);
+    return trial.report;
 }
 
 // Both cables with both angles known (E15).

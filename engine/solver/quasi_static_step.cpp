@@ -1,47 +1,13 @@
 #include "capstan/solver/quasi_static_step.h"
 
-#include <cmath>
-#include <string>
-
-#include "capstan/cable/invalid_input.h"
 #include "capstan/solver/pattern_search.h"
 #include "capstan/solver/sides.h"
 #include "capstan/solver/sliding_run.h"
+#include "capstan/solver/solvable_ends.h"
 
 namespace capstan {
 
 namespace {
-
-bool is_line(const EndCondition& end) {
-    // Nothing times a number is nothing, unless the number is not finite.
-    const bool finite = 0.0 * end.displacement_factor + 0.0 * end.tension_factor + 0.0 * end.value == 0.0;
-    return finite && std::abs(end.displacement_factor) + std::abs(end.tension_factor) > 0.0;
-}
-
-bool solvable(const EndConditions& ends) {
-    return is_line(ends.proximal) && is_line(ends.distal) &&
-           (ends.proximal.displacement_factor != 0.0 || ends.distal.displacement_factor != 0.0);
-}
-
-[[noreturn, gnu::noinline]] void refuse(const EndConditions& ends) {
-    std::vector<std::string> problems;
-    const auto check = [&](const EndCondition& end, const char* name) {
-        if (!std::isfinite(end.displacement_factor) || !std::isfinite(end.tension_factor) ||
-            !std::isfinite(end.value)) {
-            problems.push_back(std::string("the ") + name + " end's input is not a finite number");
-        } else if (end.displacement_factor == 0.0 && end.tension_factor == 0.0) {
-            problems.push_back(std::string("the ") + name + " end's input says nothing: both factors are 0");
-        }
-    };
-    check(ends.proximal, "proximal");
-    check(ends.distal, "distal");
-    if (problems.empty()) {
-        problems.push_back(
-            "a tension is prescribed at both ends, so the displacement is undetermined; prescribe a position "
-            "or a spring at one end");
-    }
-    throw InvalidInput(problems);
-}
 
 [[gnu::noinline]] StepReport take_what_verifies(const StepView& view, const EndConditions& ends,
                                                 CableState& state) {

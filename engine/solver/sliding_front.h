@@ -11,6 +11,9 @@ namespace capstan {
 // One side of a step: which way its end drives it, and how far its front goes. The two sides know nothing of
 // each other.
 
+/// An input's change within this share of the sizes that it is the difference of is rounding.
+inline constexpr double input_rounding = 64.0 * std::numeric_limits<double>::epsilon();
+
 /// Which way an end node would go if it moved alone against its resting neighbour (E3 with E6); an input that
 /// has not changed beyond rounding drives nothing.
 template <End which>
@@ -22,9 +25,8 @@ Direction driven_direction(const CableEnd<which>& end) {
     const double change = condition.value - (displacement_part + tension_part);
     const double displacement_scale_m =
         std::abs(view.displacement_m(0)) + std::abs(view.displacement_m(view.segments()));
-    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() *
-                            (std::abs(condition.displacement_factor) * displacement_scale_m +
-                             std::abs(tension_part) + std::abs(condition.value));
+    const double rounding = input_rounding * (std::abs(condition.displacement_factor) * displacement_scale_m +
+                                              std::abs(tension_part) + std::abs(condition.value));
     if (std::abs(change) <= rounding) return Direction::none;
     // The increment is h / this times the change, and h is positive.
     const double change_per_increment = condition.displacement_factor * view.tables.half_compliance_m_per_N -

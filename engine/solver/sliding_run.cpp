@@ -3,6 +3,8 @@
 // every processor.
 #include "capstan/solver/sliding_run.h"
 
+#include "capstan/solver/chosen_target.h"
+
 // foreach_target.h comes before highway.h.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
@@ -155,11 +157,8 @@ void write_run(const SlidingRun& run, CableState& state) {
 bool write_if_both_move(const SlidingRun& proximal, const SlidingRun& distal, const StepView& view,
                         CableState& state) {
     if (view.rules.check == VelocityCheck::every_node) {
-        // Looked up once: Highway's own look-up would be a tenth of a step of a short cable.
-        static const auto write = [] {
-            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-            return &HWY_DYNAMIC_DISPATCH(write_if_every_node_moves);
-        }();
+        static const auto write =
+            for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(write_if_every_node_moves); });
         return write(proximal, distal, state.tension_N.data(), state.displacement_m.data());
     }
     if (!moves(proximal, view) || !moves(distal, view)) return false;

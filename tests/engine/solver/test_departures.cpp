@@ -20,10 +20,10 @@ class UniquenessProof : public testing::Test {
     }
 
     Candidate with_moving_nodes(const PrefixTables& tables, const ModelRules& rules, int moving_nodes) const {
-        const CableEnd end = CableEnd::proximal(EndCondition::position_m(-9.81951e-3), 5);
+        const EndConditions ends{EndCondition::position_m(-9.81951e-3), {}};
         const StepView view{tables, rules, state};
-        const EndValues values =
-            end.partial_motion(view, end.table(tables, Direction::forward), moving_nodes);
+        const CableEnd<End::proximal> end(view, ends);
+        const EndValues values = end.partial_motion(end.table(Direction::forward), moving_nodes);
         return partial_motion({Direction::forward, moving_nodes, values}, {});
     }
 
