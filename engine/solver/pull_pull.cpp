@@ -21,8 +21,8 @@ constexpr double inner_tolerance_Nm = 0.01 * torque_tolerance_Nm;
 
 void demand_solvable(const PullPullInputs& inputs) {
     std::vector<std::string> problems;
-    const auto demand_finite = [&](double value, const std::string& what) {
-        if (!std::isfinite(value)) problems.push_back("the " + what + " is not a finite number");
+    const auto demand_finite = [&](double value, const char* what) {
+        if (!std::isfinite(value)) problems.push_back(std::string("the ") + what + " is not a finite number");
     };
     std::visit(Overloaded{[&](const MotorAngle& m) { demand_finite(m.angle_rad, "motor angle"); },
                           [&](const MotorTorque& m) { demand_finite(m.torque_Nm, "motor torque"); }},
