@@ -3,61 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
-#include <memory>
-#include <numbers>
 
-#include "capstan/reference/band_lu.h"
+#include "capstan/paper/compared_cycle.h"
+#include "capstan/paper/compared_solvers.h"
 #include "capstan/reference/generic_solver.h"
-#include "capstan/reference/linear_assumed.h"
-#include "capstan/solver/quasi_static_step.h"
+#include "capstan/solver/replicate_step.h"
 
 namespace capstan::paper {
 
 namespace {
 
-constexpr double preload_N = 40.0;
-constexpr int steps_per_cycle = 1000;
 constexpr int rounds = 5;
 constexpr double longest_step_s = 1.0;
-
-Cable preloaded_cable(int segments) {
-    CableSpecification specification;
-    specification.curvature = {{2.0, 0.28}};
-    specification.segments = segments;
-    specification.axial_stiffness_N = 2000.0;
-    specification.dynamic_friction = 0.21;
-    specification.static_friction = 0.63;
-    specification.pretension_N = preload_N;
-    return Cable(specification);
-}
-
-EndConditions ends_at(const Cable& cable, ComparedMotion motion, int step) {
-    const double angle = 2.0 * std::numbers::pi * step / steps_per_cycle;
-    const auto proximal = [&](double amplitude_m) {
-        const double rest_m = -preload_N * cable.length_m() / cable.axial_stiffness_N();
-        return EndCondition::position_m(rest_m + amplitude_m * std::sin(angle));
-    };
-    const EndCondition spring = distal_spring({40.0, preload_N, 0.0});
-    switch (motion) {
-        case ComparedMotion::mass:
-            return {proximal(0.08), spring};
-        case ComparedMotion::partial:
-            return {proximal(0.0015), spring};
-        case ComparedMotion::monodirectional:
-            return {proximal(0.008), EndCondition::position_m(0.0)};
-        case ComparedMotion::bidirectional:
-            return {proximal(0.008),
-                    EndCondition::position_m(0.006 * (std::sin(1.37 * angle + 0.4) - std::sin(0.4)))};
-    }
-    return {};
-}
-
-std::vector<EndConditions> cycle_of(const Cable& cable, ComparedMotion motion) {
-    std::vector<EndConditions> cycle;
-    for (int n = 1; n <= steps_per_cycle; ++n) cycle.push_back(ends_at(cable, motion, n));
-    return cycle;
-}
 
 using Clock = std::chrono::steady_clock;
 
@@ -77,6 +34,19 @@ struct Lap {
     double steps_per_s() const { return static_cast<double>(steps) / seconds; }
 };
 
+// Whole laps of `steps` steps each, until the time is over.
+template <class TakeSteps>
+Lap laps_of(long steps, double at_least_s, TakeSteps&& take_steps) {
+    Lap lap;
+    const auto start = Clock::now();
+    do {
+        take_steps();
+        lap.steps += steps;
+        lap.seconds = seconds_since(start);
+    } while (lap.seconds < at_least_s);
+    return lap;
+}
+
 // The step goes round whole cycles in place.
 class ClosedFormRunner {
   public:
@@ -86,14 +56,9 @@ class ClosedFormRunner {
     }
 
     Lap run(double at_least_s) {
-        Lap lap;
-        const auto start = Clock::now();
-        do {
+        return laps_of(steps_per_cycle, at_least_s, [&] {
             for (const EndConditions& ends : cycle_) step_.advance(state_, ends);
-            lap.steps += static_cast<long>(cycle_.size());
-            lap.seconds = seconds_since(start);
-        } while (lap.seconds < at_least_s);
-        return lap;
+        });
     }
 
     // The state before every step of the next cycle.
@@ -112,24 +77,35 @@ class ClosedFormRunner {
     CableState state_;
 };
 
-using Advance = std::function<reference::ReferenceReport(CableState&, const EndConditions&)>;
-
-Advance advance_of(Solver solver, const Cable& cable) {
-    const auto held = [](auto peer) -> Advance {
-        return [peer](CableState& state, const EndConditions& ends) { return peer->advance(state, ends); };
-    };
-    switch (solver) {
-        case Solver::closed_form:
-            break;  // not a peer
-        case Solver::band_lu:
-            return held(std::make_shared<reference::BandLuSolver>(cable));
-        case Solver::linear_assumed:
-            return held(std::make_shared<reference::LinearAssumedSolver>(cable));
-        case Solver::generic:
-            return held(std::make_shared<reference::GenericSolver>(cable));
+// Replicates go round the same cycle together, each with a stroke of its own. A lap counts each one's steps.
+class ReplicatesRunner {
+  public:
+    ReplicatesRunner(const Cable& cable, ComparedMotion motion)
+        : step_(cable, ModelRules::cured()),
+          cycle_(steps_per_cycle, ReplicateEnds(replicates)),
+          states_(pretensioned(cable), replicates) {
+        for (int replicate = 0; replicate < replicates; ++replicate) {
+            const double share = (replicate + 0.5) / replicates;
+            const auto cycle = cycle_of(cable, motion, 1.0 + stroke_spread * (2.0 * share - 1.0));
+            for (int n = 0; n < steps_per_cycle; ++n) cycle_[n].set(replicate, cycle[n]);
+        }
+        run(0.0);
     }
-    return {};
-}
+
+    Lap run(double at_least_s) {
+        return laps_of(replicates * steps_per_cycle, at_least_s, [&] {
+            for (const ReplicateEnds& ends : cycle_) step_.advance(states_, ends);
+        });
+    }
+
+  private:
+    static constexpr int replicates = 64;
+    static constexpr double stroke_spread = 0.1;
+
+    ReplicateStep step_;
+    std::vector<ReplicateEnds> cycle_;
+    ReplicateStates states_;
+};
 
 class PeerRunner {
   public:
@@ -150,15 +126,10 @@ class PeerRunner {
     double converged_share() const { return static_cast<double>(converged_) / static_cast<double>(taken_); }
 
     Lap run(double at_least_s) {
-        Lap lap;
-        const auto start = Clock::now();
-        do {
+        return laps_of(1, at_least_s, [&] {
             take(next_);
             next_ = (next_ + stride) % steps_per_cycle;
-            ++lap.steps;
-            lap.seconds = seconds_since(start);
-        } while (lap.seconds < at_least_s);
-        return lap;
+        });
     }
 
   private:
@@ -182,34 +153,6 @@ class PeerRunner {
 };
 
 }  // namespace
-
-std::string name_of(ComparedMotion motion) {
-    switch (motion) {
-        case ComparedMotion::mass:
-            return "mass";
-        case ComparedMotion::partial:
-            return "partial";
-        case ComparedMotion::monodirectional:
-            return "monodirectional";
-        case ComparedMotion::bidirectional:
-            return "bidirectional";
-    }
-    return {};
-}
-
-std::string name_of(Solver solver) {
-    switch (solver) {
-        case Solver::closed_form:
-            return "closed_form";
-        case Solver::band_lu:
-            return "band_lu";
-        case Solver::linear_assumed:
-            return "linear_assumed";
-        case Solver::generic:
-            return "generic";
-    }
-    return {};
-}
 
 std::vector<Agreement> compare_with_generic_solver() {
     std::vector<Agreement> rows;
@@ -247,13 +190,16 @@ std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Sol
     struct Entrant {
         Solver solver;
         std::optional<PeerRunner> peer{};
+        std::optional<ReplicatesRunner> replicates{};
         std::vector<double> steps_per_s{};
         std::vector<double> ratio{};
     };
     std::vector<Entrant> entrants;
     for (const Solver solver : solvers) {
         entrants.push_back({solver});
-        if (solver != Solver::closed_form) {
+        if (solver == Solver::replicates) {
+            entrants.back().replicates.emplace(cable, settings.motion);
+        } else if (solver != Solver::closed_form) {
             entrants.back().peer.emplace(advance_of(solver, cable), cycle, before);
         }
     }
@@ -263,7 +209,9 @@ std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Sol
         const double ours = closed_form.run(slot_s).steps_per_s();
         for (Entrant& entrant : entrants) {
             if (entrant.peer && entrant.peer->too_slow()) continue;
-            entrant.steps_per_s.push_back(entrant.peer ? entrant.peer->run(slot_s).steps_per_s() : ours);
+            entrant.steps_per_s.push_back(entrant.peer         ? entrant.peer->run(slot_s).steps_per_s()
+                                          : entrant.replicates ? entrant.replicates->run(slot_s).steps_per_s()
+                                                               : ours);
             entrant.ratio.push_back(ours / entrant.steps_per_s.back());
         }
     }
@@ -296,6 +244,24 @@ double slowest_step_s(int segments) {
         }
     }
     return *std::max_element(fastest_s.begin(), fastest_s.end());
+}
+
+double bare_write_s(int segments) {
+    const Cable cable = preloaded_cable(segments);
+    const PrefixTables tables(cable, ModelRules::cured());
+    const SideTable& table = tables.proximal(sign(Direction::forward));
+    CableState state = pretensioned(cable);
+    double fastest_s = 1e9;
+    for (int repeat = 0; repeat < 30; ++repeat) {
+        const double scale_N = 1.0 + repeat;
+        const auto start = Clock::now();
+        for (int node = 0; node < cable.nodes(); ++node) {
+            state.tension_N[node] = scale_N * table.tension_ratio[node];
+            state.displacement_m[node] = scale_N * table.elongation_m_per_N[node];
+        }
+        fastest_s = std::min(fastest_s, seconds_since(start));
+    }
+    return fastest_s;
 }
 
 }  // namespace capstan::paper

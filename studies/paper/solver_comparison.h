@@ -28,7 +28,13 @@ struct Agreement {
 /// 1 to 60 segments, every motion.
 std::vector<Agreement> compare_with_generic_solver();
 
-enum class Solver { closed_form, band_lu, linear_assumed, generic };
+enum class Solver {
+    closed_form,
+    replicates,  ///< the closed form for 64 replicates at once, strokes within 10%; a step is one replicate's
+    band_lu,
+    linear_assumed,
+    generic,
+};
 std::string name_of(Solver solver);
 
 struct SolverRate {
@@ -54,5 +60,9 @@ std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Sol
 /// The slowest step of a cycle in mass motion [s], after one cycle to warm up: of every step the fastest of
 /// three cycles, so that a step is not blamed for what interrupted it.
 double slowest_step_s(int segments);
+
+/// The least that a step in mass motion of such a cable can take here [s]: only writing a state from two
+/// tables, with no check; what the memory allows.
+double bare_write_s(int segments);
 
 }  // namespace capstan::paper

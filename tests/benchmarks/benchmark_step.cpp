@@ -1,57 +1,91 @@
-// Rate of the quasi-static step through its public API, all checks on: the paper's Sec. III.B cable (40 N preload, a
-// 40 N/m spring to a wall), in partial motion (0.15 cm, 1 kHz) and mostly in mass motion (8 cm).
+// Rates of the quasi-static step through its public API, all checks on, and of the compiled peers from the
+// same states: the paper's Sec. III.B cable in partial motion (0.15 cm, 1 kHz) and mostly in mass motion (8
+// cm).
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "capstan/solver/quasi_static_step.h"
+#include "capstan/paper/compared_cycle.h"
+#include "capstan/paper/compared_solvers.h"
+#include "capstan/solver/replicate_step.h"
 
 namespace {
 
 using namespace capstan;
+using paper::ComparedMotion;
+using paper::Solver;
 
-Cable cable_of(int segments) {
-    CableSpecification specification;
-    specification.curvature = {{2.0, 0.28}};
-    specification.segments = segments;
-    specification.axial_stiffness_N = 2000.0;
-    specification.dynamic_friction = 0.21;
-    specification.static_friction = 0.63;
-    specification.pretension_N = 40.0;
-    return Cable(specification);
-}
-
-void run(benchmark::State& bench, double amplitude_m) {
-    const int segments = static_cast<int>(bench.range(0));
-    const Cable cable = cable_of(segments);
+void closed_form(benchmark::State& bench, ComparedMotion motion) {
+    const Cable cable = paper::preloaded_cable(static_cast<int>(bench.range(0)));
     const QuasiStaticStep step(cable, ModelRules::cured());
+    const std::vector<EndConditions> cycle = paper::cycle_of(cable, motion);
     CableState state = pretensioned(cable);
-    const double rest_m = state.displacement_m.front();
-    std::vector<EndConditions> cycle;
-    for (int n = 0; n < 1000; ++n) {
-        const double moved_m = amplitude_m * std::sin(2.0 * std::numbers::pi * n / 1000.0);
-        cycle.push_back({EndCondition::position_m(rest_m + moved_m), distal_spring({40.0, 40.0, 0.0})});
-    }
     std::size_t next = 0;
     long mass = 0;
-    long steps = 0;
     for (auto _ : bench) {
         const StepReport report = step.advance(state, cycle[next]);
         mass += report.pattern.kind == MotionKind::mass;
-        ++steps;
         benchmark::DoNotOptimize(state.tension_N.data());
         next = next + 1 < cycle.size() ? next + 1 : 0;
     }
     bench.SetItemsProcessed(bench.iterations());
-    bench.counters["mass_share"] = static_cast<double>(mass) / static_cast<double>(steps);
+    bench.counters["mass_share"] = static_cast<double>(mass) / static_cast<double>(bench.iterations());
 }
 
-void partial_motion(benchmark::State& bench) { run(bench, 0.0015); }
-void mass_motion(benchmark::State& bench) { run(bench, 0.08); }
+// Items are steps of one replicate.
+void replicates(benchmark::State& bench, ComparedMotion motion) {
+    constexpr int count = 64;
+    const Cable cable = paper::preloaded_cable(static_cast<int>(bench.range(0)));
+    const ReplicateStep step(cable, ModelRules::cured());
+    std::vector<ReplicateEnds> cycle(paper::steps_per_cycle, ReplicateEnds(count));
+    for (int replicate = 0; replicate < count; ++replicate) {
+        const auto ends = paper::cycle_of(cable, motion, 0.9 + 0.2 * replicate / count);
+        for (std::size_t n = 0; n < cycle.size(); ++n) cycle[n].set(replicate, ends[n]);
+    }
+    ReplicateStates states(pretensioned(cable), count);
+    std::size_t next = 0;
+    long one_by_one = 0;
+    for (auto _ : bench) {
+        one_by_one += step.advance(states, cycle[next]).one_by_one;
+        next = next + 1 < cycle.size() ? next + 1 : 0;
+    }
+    bench.SetItemsProcessed(bench.iterations() * count);
+    bench.counters["one_by_one_share"] =
+        static_cast<double>(one_by_one) / static_cast<double>(bench.iterations() * count);
+}
+
+// Each step from the true state before it, evenly over the cycle; the copy of the state counts for nothing
+// here.
+void peer(benchmark::State& bench, ComparedMotion motion, Solver solver) {
+    const Cable cable = paper::preloaded_cable(static_cast<int>(bench.range(0)));
+    const std::vector<EndConditions> cycle = paper::cycle_of(cable, motion);
+    const QuasiStaticStep step(cable, ModelRules::cured());
+    std::vector<CableState> before;
+    CableState state = pretensioned(cable);
+    for (const EndConditions& ends : cycle) {
+        before.push_back(state);
+        step.advance(state, ends);
+    }
+    const paper::Advance advance = paper::advance_of(solver, cable);
+    const std::size_t stride = 619;  // prime to the cycle, near its golden section
+    std::size_t next = 0;
+    long converged = 0;
+    for (auto _ : bench) {
+        state = before[next];
+        converged += advance(state, cycle[next]).converged;
+        next = (next + stride) % cycle.size();
+    }
+    bench.SetItemsProcessed(bench.iterations());
+    bench.counters["converged_share"] =
+        static_cast<double>(converged) / static_cast<double>(bench.iterations());
+}
 
 }  // namespace
 
-BENCHMARK(partial_motion)->Arg(10)->Arg(40)->Arg(100)->Arg(1000);
-BENCHMARK(mass_motion)->Arg(10)->Arg(40)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(closed_form, partial, ComparedMotion::partial)->Arg(10)->Arg(40)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(closed_form, mass, ComparedMotion::mass)->Arg(10)->Arg(40)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(replicates, partial, ComparedMotion::partial)->Arg(10)->Arg(40);
+BENCHMARK_CAPTURE(replicates, mass, ComparedMotion::mass)->Arg(10)->Arg(40)->Arg(100);
+BENCHMARK_CAPTURE(peer, mass_band_lu, ComparedMotion::mass, Solver::band_lu)->Arg(10)->Arg(40)->Arg(100);
+BENCHMARK_CAPTURE(peer, mass_linear_assumed, ComparedMotion::mass, Solver::linear_assumed)->Arg(10)->Arg(40);
+BENCHMARK_CAPTURE(peer, mass_generic, ComparedMotion::mass, Solver::generic)->Arg(10)->Arg(40);
