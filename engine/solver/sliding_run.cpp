@@ -97,8 +97,8 @@ void write_nodes(const SlidingRun& run, double* tension_N, double* displacement_
     write(run, tension_N, displacement_m);
 }
 
-bool write_if_every_node_moves(const SlidingRun& proximal, const SlidingRun& distal, double* tension_N,
-                               double* displacement_m) {
+bool write_if_all_move(const SlidingRun& proximal, const SlidingRun& distal, double* tension_N,
+                       double* displacement_m) {
     if (distal.empty()) {
         if (!run_moves(proximal, displacement_m)) return false;
         write(proximal, tension_N, displacement_m);
@@ -119,7 +119,7 @@ namespace capstan {
 
 HWY_EXPORT(every_node_moves);
 HWY_EXPORT(write_nodes);
-HWY_EXPORT(write_if_every_node_moves);
+HWY_EXPORT(write_if_all_move);
 
 namespace {
 
@@ -154,17 +154,10 @@ void write_run(const SlidingRun& run, CableState& state) {
     HWY_DYNAMIC_DISPATCH(write_nodes)(run, state.tension_N.data(), state.displacement_m.data());
 }
 
-bool write_if_both_move(const SlidingRun& proximal, const SlidingRun& distal, const StepView& view,
-                        CableState& state) {
-    if (view.rules.check == VelocityCheck::every_node) {
-        static const auto write =
-            for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(write_if_every_node_moves); });
-        return write(proximal, distal, state.tension_N.data(), state.displacement_m.data());
-    }
-    if (!moves(proximal, view) || !moves(distal, view)) return false;
-    write_run(proximal, state);
-    write_run(distal, state);
-    return true;
+bool write_if_every_node_moves(const SlidingRun& proximal, const SlidingRun& distal, double* tension_N,
+                               double* displacement_m) {
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(write_if_all_move); });
+    return chosen(proximal, distal, tension_N, displacement_m);
 }
 
 }  // namespace capstan

@@ -57,8 +57,21 @@ bool moves(const SlidingRun& run, const StepView& view);
 /// Writes tension and displacement of the run's nodes.
 void write_run(const SlidingRun& run, CableState& state);
 
-/// Both runs checked, and written if both move; else `state`, which `view` sees as before, stays as it is.
-bool write_if_both_move(const SlidingRun& proximal, const SlidingRun& distal, const StepView& view,
-                        CableState& state);
+/// Checks every node of both runs and writes them if all move; else nothing is written.
+bool write_if_every_node_moves(const SlidingRun& proximal, const SlidingRun& distal, double* tension_N,
+                               double* displacement_m);
+
+/// The same under the rules' check.
+inline bool write_if_both_move(const SlidingRun& proximal, const SlidingRun& distal, const StepView& view,
+                               CableState& state) {
+    if (view.rules.check == VelocityCheck::every_node) {
+        return write_if_every_node_moves(proximal, distal, state.tension_N.data(),
+                                         state.displacement_m.data());
+    }
+    if (!moves(proximal, view) || !moves(distal, view)) return false;
+    write_run(proximal, state);
+    write_run(distal, state);
+    return true;
+}
 
 }  // namespace capstan

@@ -6,17 +6,16 @@
 
 namespace capstan {
 
-/// Finite, and not without meaning.
-inline bool is_line(const EndCondition& end) {
-    // Nothing times a number is nothing, unless the number is not finite.
-    const bool finite = 0.0 * end.displacement_factor + 0.0 * end.tension_factor + 0.0 * end.value == 0.0;
-    return finite && std::abs(end.displacement_factor) + std::abs(end.tension_factor) > 0.0;
-}
-
-/// A step has an answer: two lines, and not a tension at both ends.
+/// A step has an answer: two lines of finite numbers, and not a tension at both ends.
 inline bool solvable(const EndConditions& ends) {
-    return is_line(ends.proximal) && is_line(ends.distal) &&
-           (ends.proximal.displacement_factor != 0.0 || ends.distal.displacement_factor != 0.0);
+    const auto& [p, d] = ends;
+    // Nothing times a number is nothing, unless the number is not finite.
+    const double nothing = (0.0 * p.displacement_factor + 0.0 * p.tension_factor + 0.0 * p.value) +
+                           (0.0 * d.displacement_factor + 0.0 * d.tension_factor + 0.0 * d.value);
+    const double proximal_size = std::abs(p.displacement_factor) + std::abs(p.tension_factor);
+    const double distal_size = std::abs(d.displacement_factor) + std::abs(d.tension_factor);
+    const double position = std::abs(p.displacement_factor) + std::abs(d.displacement_factor);
+    return nothing == 0.0 && proximal_size > 0.0 && distal_size > 0.0 && position > 0.0;
 }
 
 /// Throws InvalidInput with what is wrong with end conditions that are not solvable.
