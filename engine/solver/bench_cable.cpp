@@ -132,24 +132,26 @@ void BenchCableEquations::evaluate() {
 
 // Beyond the end node's half segment: T = t (1 - q) / (1 + q) less the drags, q = z tanh(mu theta / 2).
 BenchCableEquations::InnerEnd BenchCableEquations::motor_end() const {
-    const double q = friction_.front() * bend_.front();
+    const double pressing_N = std::max(0.0, tension_N_.front());
+    const double q = pressing_N > 0.0 ? friction_.front() * bend_.front() : 0.0;
     const double left = (1.0 - q) / (1.0 + q);
     const double rigid_N = effects_.bending_stiffness.drag_N_per_m * node_span_m_.front();
     const double viscous_N_per_m = effects_.viscous_friction.drag_N(node_span_m_.front(), 1.0 / time_step_s_);
     const double slid_m = displacement_m_.front() - before_->displacement_m.front();
-    const double by_bend_N = 2.0 * friction_.front() * tension_N_.front() / ((1.0 + q) * (1.0 + q)) + rigid_N;
+    const double by_bend_N = 2.0 * friction_.front() * pressing_N / ((1.0 + q) * (1.0 + q)) + rigid_N;
     const double stiffness = tension_per_m_.front() * left;
     return {tension_N_.front() * left - rigid_N * bend_.front() - viscous_N_per_m * slid_m,
             -stiffness - by_bend_N * bend_per_m_.front() - viscous_N_per_m, stiffness};
 }
 
 BenchCableEquations::InnerEnd BenchCableEquations::load_end() const {
-    const double q = friction_.back() * bend_.back();
+    const double pressing_N = std::max(0.0, tension_N_.back());
+    const double q = pressing_N > 0.0 ? friction_.back() * bend_.back() : 0.0;
     const double grown = (1.0 + q) / (1.0 - q);
     const double rigid_N = effects_.bending_stiffness.drag_N_per_m * node_span_m_.back();
     const double viscous_N_per_m = effects_.viscous_friction.drag_N(node_span_m_.back(), 1.0 / time_step_s_);
     const double slid_m = displacement_m_.back() - before_->displacement_m.back();
-    const double by_bend_N = 2.0 * friction_.back() * tension_N_.back() / ((1.0 - q) * (1.0 - q)) + rigid_N;
+    const double by_bend_N = 2.0 * friction_.back() * pressing_N / ((1.0 - q) * (1.0 - q)) + rigid_N;
     const double stiffness = tension_per_m_.back() * grown;
     return {tension_N_.back() * grown + rigid_N * bend_.back() + viscous_N_per_m * slid_m,
             stiffness + by_bend_N * bend_per_m_.back() + viscous_N_per_m, -stiffness};
@@ -172,8 +174,9 @@ BenchCableEquations::Ends BenchCableEquations::linearise(const EndPlace& motor, 
     for (std::size_t node = 1; node < last; ++node) {
         const double before_N = tension_N_[node - 1];
         const double behind_N = tension_N_[node];
-        const double sum_N = before_N + behind_N;
-        const double q = friction_[node] * bend_[node];
+        // A slack stretch presses on nothing.
+        const double sum_N = std::max(0.0, before_N + behind_N);
+        const double q = sum_N > 0.0 ? friction_[node] * bend_[node] : 0.0;
         const double slid_m = displacement_m_[node] - before_->displacement_m[node];
         const double out_of_balance_N =
             behind_N - before_N - q * sum_N - rigid_N * bend_[node] - viscous_N_per_m * slid_m;

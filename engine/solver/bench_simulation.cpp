@@ -14,6 +14,7 @@ namespace {
 constexpr double contact_Nm_per_rad = 5e3;
 // Bristles of a pulley's bearing: as the cable's, at a radius of some centimetres.
 constexpr double bearing_presliding_rad = 1e-4;
+constexpr double bearing_speed_rad_per_s = 0.01;
 constexpr double move_tolerance_m = 1e-9;
 // A free pulley turns no further than this in one iteration.
 constexpr double most_motor_turn_rad = 0.2;
@@ -163,21 +164,37 @@ BenchSimulation::Pull BenchSimulation::linearise_cables(double motor_rad, double
 }
 
 // What a pulley's bearing and inertia take at this angle (E27, E35).
-BenchSimulation::Torque BenchSimulation::losses(const Pulley& pulley, const PulleyFriction& friction,
-                                                double inertia_kg_m2, double angle_rad, double time_step_s) {
+BenchSimulation::Torque BenchSimulation::losses(const Pulley& pulley, Bearing bearing,
+                                                const PulleyFriction& friction, double inertia_kg_m2,
+                                                double angle_rad, double time_step_s) {
     const double turned_rad = angle_rad - pulley.angle_rad;
     const double speed = turned_rad / time_step_s;
-    const Bristle bristle = Presliding{bearing_presliding_rad, 0.0}.after(pulley.bristle, turned_rad);
-    return {friction.coulomb_Nm * bristle.bend + friction.viscous_Nm_s * speed +
+    Bristle sign;  // of the motion, and how it goes with the angle
+    switch (bearing) {
+        case Bearing::finds_its_angle:
+            sign = Presliding{bearing_presliding_rad, 0.0}.after(pulley.bristle, turned_rad);
+            break;
+        case Bearing::is_turned:
+            sign.bend = std::tanh(speed / bearing_speed_rad_per_s);
+            sign.bend_per_m = (1.0 - sign.bend * sign.bend) / (bearing_speed_rad_per_s * time_step_s);
+            break;
+    }
+    return {friction.coulomb_Nm * sign.bend + friction.viscous_Nm_s * speed +
                 inertia_kg_m2 * (speed - pulley.speed_rad_per_s) / time_step_s,
-            friction.coulomb_Nm * bristle.bend_per_m + friction.viscous_Nm_s / time_step_s +
+            friction.coulomb_Nm * sign.bend_per_m + friction.viscous_Nm_s / time_step_s +
                 inertia_kg_m2 / (time_step_s * time_step_s)};
+}
+
+// A pulley whose angle is prescribed cannot creep, and its encoder knows little of the first tenth of a
+// milliradian.
+BenchSimulation::Bearing BenchSimulation::bearing_of(bool free) {
+    return free ? Bearing::finds_its_angle : Bearing::is_turned;
 }
 
 // What the motor must give beyond the cables' pull (E27, E28, E35), less what it gives.
 BenchSimulation::Torque BenchSimulation::motor_balance(const BenchInputs& inputs, double angle_rad) const {
-    const Torque lost =
-        losses(motor_, effects_.motor_friction, effects_.inertia.motor_kg_m2, angle_rad, inputs.time_step_s);
+    const Torque lost = losses(motor_, bearing_of(motor_is_free(inputs)), effects_.motor_friction,
+                               effects_.inertia.motor_kg_m2, angle_rad, inputs.time_step_s);
     Torque balance = {lost.value_Nm + effects_.motor_cogging.torque_Nm(angle_rad),
                       lost.per_rad + effects_.motor_cogging.slope_Nm_per_rad(angle_rad)};
     if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
@@ -209,52 +226,109 @@ BenchSimulation::Torque BenchSimulation::held_by(const BenchInputs& inputs, doub
 
 // What the load pulley passes on of the cables' pull: all but its losses, less what is taken.
 BenchSimulation::Torque BenchSimulation::load_balance(const BenchInputs& inputs, double angle_rad) const {
-    const Torque lost =
-        losses(load_, effects_.load_friction, load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s);
+    const Torque lost = losses(load_, bearing_of(load_is_free(inputs)), effects_.load_friction,
+                               load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s);
     if (!load_is_free(inputs)) return {-lost.value_Nm, -lost.per_rad};
     const Torque taken = held_by(inputs, angle_rad);
     return {-lost.value_Nm - taken.value_Nm, -lost.per_rad - taken.per_rad};
 }
 
-BenchReport BenchSimulation::advance(const BenchInputs& inputs) {
-    demand_motion(inputs, description_.has_second_cable);
-    const bool motor_free = motor_is_free(inputs);
-    const bool load_free = load_is_free(inputs);
-    double motor_rad = motor_free ? motor_.angle_rad : std::get<MotorAngle>(inputs.motor).angle_rad;
-    double load_rad = load_free ? load_.angle_rad : std::get<LoadAngle>(inputs.load).angle_rad;
-    begin_cables(inputs);
-
-    BenchReport report;
-    report.converged = false;
-    while (!report.converged && report.iterations < most_iterations) {
-        // A front or a gap can send Newton's method to and fro; shorter steps end that.
-        double share = ++report.iterations <= iterations_at_full_step ? 1.0 : 0.5;
-        const Pull pull = linearise_cables(motor_rad, load_rad, inputs.session_time_s);
-        const Torque motor = motor_balance(inputs, motor_rad);
-        const Torque load = load_balance(inputs, load_rad);
+// Newton's method on all nodes and the free pulleys, from the cables' present guess.
+bool BenchSimulation::iterate(const BenchInputs& inputs, const Free& free, Angles& angles, int& iterations) {
+    for (int iteration = 1; iteration <= most_iterations; ++iteration) {
+        ++iterations;
+        // A front can send Newton's method to and fro; shorter steps end that.
+        double share = iteration <= iterations_at_full_step ? 1.0 : 0.5;
+        const Pull pull = linearise_cables(angles.motor_rad, angles.load_rad, inputs.session_time_s);
+        const Torque motor = motor_balance(inputs, angles.motor_rad);
+        const Torque load = load_balance(inputs, angles.load_rad);
         // A pulley that is not free does not turn further.
         const double r_m = description_.pulleys.motor_radius_m;
         const double r_l = description_.pulleys.load_radius_m;
-        const double motor_error = motor_free ? r_m * pull.motor.value_N + motor.value_Nm : 0.0;
-        const double load_error = load_free ? r_l * pull.load.value_N + load.value_Nm : 0.0;
-        const double mm = motor_free ? r_m * pull.motor.per_motor_rad + motor.per_rad : 1.0;
-        const double ml = motor_free && load_free ? r_m * pull.motor.per_load_rad : 0.0;
-        const double lm = motor_free && load_free ? r_l * pull.load.per_motor_rad : 0.0;
-        const double ll = load_free ? r_l * pull.load.per_load_rad + load.per_rad : 1.0;
+        const double motor_error = free.motor ? r_m * pull.motor.value_N + motor.value_Nm : 0.0;
+        const double load_error = free.load ? r_l * pull.load.value_N + load.value_Nm : 0.0;
+        const double mm = free.motor ? r_m * pull.motor.per_motor_rad + motor.per_rad : 1.0;
+        const double ml = free.motor && free.load ? r_m * pull.motor.per_load_rad : 0.0;
+        const double lm = free.motor && free.load ? r_l * pull.load.per_motor_rad : 0.0;
+        const double ll = free.load ? r_l * pull.load.per_load_rad + load.per_rad : 1.0;
         const double determinant = mm * ll - ml * lm;
         const double motor_turn = -(motor_error * ll - load_error * ml) / determinant;
         const double load_turn = -(load_error * mm - motor_error * lm) / determinant;
-        const double farthest_rad =
+        const double farthest =
             std::max(std::abs(motor_turn) / most_motor_turn_rad, std::abs(load_turn) / most_load_turn_rad);
-        if (share * farthest_rad > 1.0) share = 1.0 / farthest_rad;
+        if (share * farthest > 1.0) share = 1.0 / farthest;
         double largest_m = 0.0;
         for (BenchCableEquations& equations : equations_)
             largest_m = std::max(largest_m, equations.move(motor_turn, load_turn, share));
-        motor_rad += share * motor_turn;
-        load_rad += share * load_turn;
-        report.converged = largest_m < move_tolerance_m;
+        angles.motor_rad += share * motor_turn;
+        angles.load_rad += share * load_turn;
+        if (largest_m < move_tolerance_m) return true;
+        if (!std::isfinite(largest_m)) return false;
     }
-    settle(inputs, motor_rad, load_rad);
+    return false;
+}
+
+// Where contact opens and closes Newton's method can go to and fro. The torque left on the load pulley falls
+// as it turns, so its angle is bracketed and the bracket closed (Illinois), all else solved for each.
+bool BenchSimulation::bracket_load(const BenchInputs& inputs, const Free& free, Angles& angles,
+                                   int& iterations) {
+    constexpr double first_width_rad = 0.005;
+    constexpr double angle_tolerance_rad = 1e-9;
+    constexpr double torque_tolerance_Nm = 1e-7;
+    constexpr int most_trials = 60;
+    const auto torque_left = [&](double load_rad) {
+        begin_cables(inputs);
+        angles = {free.motor ? motor_.angle_rad : angles.motor_rad, load_rad};
+        iterate(inputs, {free.motor, false}, angles, iterations);
+        const Pull pull = linearise_cables(angles.motor_rad, load_rad, inputs.session_time_s);
+        return description_.pulleys.load_radius_m * pull.load.value_N +
+               load_balance(inputs, load_rad).value_Nm;
+    };
+    double low = load_.angle_rad;
+    double at_low = torque_left(low);
+    double width = at_low > 0.0 ? first_width_rad : -first_width_rad;
+    double high = low + width;
+    double at_high = torque_left(high);
+    for (int trial = 0; at_low * at_high > 0.0; ++trial) {
+        if (trial == most_trials || !std::isfinite(at_high)) return false;
+        low = high;
+        at_low = at_high;
+        width *= 1.6;
+        high += width;
+        at_high = torque_left(high);
+    }
+    for (int trial = 0; trial < most_trials; ++trial) {
+        const double middle =
+            at_low == at_high ? 0.5 * (low + high) : low + (high - low) * at_low / (at_low - at_high);
+        const double at_middle = torque_left(middle);
+        if (std::abs(at_middle) < torque_tolerance_Nm || std::abs(high - low) < angle_tolerance_rad)
+            return true;
+        if (at_middle * at_high < 0.0) {
+            low = high;
+            at_low = at_high;
+        } else {
+            at_low *= 0.5;
+        }
+        high = middle;
+        at_high = at_middle;
+    }
+    return false;
+}
+
+BenchReport BenchSimulation::advance(const BenchInputs& inputs) {
+    demand_motion(inputs, description_.has_second_cable);
+    const Free free{motor_is_free(inputs), load_is_free(inputs)};
+    const Angles start{free.motor ? motor_.angle_rad : std::get<MotorAngle>(inputs.motor).angle_rad,
+                       free.load ? load_.angle_rad : std::get<LoadAngle>(inputs.load).angle_rad};
+    BenchReport report;
+    Angles angles = start;
+    begin_cables(inputs);
+    report.converged = iterate(inputs, free, angles, report.iterations);
+    if (!report.converged && free.load) {
+        angles = start;
+        report.converged = bracket_load(inputs, free, angles, report.iterations);
+    }
+    settle(inputs, angles.motor_rad, angles.load_rad);
     return report;
 }
 
@@ -288,14 +362,14 @@ void BenchSimulation::settle(const BenchInputs& inputs, double motor_rad, double
                                                                   : leans_rad);
     } else {
         motor_.torque_Nm = description_.pulleys.motor_radius_m * motor_pull_N +
-                           losses(motor_, effects_.motor_friction, effects_.inertia.motor_kg_m2, motor_rad,
-                                  inputs.time_step_s)
+                           losses(motor_, bearing_of(motor_is_free(inputs)), effects_.motor_friction,
+                                  effects_.inertia.motor_kg_m2, motor_rad, inputs.time_step_s)
                                .value_Nm +
                            effects_.motor_cogging.torque_Nm(motor_rad);
         motor_.encoder_rad = std::get<MotorAngle>(inputs.motor).angle_rad;
     }
-    const Torque lost =
-        losses(load_, effects_.load_friction, load_inertia_kg_m2(inputs), load_rad, inputs.time_step_s);
+    const Torque lost = losses(load_, bearing_of(load_is_free(inputs)), effects_.load_friction,
+                               load_inertia_kg_m2(inputs), load_rad, inputs.time_step_s);
     const auto* held = std::get_if<LoadAngle>(&inputs.load);
     load_.torque_Nm = load_is_free(inputs) ? held_by(inputs, load_rad).value_Nm
                                            : description_.pulleys.load_radius_m * load_pull_N - lost.value_Nm;

@@ -68,8 +68,11 @@ class BenchSimulation {
         double torque_Nm = 0.0;    // of the motor, on the load
         double encoder_rad = 0.0;  // beyond the backlash
     };
-    static Torque losses(const Pulley& pulley, const PulleyFriction& friction, double inertia_kg_m2,
-                         double angle_rad, double time_step_s);
+    /// How its Coulomb friction finds its sign: by bristles, which hold at rest, or by speed.
+    enum class Bearing { finds_its_angle, is_turned };
+    static Bearing bearing_of(bool free);
+    static Torque losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
+                         double inertia_kg_m2, double angle_rad, double time_step_s);
     static void turn(Pulley& pulley, double angle_rad, double time_step_s);
     /// The cables' pull on both pulleys, linear in their further turns.
     struct Pull {
@@ -77,6 +80,17 @@ class BenchSimulation {
         EndTension load;
     };
 
+    struct Free {
+        bool motor = false;
+        bool load = false;
+    };
+    struct Angles {
+        double motor_rad = 0.0;
+        double load_rad = 0.0;
+    };
+
+    bool iterate(const BenchInputs& inputs, const Free& free, Angles& angles, int& iterations);
+    bool bracket_load(const BenchInputs& inputs, const Free& free, Angles& angles, int& iterations);
     bool motor_is_free(const BenchInputs& inputs) const;
     bool load_is_free(const BenchInputs& inputs) const;
     double load_inertia_kg_m2(const BenchInputs& inputs) const;

@@ -17,6 +17,7 @@ Command query_command();
 Command report_command();
 Command simulate_command();
 Command calibrate_command();
+Command diagnose_command();
 Command config_default_command();
 Command config_check_command();
 Command bench_solver_command();

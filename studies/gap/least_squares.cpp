@@ -7,19 +7,19 @@ namespace capstan::gap {
 
 namespace {
 
-Eigen::MatrixXd central_differences(const ResidualFunction& residuals, const Eigen::VectorXd& at,
-                                    double step) {
+// `here`: the residuals at `at`.
+Eigen::MatrixXd jacobian_at(const ResidualFunction& residuals, const Eigen::VectorXd& at,
+                            const Eigen::VectorXd& here, const LeastSquaresOptions& options) {
     const Eigen::Index count = at.size();
-    Eigen::MatrixXd moved = at.replicate(1, 2 * count);
+    const bool central = options.differences == Differences::central;
+    Eigen::MatrixXd moved = at.replicate(1, central ? 2 * count : count);
     for (Eigen::Index k = 0; k < count; ++k) {
-        moved(k, 2 * k) += step;
-        moved(k, 2 * k + 1) -= step;
+        moved(k, k) += options.difference_step;
+        if (central) moved(k, count + k) -= options.difference_step;
     }
     const Eigen::MatrixXd values = residuals(moved);
-    Eigen::MatrixXd jacobian(values.rows(), count);
-    for (Eigen::Index k = 0; k < count; ++k)
-        jacobian.col(k) = (values.col(2 * k) - values.col(2 * k + 1)) / (2.0 * step);
-    return jacobian;
+    if (central) return (values.leftCols(count) - values.rightCols(count)) / (2.0 * options.difference_step);
+    return (values.colwise() - here) / options.difference_step;
 }
 
 }  // namespace
@@ -34,6 +34,8 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     constexpr double tighten = 5.0;
     constexpr double flat = 1e-12;  // keeps a parameter that changes nothing from making the matrix singular
 
+    const int per_jacobian =
+        static_cast<int>(start.size()) * (options.differences == Differences::central ? 2 : 1);
     LeastSquaresFit fit;
     fit.parameters = start;
     fit.residuals = residuals(start);
@@ -41,8 +43,8 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     fit.evaluations = 1;
     double damping = start_damping;
     for (int iteration = 0; iteration < options.most_iterations && !fit.converged; ++iteration) {
-        fit.jacobian = central_differences(residuals, fit.parameters, options.difference_step);
-        fit.evaluations += 2 * static_cast<int>(start.size());
+        fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
+        fit.evaluations += per_jacobian;
         const Eigen::MatrixXd normal = fit.jacobian.transpose() * fit.jacobian;
         const Eigen::VectorXd gradient = fit.jacobian.transpose() * fit.residuals;
         const double floor = flat * (1.0 + normal.diagonal().maxCoeff());
@@ -68,8 +70,10 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
             if (damping > most_damping) return fit;
         }
     }
-    fit.jacobian = central_differences(residuals, fit.parameters, options.difference_step);
-    fit.evaluations += 2 * static_cast<int>(start.size());
+    if (options.jacobian_at_end) {
+        fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
+        fit.evaluations += per_jacobian;
+    }
     return fit;
 }
 

@@ -18,16 +18,20 @@ struct LeastSquaresFit {
     bool converged = false;
 };
 
+enum class Differences { central, forward };
+
 struct LeastSquaresOptions {
-    /// Step of the central differences. Fronts move in whole segments, so residuals are smooth only on a
+    Differences differences = Differences::central;
+    /// Step of the differences. Fronts move in whole segments, so residuals are smooth only on a
     /// scale above this.
     double difference_step = 0.01;
     /// A step that changes no parameter by more than this ends the search.
     double parameter_tolerance = 1e-4;
     int most_iterations = 40;
+    bool jacobian_at_end = true;  ///< made once more at the fit, for its covariance
 };
 
-/// Levenberg-Marquardt with central differences, from `start`.
+/// Levenberg-Marquardt with the Jacobian by differences, from `start`.
 LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
                                   const LeastSquaresOptions& options = {});
 

@@ -19,6 +19,15 @@ std::optional<std::size_t> column_of(const NumberTable& table, const std::string
     return static_cast<std::size_t>(found - table.columns.begin());
 }
 
+// The channels in the order of the file's columns: the sidecar's keys have none.
+void order_as_in(const NumberTable& table, Recording& recording) {
+    const auto place = [&](const Channel& channel) {
+        return column_of(table, channel.name).value_or(table.columns.size());
+    };
+    std::stable_sort(recording.channels.begin(), recording.channels.end(),
+                     [&](const Channel& a, const Channel& b) { return place(a) < place(b); });
+}
+
 // The table's columns for `run`, `t` and each channel, in that order.
 std::vector<std::size_t> columns_of(const NumberTable& table, const Recording& recording,
                                     const std::string& place, ProblemList& problems) {
@@ -71,6 +80,7 @@ Recording read_recording(const std::filesystem::path& path) {
     ProblemList problems;
     Recording recording = read_sidecar(sidecar_path, problems);
     const NumberTable table = read_number_table(samples_path, problems);
+    order_as_in(table, recording);
     const std::vector<std::size_t> columns =
         columns_of(table, recording, samples_path.string() + ":1", problems);
     problems.throw_if_any();

@@ -1,0 +1,60 @@
+#include "capstan/effects/sensor_faults.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/effects/presliding.h"
+
+namespace capstan {
+
+namespace {
+
+// The elastic body of the cell drags friction along: the reading trails by a bristle as wide as the loop.
+void add_hysteresis(std::vector<double>& signal, double half_width) {
+    const Presliding bristles{half_width, 1.0};
+    double bend = 0.0;
+    double before = signal.front();
+    for (double& value : signal) {
+        const double now = value;
+        bend = bristles.after(bend, now - before).bend;
+        before = now;
+        value = now - half_width * bend;
+    }
+}
+
+void add_lag(std::vector<double>& signal, double lag_s, double time_step_s) {
+    const double share = -std::expm1(-time_step_s / lag_s);
+    double reading = signal.front();
+    for (double& value : signal) {
+        reading += share * (value - reading);
+        value = reading;
+    }
+}
+
+std::vector<double> delayed(const std::vector<double>& signal, double delay_s, double time_step_s) {
+    const double last = static_cast<double>(signal.size() - 1);
+    std::vector<double> shifted(signal.size());
+    for (std::size_t sample = 0; sample < signal.size(); ++sample) {
+        const double at = std::clamp(static_cast<double>(sample) - delay_s / time_step_s, 0.0, last);
+        const auto below = std::min(static_cast<std::size_t>(at), signal.size() - 2);
+        const double fraction = at - static_cast<double>(below);
+        shifted[sample] = (1.0 - fraction) * signal[below] + fraction * signal[below + 1];
+    }
+    return shifted;
+}
+
+}  // namespace
+
+std::vector<double> sensed(std::vector<double> signal, const SensorFaults& faults, double time_step_s) {
+    if (faults.none() || signal.size() < 2) return signal;
+    if (faults.hysteresis > 0.0) add_hysteresis(signal, faults.hysteresis);
+    if (faults.lag_s > 0.0) add_lag(signal, faults.lag_s, time_step_s);
+    if (faults.delay_s != 0.0) signal = delayed(signal, faults.delay_s, time_step_s);
+    for (double& value : signal) {
+        value = faults.gain * value + faults.offset;
+        if (faults.step > 0.0) value = faults.step * std::round(value / faults.step);
+    }
+    return signal;
+}
+
+}  // namespace capstan

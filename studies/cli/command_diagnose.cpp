@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/json_text.h"
+#include "capstan/cli/log_argument.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/wrapped_text.h"
+#include "capstan/gap/diagnosis.h"
+#include "capstan/gap/recording_reader.h"
+
+namespace capstan::cli {
+
+namespace {
+
+using gap::ChannelGap;
+using gap::Diagnosis;
+using gap::FittedCause;
+using nlohmann::ordered_json;
+
+constexpr std::string_view judged_channel = "load_torque";
+
+const ChannelGap* find_channel(const Diagnosis& diagnosis, std::string_view name) {
+    for (const ChannelGap& channel : diagnosis.channels) {
+        if (channel.channel == name) return &channel;
+    }
+    return diagnosis.channels.empty() ? nullptr : &diagnosis.channels.front();
+}
+
+std::string numbers_in_words(const FittedCause& cause) {
+    std::string text;
+    for (const gap::FittedNumber& number : cause.numbers)
+        text += fmt::format("{}{} {:.4g}{}{}", text.empty() ? "" : ", ", number.name, number.value,
+                            number.unit.empty() ? "" : " ", number.unit);
+    return text;
+}
+
+std::string where_in_words(const Diagnosis& diagnosis) {
+    std::string text = diagnosis.component;
+    if (!diagnosis.end.empty()) text += fmt::format(", at the {} end", diagnosis.end);
+    if (diagnosis.position_m) text += fmt::format(", about {:.2f} m from the motor", *diagnosis.position_m);
+    return text;
+}
+
+std::string verdict_sentence(const Diagnosis& diagnosis) {
+    const gap::RankedEffect& first = diagnosis.ranked.front();
+    if (first.effect == "none") return "No gap: what is left is noise and the model's own floor.";
+    if (first.effect == "unknown")
+        return "There is a gap, and none of the known effects explains enough of it.";
+    if (diagnosis.causes.size() > 1)
+        return fmt::format("Two causes together: {} and {}.", diagnosis.causes[0].effect,
+                           diagnosis.causes[1].effect);
+    return fmt::format("The cause is {} with probability {:.2f}.", first.effect, first.probability);
+}
+
+std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis) {
+    std::string text = fmt::format("{}: {}\n", recording.name, verdict_sentence(diagnosis));
+    if (!diagnosis.component.empty() && diagnosis.component != "none")
+        text += fmt::format("  where     {}\n", where_in_words(diagnosis));
+    for (const FittedCause& cause : diagnosis.causes)
+        text += fmt::format("  fitted    {}{}{}: {}\n", cause.effect, cause.variant.empty() ? "" : ", ",
+                            cause.variant, numbers_in_words(cause));
+    text += fmt::format("  nominal   friction x {:.3f}, stiffness x {:.3f}, pretension x {:.3f}\n",
+                        diagnosis.friction_ratio, diagnosis.stiffness_ratio, diagnosis.pretension_ratio);
+    text += fmt::format("  largest   in run {}, channel {}\n\n  probability of each\n", diagnosis.worst_run,
+                        diagnosis.worst_channel);
+    for (const gap::RankedEffect& each : diagnosis.ranked) {
+        if (each.probability < 0.005) break;
+        text += fmt::format("    {:<28} {:.2f}\n", each.effect, each.probability);
+    }
+    text += fmt::format("\n  {:<14} {:>5} {:>10} {:>10} {:>10} {:>10}\n", "RMS of gap", "unit", "noise",
+                        "before", "after", "held out");
+    for (const ChannelGap& channel : diagnosis.channels)
+        text += fmt::format("  {:<14} {:>5} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g}\n", channel.channel,
+                            channel.unit, channel.noise, channel.before_rms, channel.after_rms,
+                            channel.held_out_rms);
+    text += "\n  share of the gap's energy beyond noise:";
+    for (const gap::GapShare& share : diagnosis.map) {
+        if (share.share >= 0.01)
+            text += fmt::format(" {} {} {:.0f}%;", share.by, share.name, 1e2 * share.share);
+    }
+    return text + "\n";
+}
+
+ordered_json optional_text(const std::string& text) {
+    return text.empty() ? ordered_json(nullptr) : ordered_json(text);
+}
+
+ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis) {
+    ordered_json json = {{"case", recording.name}, {"ranked", ordered_json::array()}};
+    for (const gap::RankedEffect& each : diagnosis.ranked)
+        json["ranked"].push_back({{"effect", each.effect}, {"probability", each.probability}});
+    json["where"] = {
+        {"component", optional_text(diagnosis.component)},
+        {"end", optional_text(diagnosis.end)},
+        {"s_m", diagnosis.position_m ? ordered_json(*diagnosis.position_m) : ordered_json(nullptr)},
+        {"worst_run", diagnosis.worst_run},
+        {"worst_channel", diagnosis.worst_channel}};
+    if (const ChannelGap* channel = find_channel(diagnosis, judged_channel)) {
+        json["channel"] = channel->channel;
+        json["rms_before"] = channel->before_rms;
+        json["rms_after"] = channel->after_rms;
+        json["unit"] = channel->unit;
+    }
+    json["causes"] = ordered_json::array();
+    for (const FittedCause& cause : diagnosis.causes) {
+        ordered_json numbers = ordered_json::object();
+        for (const gap::FittedNumber& number : cause.numbers)
+            numbers[number.name] = {{"value", number.value}, {"unit", number.unit}};
+        json["causes"].push_back({{"effect", cause.effect},
+                                  {"variant", optional_text(cause.variant)},
+                                  {"component", cause.component},
+                                  {"numbers", numbers}});
+    }
+    json["nominal_ratios"] = {{"friction", diagnosis.friction_ratio},
+                              {"stiffness", diagnosis.stiffness_ratio},
+                              {"pretension", diagnosis.pretension_ratio}};
+    json["misfit"] = {{"before", diagnosis.misfit_before}, {"after", diagnosis.misfit_after}};
+    json["channels"] = ordered_json::array();
+    for (const ChannelGap& channel : diagnosis.channels)
+        json["channels"].push_back({{"channel", channel.channel},
+                                    {"unit", channel.unit},
+                                    {"noise", channel.noise},
+                                    {"rms_before", channel.before_rms},
+                                    {"rms_after", channel.after_rms},
+                                    {"rms_held_out", channel.held_out_rms}});
+    json["gap_map"] = ordered_json::array();
+    for (const gap::GapShare& share : diagnosis.map)
+        json["gap_map"].push_back({{"by", share.by}, {"name", share.name}, {"share", share.share}});
+    return json;
+}
+
+ExitCode run(const Invocation& invocation) {
+    const gap::Recording recording = gap::read_recording(invocation.argument("LOG"));
+    gap::DiagnosisOptions options;
+    options.threads = static_cast<int>(invocation.whole("jobs"));
+    const bool on_a_terminal = isatty(STDERR_FILENO) != 0;
+    if (on_a_terminal && invocation.text("progress") == "auto") {
+        options.on_progress = [](const std::string& doing, double share) {
+            fmt::print(stderr, "\r\033[K{:3.0f}%  {}", 1e2 * share, doing);
+            std::fflush(stderr);
+        };
+    } else if (invocation.text("progress") == "json") {
+        options.on_progress = [](const std::string& doing, double share) {
+            const ordered_json json = {{"event", "progress"}, {"doing", doing}, {"share_done", share}};
+            fmt::print(stderr, "{}\n", json.dump());
+        };
+    }
+    const Diagnosis diagnosis = gap::diagnose(recording, options);
+    if (on_a_terminal && invocation.text("progress") == "auto") fmt::print(stderr, "\r\033[K");
+    deliver(invocation, invocation.has("json") ? json_text(in_json(recording, diagnosis))
+                                               : in_words(recording, diagnosis));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command diagnose_command() {
+    return {
+        "diagnose",
+        "Find which unmodelled effect makes a recording disagree with its model.",
+        "Moves the bench's model with the recording's driven channels, fits every effect of the catalogue, wrong "
+        "parameters and sensor faults to what is left in the other channels, and says which explains it: where it "
+        "sits, how probable each is, how far the gap shrinks, also on runs that the fit has not seen. Says `none` "
+        "where only noise is left and `unknown` where the best known cause leaves much of the gap. For recordings of "
+        "pull_pull and single_cable benches.",
+        {log_argument},
+        {jobs_option, output_option, json_option, progress_option, help_option},
+        {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capstan/gap/effects_twin.h"
+#include "capstan/gap/recording.h"
+
+namespace capstan::gap {
+
+/// One number that a candidate cause leaves open, and the coordinate in which it is sought.
+struct OpenNumber {
+    enum class Kind {
+        size,  ///< how much of it there is: 0 is none; coordinate in units of a typical case, not below 0
+        signed_size,  ///< the same, either way
+        shape,        ///< how it looks once it is there: the coordinate is a logarithm
+        place,        ///< where along the cable: coordinate in parts of its length
+    };
+    std::string name;
+    std::string unit;
+    Kind kind = Kind::size;
+    double typical = 1.0;
+    double absent = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+
+    double value(double coordinate) const;
+    double prior_mean() const;
+    double prior_std() const;
+    /// Coordinates from which it pays to start.
+    std::vector<double> starts() const;
+};
+
+/// Something that could be behind a gap.
+struct CandidateCause {
+    std::string effect;   ///< canonical name
+    std::string variant;  ///< place or channel; empty if there is only one
+    std::string family;
+    std::string component;
+    std::string end;
+    std::vector<OpenNumber> numbers;
+    std::function<void(BenchNumbers&, std::span<const double> values)> apply;
+    /// How far friction, stiffness and pretension may be from their nominal values (logarithms, standard
+    /// deviation): one of them far, if that is the cause.
+    double friction_std = 0.0;
+    double stiffness_std = 0.0;
+    double pretension_std = 0.0;
+};
+
+/// The nominal numbers of a well-kept laboratory are right to about this.
+inline constexpr double nominal_log_std = 0.015;
+
+/// Every cause that this recording could show: none, wrong parameters, the catalogue's effects, faults of
+/// each predicted channel.
+std::vector<CandidateCause> candidate_causes(const Recording& recording);
+
+}  // namespace capstan::gap

@@ -1,0 +1,191 @@
+#include "capstan/gap/cause_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/parallel/parallel_for.h"
+
+namespace capstan::gap {
+
+namespace {
+
+// Where the quasi-static model itself ends, for a channel that varies by `spread` in a run: ringing after
+// motion has run through, breakaway, the discretisation. Measured on recordings without a gap: about 1% of a
+// torque or tension, and of a motor angle 2% where it only stretches the cables, less where it turns with the
+// load.
+double model_floor(const std::string& channel, double spread) {
+    constexpr double turning_rad = 0.13;
+    if (channel == "motor_angle") return 0.02 * spread / (1.0 + spread / turning_rad);
+    return 0.012 * spread;
+}
+
+// Residuals hang together for about this long.
+constexpr double correlation_time_s = 0.25;
+
+double standard_deviation(const std::vector<double>& values) {
+    double mean = 0.0;
+    for (const double value : values) mean += value / static_cast<double>(values.size());
+    double squares = 0.0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+// Sample by which what moves the bench has been near both its extremes: until then friction remembers how the
+// bench was put together. At most half the run.
+int end_of_first_loading(const Recording& recording, const RecordedRun& run) {
+    constexpr double near = 0.2;  // in parts of the span
+    const bool turned = run.drives("motor_angle");
+    const bool locked = run.output != OutputKind::handle;
+    const auto channel = recording.channel(turned ? "motor_angle" : locked ? "motor_torque" : "load_angle");
+    if (!channel || !run.drives(recording.channels[static_cast<std::size_t>(*channel)].name)) return 0;
+    const std::vector<double>& samples = run.values[static_cast<std::size_t>(*channel)];
+    const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+    const double margin = near * (*most - *least);
+    bool been_low = false;
+    bool been_high = false;
+    const int half = static_cast<int>(samples.size() / 2);
+    for (int sample = 0; sample < half; ++sample) {
+        been_low |= samples[static_cast<std::size_t>(sample)] < *least + margin;
+        been_high |= samples[static_cast<std::size_t>(sample)] > *most - margin;
+        if (been_low && been_high) return sample;
+    }
+    return half;
+}
+
+}  // namespace
+
+CauseFitter::CauseFitter(const Recording& recording, const EffectsTwinOptions& options, int threads)
+    : recording_(recording), twin_(recording, options), threads_(threads) {
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        const TwinRun nominal = twin_.run(run, {});
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            if (nominal.values[channel].empty()) continue;
+            const Channel& described = recording.channels[channel];
+            const double floor =
+                model_floor(described.name, standard_deviation(recording.runs[run].values[channel]));
+            const double scale = std::hypot(sample_noise(described), floor);
+            const int first = end_of_first_loading(recording, recording.runs[run]) / options.stride;
+            const std::size_t rows = nominal.values[channel].size() - static_cast<std::size_t>(first);
+            series_.push_back({run, channel, first, scale > 0.0 ? scale : 1.0, data_rows_, rows});
+            data_rows_ += rows;
+        }
+    }
+    // Priors weigh against independent samples, not against all of them.
+    prior_weight_ = std::sqrt(static_cast<double>(data_rows_) / independent_samples());
+}
+
+double CauseFitter::independent_samples() const {
+    double duration_s = 0.0;
+    for (const RecordedRun& run : recording_.runs) duration_s += run.time_s.back() - run.time_s.front();
+    return duration_s / correlation_time_s;
+}
+
+BenchNumbers CauseFitter::numbers(const std::vector<const CandidateCause*>& causes,
+                                  const Eigen::VectorXd& coordinates) {
+    BenchNumbers bench;
+    bench.friction_ratio = std::exp(coordinates[0]);
+    bench.stiffness_ratio = std::exp(coordinates[1]);
+    bench.pretension_ratio = std::exp(coordinates[2]);
+    Eigen::Index next = nominal_coordinates;
+    for (const CandidateCause* cause : causes) {
+        std::vector<double> values;
+        for (const OpenNumber& number : cause->numbers) values.push_back(number.value(coordinates[next++]));
+        cause->apply(bench, values);
+    }
+    return bench;
+}
+
+Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>& causes,
+                                       const Eigen::MatrixXd& coordinates,
+                                       std::optional<std::size_t> left_out) const {
+    const auto data = static_cast<Eigen::Index>(data_rows_);
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(data + coordinates.rows(), coordinates.cols());
+    const int runs = static_cast<int>(recording_.runs.size());
+    parallel_for_each_index(runs * static_cast<int>(coordinates.cols()), threads_, [&](int task) {
+        const auto run = static_cast<std::size_t>(task % runs);
+        const Eigen::Index column = task / runs;
+        if (run == left_out) return;
+        const TwinRun twin_run = twin_.run(run, numbers(causes, coordinates.col(column)));
+        for (const ResidualSeries& series : series_) {
+            if (series.run != run) continue;
+            const std::vector<double>& measured = recording_.runs[run].values[series.channel];
+            const std::vector<double>& predicted = twin_run.values[series.channel];
+            for (std::size_t row = 0; row < series.rows; ++row) {
+                const std::size_t sample = static_cast<std::size_t>(series.first_sample) + row;
+                all(static_cast<Eigen::Index>(series.first_row + row), column) =
+                    (measured[sample * static_cast<std::size_t>(twin_.stride())] - predicted[sample]) /
+                    series.scale;
+            }
+        }
+    });
+    // Priors. Of several causes the most generous speaks for each nominal number.
+    double spread[nominal_coordinates] = {nominal_log_std, nominal_log_std, nominal_log_std};
+    for (const CandidateCause* cause : causes) {
+        spread[0] = std::max(spread[0], cause->friction_std);
+        spread[1] = std::max(spread[1], cause->stiffness_std);
+        spread[2] = std::max(spread[2], cause->pretension_std);
+    }
+    for (Eigen::Index column = 0; column < coordinates.cols(); ++column) {
+        Eigen::Index row = 0;
+        for (const double std : spread) {
+            all(data + row, column) = prior_weight_ * coordinates(row, column) / std;
+            ++row;
+        }
+        for (const CandidateCause* cause : causes) {
+            for (const OpenNumber& number : cause->numbers) {
+                all(data + row, column) =
+                    prior_weight_ * (coordinates(row, column) - number.prior_mean()) / number.prior_std();
+                ++row;
+            }
+        }
+    }
+    return all;
+}
+
+CauseFit CauseFitter::fit(const std::vector<const CandidateCause*>& causes,
+                          const Eigen::VectorXd& nominal_start, const std::vector<Eigen::VectorXd>& starts,
+                          std::optional<std::size_t> left_out) const {
+    CauseFit fit;
+    fit.causes = causes;
+    Eigen::MatrixXd grid(nominal_start.size() + starts.front().size(),
+                         static_cast<Eigen::Index>(starts.size()));
+    for (std::size_t k = 0; k < starts.size(); ++k)
+        grid.col(static_cast<Eigen::Index>(k)) << nominal_start, starts[k];
+    Eigen::Index best = 0;
+    if (starts.size() > 1) {
+        residuals(causes, grid, left_out).colwise().squaredNorm().minCoeff(&best);
+        fit.evaluations = static_cast<int>(starts.size());
+    }
+    LeastSquaresOptions options;
+    options.differences = Differences::forward;
+    options.parameter_tolerance = 2e-3;
+    options.most_iterations = 12;
+    options.jacobian_at_end = false;
+    const LeastSquaresFit found = fit_least_squares(
+        [&](const Eigen::MatrixXd& coordinates) { return residuals(causes, coordinates, left_out); },
+        grid.col(best), options);
+    fit.coordinates = found.parameters;
+    fit.residuals = found.residuals;
+    fit.sum_of_squares = found.sum_of_squares;
+    fit.evaluations += found.evaluations;
+    fit.converged = found.converged;
+    return fit;
+}
+
+std::vector<Eigen::VectorXd> start_grid(const CandidateCause& cause) {
+    std::vector<Eigen::VectorXd> grid = {Eigen::VectorXd(0)};
+    for (const OpenNumber& number : cause.numbers) {
+        std::vector<Eigen::VectorXd> longer;
+        for (const Eigen::VectorXd& begun : grid) {
+            for (const double start : number.starts()) {
+                Eigen::VectorXd next(begun.size() + 1);
+                next << begun, start;
+                longer.push_back(next);
+            }
+        }
+        grid = longer;
+    }
+    return grid;
+}
+
+}  // namespace capstan::gap

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "capstan/gap/candidate_cause.h"
+#include "capstan/gap/effects_twin.h"
+#include "capstan/gap/least_squares.h"
+
+namespace capstan::gap {
+
+/// Residuals of one channel in one run.
+struct ResidualSeries {
+    std::size_t run = 0;
+    std::size_t channel = 0;
+    int first_sample = 0;       ///< of those predicted; before it lies the first loading from rest
+    double scale = 1.0;         ///< noise and the model's floor together, in the channel's unit
+    std::size_t first_row = 0;  // in a vector of all residuals
+    std::size_t rows = 0;
+};
+
+/// The best that one or several causes together can do.
+struct CauseFit {
+    std::vector<const CandidateCause*> causes;
+    Eigen::VectorXd coordinates;  // friction, stiffness, pretension logarithms, then each cause's numbers
+    Eigen::VectorXd residuals;    // all series one after the other, then the priors
+    double sum_of_squares = 0.0;
+    int evaluations = 0;
+    bool converged = false;
+};
+
+/// Fits causes to a recording: nominal numbers float within their uncertainty for every one of them.
+class CauseFitter {
+  public:
+    /// `recording` must outlive it. `threads` as for parallel_for_each_index.
+    CauseFitter(const Recording& recording, const EffectsTwinOptions& options, int threads);
+
+    const std::vector<ResidualSeries>& series() const { return series_; }
+    std::size_t data_rows() const { return data_rows_; }
+
+    /// The residuals of a run that is left out are zero.
+    CauseFit fit(const std::vector<const CandidateCause*>& causes, const Eigen::VectorXd& nominal_start,
+                 const std::vector<Eigen::VectorXd>& starts, std::optional<std::size_t> left_out = {}) const;
+    /// The bench with these causes at these coordinates.
+    static BenchNumbers numbers(const std::vector<const CandidateCause*>& causes,
+                                const Eigen::VectorXd& coordinates);
+    /// Residuals and priors for one set of coordinates a column.
+    Eigen::MatrixXd residuals(const std::vector<const CandidateCause*>& causes,
+                              const Eigen::MatrixXd& coordinates,
+                              std::optional<std::size_t> left_out = {}) const;
+
+    const EffectsTwin& twin() const { return twin_; }
+    /// Independent instants in the recording: residuals of one instant hang together with those of the next.
+    double independent_samples() const;
+
+  private:
+    const Recording& recording_;
+    EffectsTwin twin_;
+    int threads_;
+    std::vector<ResidualSeries> series_;
+    std::size_t data_rows_ = 0;
+    double prior_weight_ = 1.0;
+};
+
+inline constexpr int nominal_coordinates = 3;
+
+/// Where a search for these causes' numbers may start: all combinations of their numbers' starts.
+std::vector<Eigen::VectorXd> start_grid(const CandidateCause& cause);
+
+}  // namespace capstan::gap

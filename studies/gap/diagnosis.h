@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/gap/candidate_cause.h"
+#include "capstan/gap/recording.h"
+
+namespace capstan::gap {
+
+struct DiagnosisOptions {
+    int segments = 40;  ///< of a cable while causes are sought
+    int stride = 2;     ///< every how manieth sample a step goes to meanwhile
+    int threads = 0;    ///< 0: as many as the machine has
+    /// Told what is going on, and how much of the work is done.
+    std::function<void(const std::string& doing, double share_done)> on_progress = [](const std::string&,
+                                                                                      double) {};
+};
+
+/// An effect, `none` or `unknown`, and how probable it is.
+struct RankedEffect {
+    std::string effect;
+    double probability = 0.0;
+};
+
+struct FittedNumber {
+    std::string name;
+    std::string unit;
+    double value = 0.0;
+};
+
+/// A cause that the verdict names, as it was fitted.
+struct FittedCause {
+    std::string effect;
+    std::string variant;
+    std::string component;
+    std::string end;
+    std::vector<FittedNumber> numbers;
+    std::optional<double> position_m;
+};
+
+/// RMS of measured minus model in one channel, over all samples of all runs that do not drive it.
+struct ChannelGap {
+    std::string channel;
+    std::string unit;
+    double noise = 0.0;  ///< of one sample
+    double before_rms = 0.0;
+    double after_rms = 0.0;
+    double held_out_rms = 0.0;  ///< each run with numbers fitted to the others
+};
+
+/// Share of the explainable residual energy (beyond noise, in units of noise) in one part of the recording.
+struct GapShare {
+    std::string by;  ///< "run", "channel"
+    std::string name;
+    double share = 0.0;
+};
+
+struct Diagnosis {
+    std::vector<RankedEffect> ranked;  ///< best first; sums to 1
+    std::vector<FittedCause> causes;   ///< none, one, or two that act together
+    double friction_ratio = 1.0;       ///< nominal numbers as fitted with the causes
+    double stiffness_ratio = 1.0;
+    double pretension_ratio = 1.0;
+    std::string component;
+    std::string end;
+    std::optional<double> position_m;
+    int worst_run = 0;
+    std::string worst_channel;
+    std::vector<ChannelGap> channels;
+    std::vector<GapShare> map;
+    double misfit_before = 0.0;  ///< mean square residual in units of noise and floor; 1: nothing to explain
+    double misfit_after = 0.0;
+    int evaluations = 0;  ///< simulations of the whole recording
+};
+
+/// Which unmodelled effect, if any, is behind the difference between a recording and its bench's model.
+///
+/// Every candidate cause is fitted with the nominal numbers floating; what it leaves is weighed on the scale
+/// of the residual's own independent samples, with a price for each number. `none` wins where nothing beyond
+/// noise and the model's floor is left, `unknown` where the best known cause leaves much of the gap.
+Diagnosis diagnose(const Recording& recording, const DiagnosisOptions& options);
+
+}  // namespace capstan::gap

@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "capstan/effects/effect_catalogue.h"
+#include "capstan/gap/diagnosis.h"
+#include "capstan/gap/effects_twin.h"
+#include "capstan/gap/recording_reader.h"
+#include "sample_recording.h"
+
+namespace capstan::gap {
+namespace {
+
+// driven_session() as a bench with these numbers measures it, its sensors' noise on it. The bench has twice
+// the segments of the model that is to explain it, and steps at every sample.
+Recording session_of(const BenchNumbers& numbers) {
+    Recording recording = driven_session();
+    std::mt19937_64 random(20260202);
+    std::normal_distribution<double> normal;
+    const EffectsTwin bench(recording, {80, 1});
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        const TwinRun truth = bench.run(run, numbers);
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            if (truth.values[channel].empty()) continue;
+            recording.runs[run].values[channel] = truth.values[channel];
+            const double noise = sample_noise(recording.channels[channel]);
+            for (double& value : recording.runs[run].values[channel]) value += noise * normal(random);
+        }
+    }
+    return recording;
+}
+
+Diagnosis diagnosed(const Recording& recording) {
+    DiagnosisOptions options;
+    options.segments = 30;
+    options.stride = 1;
+    return diagnose(recording, options);
+}
+
+const ChannelGap& channel_of(const Diagnosis& diagnosis, const std::string& name) {
+    for (const ChannelGap& channel : diagnosis.channels) {
+        if (channel.channel == name) return channel;
+    }
+    throw std::out_of_range(name);
+}
+
+TEST(Diagnosis, OfABenchThatIsItsModelSaysNone) {
+    const Diagnosis diagnosis = diagnosed(session_of({}));
+    EXPECT_EQ(diagnosis.ranked.front().effect, "none");
+    EXPECT_TRUE(diagnosis.causes.empty());
+    EXPECT_LT(diagnosis.misfit_after, 1.1);  // noise, and none of the floor that is allowed
+}
+
+TEST(Diagnosis, ProbabilitiesSumToOne) {
+    double sum = 0.0;
+    const Diagnosis diagnosis = diagnosed(session_of({}));
+    for (const RankedEffect& each : diagnosis.ranked) sum += each.probability;
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+TEST(Diagnosis, FindsDragAndHowMuch) {
+    BenchNumbers numbers;
+    numbers.effects.viscous_friction.drag_N_s_per_m2 = 4.0;
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    EXPECT_EQ(diagnosis.ranked.front().effect, "viscous_friction");
+    ASSERT_EQ(diagnosis.causes.size(), 1u);
+    EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, 4.0, 0.4);
+    EXPECT_EQ(diagnosis.component, "conduit");
+    const ChannelGap& torque = channel_of(diagnosis, "load_torque");
+    EXPECT_LT(torque.after_rms, 0.25 * torque.before_rms);
+    EXPECT_LT(torque.held_out_rms, 0.35 * torque.before_rms);
+}
+
+TEST(Diagnosis, TellsWhereABendIs) {
+    BenchNumbers numbers;
+    numbers.effects.local_bend = {{1.1, 1.3}, 1.0, BentCables::both};
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    EXPECT_EQ(diagnosis.ranked.front().effect, "local_bend");
+    ASSERT_TRUE(diagnosis.position_m.has_value());
+    EXPECT_NEAR(*diagnosis.position_m, 1.2, 0.25);
+}
+
+TEST(Diagnosis, OfOneFaultySensorNamesItsChannel) {
+    BenchNumbers numbers;
+    numbers.sensor_faults["load_torque"].lag_s = 0.06;
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    EXPECT_EQ(diagnosis.ranked.front().effect, "sensor_lag");
+    EXPECT_EQ(diagnosis.component, "sensor:load_torque");
+    EXPECT_EQ(diagnosis.worst_channel, "load_torque");
+}
+
+TEST(Diagnosis, AWrongFrictionCoefficientIsNoMissingEffect) {
+    BenchNumbers numbers;
+    numbers.friction_ratio = 1.35;
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    EXPECT_EQ(diagnosis.ranked.front().effect, "param_mu");
+    EXPECT_NEAR(diagnosis.friction_ratio, 1.35, 0.05);
+}
+
+TEST(Diagnosis, OfABenchWhoseGeometryIsNotKnownIsRefused) {
+    Recording recording = driven_session();
+    recording.mode = BenchMode::lumped_drive;
+    EXPECT_THROW(diagnosed(recording), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace capstan::gap
