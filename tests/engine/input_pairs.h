@@ -28,6 +28,12 @@ inline std::vector<InputPair> every_input_pair() {
     return pairs;
 }
 
+/// An end whose tension is prescribed follows the other one, so the cable hangs between them only where it is
+/// 0.
+inline bool prescribes_a_tension(const InputPair& pair) {
+    return pair.proximal == EndKind::tension || pair.distal == EndKind::tension;
+}
+
 inline std::string name_of(EndKind kind) {
     switch (kind) {
         case EndKind::position:

@@ -21,6 +21,8 @@ class ErrorsByHalving {
         }
         return orders;
     }
+    double coarsest() const { return errors_.front(); }
+    double finest() const { return errors_.back(); }
     /// Single orders jump with where a turning point or a front falls between samples; their mean tells.
     double mean_order() const {
         return std::log2(errors_.front() / errors_.back()) / static_cast<double>(errors_.size() - 1);
