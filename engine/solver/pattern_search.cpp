@@ -36,6 +36,7 @@ std::optional<Candidate> best_held_middle(const StepView& view, const EndConditi
 // (E7). Else all slides.
 Candidate from_sides(const StepView& view, const EndConditions& ends, const Sides& sides,
                      int& patterns_tried) {
+    if (sides.rest() && view.before.last_motion.kind == MotionKind::slack) return slack(ends);
     if (!sides.meet(view)) return partial_motion(sides.proximal, sides.distal);
     if (sides.driven_against_each_other()) {
         return opposed_motion(view, ends, sides.proximal.direction, patterns_tried);

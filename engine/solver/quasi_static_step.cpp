@@ -31,6 +31,9 @@ QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
     const Sides sides = find_sides(view, ends, FrontStart::remembered, patterns_tried);
     Candidate likely;
     if (!sides.meet(view)) {
+        if (sides.rest() && state.last_motion.kind == MotionKind::slack) {
+            return take_what_verifies(view, ends, state);
+        }
         likely = partial_motion(sides.proximal, sides.distal);
     } else {
         if (sides.driven_against_each_other()) return take_what_verifies(view, ends, state);

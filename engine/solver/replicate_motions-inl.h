@@ -139,6 +139,8 @@ HWY_INLINE Which advance_lanes(const ReplicateGroup& group, int lane) {
     only(hn::Not(mass), distal);
     Which done = hn::And(hn::AndNot(hn::And(meet, against), taut),
                          hn::Or(mass, hn::And(proximal.holds, distal.holds)));
+    const Which hangs = hn::AndNot(hn::Or(proximal.moves, distal.moves), g.before.slack);
+    done = hn::AndNot(hangs, done);
     only(done, proximal);
     only(done, distal);
     Extent near = extent_of(proximal.moving_nodes);
