@@ -138,6 +138,17 @@ TEST(BadInput, IsRefusedByNameAndLeavesTheStateAlone) {
               std::string::npos);
     EXPECT_NE(refusal({EndCondition::tension_N(5), EndCondition::tension_N(5)}).find("both ends"),
               std::string::npos);
+    EXPECT_NE(refusal({EndCondition::position_m(-1e300), EndCondition::position_m(0)}).find("1e150"),
+              std::string::npos);
+    // A number, but the tension of so long a pull is none.
+    EXPECT_NE(refusal({EndCondition::position_m(-1e149), EndCondition::position_m(0)}).find("units"),
+              std::string::npos);
+    // The displacement that this factor means is none either.
+    EXPECT_NE(refusal({{1e-310, 0.0, 1.0}, EndCondition::position_m(0)}).find("units"), std::string::npos);
+    EXPECT_NE(refusal({EndCondition::position_m(0), distal_spring({-500.0, 10.0, 0.0})}).find("stiffness"),
+              std::string::npos);
+    EXPECT_NE(refusal({proximal_spring({-500.0, 10.0, 0.0}), EndCondition::position_m(0)}).find("stiffness"),
+              std::string::npos);
     EXPECT_EQ(state.tension_N, before.tension_N);
     EXPECT_EQ(state.displacement_m, before.displacement_m);
 }
