@@ -160,7 +160,7 @@ Trial<EndConditions> any_ends(Choices& choices, const test::InputPair& pair, con
             return {ends, "proximal end's input is a spring of negative stiffness"};
         case 4:
             ends = {EndCondition::position_m(-1e150), EndCondition::position_m(1e150)};
-            return {ends, "check the units of the inputs"};
+            return {ends, "a finite number below 1e150"};
         default:
             ends.distal = {0.0, 0.0, distal.tension_N};
             return {ends, "distal end's input says nothing"};
