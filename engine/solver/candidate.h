@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "capstan/cable/cable_state.h"
 #include "capstan/solver/cable_end.h"
 #include "capstan/solver/end_condition.h"
+#include "capstan/solver/solvable_ends.h"
 
 namespace capstan {
 
@@ -124,6 +126,14 @@ inline bool resting_nodes_hold(const StepView& view, const Candidate& candidate)
         far_first > last_node || cone_holds(view, far_first - 1, view.tension_N(far_first - 1),
                                             moving_tension_N(view, candidate, far_first));
     return near_holds && far_holds;
+}
+
+/// Input and cable may each be a number and what comes of them not.
+inline bool of_numbers(const Candidate& candidate) {
+    return std::abs(candidate.proximal.tension_N) <= largest_number &&
+           std::abs(candidate.proximal.displacement_m) <= largest_number &&
+           std::abs(candidate.distal.tension_N) <= largest_number &&
+           std::abs(candidate.distal.displacement_m) <= largest_number;
 }
 
 /// The rules' velocity check and the friction cone (E4, E5).

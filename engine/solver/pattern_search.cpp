@@ -36,6 +36,7 @@ std::optional<Candidate> best_held_middle(const StepView& view, const EndConditi
 // (E7). Else all slides.
 Candidate from_sides(const StepView& view, const EndConditions& ends, const Sides& sides,
                      int& patterns_tried) {
+    if (sides.rest() && view.before.last_motion.kind == MotionKind::slack) return slack(ends);
     if (!sides.meet(view)) return partial_motion(sides.proximal, sides.distal);
     if (sides.driven_against_each_other()) {
         return opposed_motion(view, ends, sides.proximal.direction, patterns_tried);
@@ -69,6 +70,24 @@ std::optional<Candidate> another_that_verifies(const StepView& view, const EndCo
     return std::nullopt;
 }
 
+bool pushes(const Candidate& candidate) {
+    const MotionPattern& pattern = candidate.pattern;
+    return (pattern.proximal_moving_nodes > 0 && candidate.proximal.tension_N < 0.0) ||
+           (pattern.distal_moving_nodes > 0 && candidate.distal.tension_N < 0.0);
+}
+
+// Nothing verifies, and what was found has the cable push: no state to go on from. All slides instead, the
+// way that asks for less tension, or the cable is slack.
+Candidate without_compression(const StepView& view, const EndConditions& ends, const Candidate& candidate) {
+    if (!pushes(candidate)) return candidate;
+    const Candidate forward = mass_motion(view, ends, Direction::forward);
+    const Candidate backward = mass_motion(view, ends, Direction::backward);
+    const auto highest_N = [](const Candidate& c) {
+        return std::max(c.proximal.tension_N, c.distal.tension_N);
+    };
+    return highest_N(forward) <= highest_N(backward) ? forward : backward;
+}
+
 }  // namespace
 
 PatternSearch search_pattern(const StepView& view, const EndConditions& ends) {
@@ -77,7 +96,8 @@ PatternSearch search_pattern(const StepView& view, const EndConditions& ends) {
     const Candidate likely = from_sides(view, ends, sides, patterns_tried);
     if (verifies(view, likely)) return {likely, true, patterns_tried};
     const std::optional<Candidate> other = another_that_verifies(view, ends, sides, patterns_tried);
-    return {other.value_or(likely), other.has_value(), patterns_tried};
+    if (!other) return {without_compression(view, ends, likely), false, patterns_tried};
+    return {*other, true, patterns_tried};
 }
 
 }  // namespace capstan

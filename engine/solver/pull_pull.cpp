@@ -15,6 +15,8 @@ template <class... Functions>
 struct Overloaded : Functions... {
     using Functions::operator()...;
 };
+template <class... Functions>  // clang 14 does not deduce it of itself
+Overloaded(Functions...)->Overloaded<Functions...>;
 
 // A search inside another must leave no error that the outer one could see.
 constexpr double inner_tolerance_Nm = 0.01 * torque_tolerance_Nm;

@@ -1,5 +1,6 @@
 #include "capstan/solver/quasi_static_step.h"
 
+#include "capstan/cable/invalid_input.h"
 #include "capstan/solver/pattern_search.h"
 #include "capstan/solver/sides.h"
 #include "capstan/solver/sliding_run.h"
@@ -12,6 +13,11 @@ namespace {
 [[gnu::noinline]] StepReport take_what_verifies(const StepView& view, const EndConditions& ends,
                                                 CableState& state) {
     const PatternSearch search = search_pattern(view, ends);
+    if (!of_numbers(search.candidate)) {
+        throw InvalidInput(
+            {"the ends' inputs ask this cable for a tension or displacement that is not a finite number below "
+             "1e150; check the units of the inputs, of the stiffness and of the lengths"});
+    }
     write_state(view, search.candidate, ends, state);
     return {search.candidate.pattern, search.verified, search.patterns_tried};
 }
@@ -31,6 +37,9 @@ QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
     const Sides sides = find_sides(view, ends, FrontStart::remembered, patterns_tried);
     Candidate likely;
     if (!sides.meet(view)) {
+        if (sides.rest() && state.last_motion.kind == MotionKind::slack) {
+            return take_what_verifies(view, ends, state);
+        }
         likely = partial_motion(sides.proximal, sides.distal);
     } else {
         if (sides.driven_against_each_other()) return take_what_verifies(view, ends, state);
@@ -38,7 +47,7 @@ QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
         if (!(likely.proximal.tension_N > 0.0)) return take_what_verifies(view, ends, state);
         ++patterns_tried;
     }
-    if (!resting_nodes_hold(view, likely) ||
+    if (!of_numbers(likely) || !resting_nodes_hold(view, likely) ||
         !write_if_both_move(proximal_run(view, likely), distal_run(view, likely), view, state)) {
         return take_what_verifies(view, ends, state);
     }

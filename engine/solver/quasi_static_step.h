@@ -26,8 +26,9 @@ class QuasiStaticStep {
   public:
     QuasiStaticStep(const Cable& cable, const ModelRules& rules);
 
-    /// Advances `state` in place. Throws InvalidInput if an end condition is not finite or if both ends
-    /// prescribe a tension (the displacement would be undetermined); `state` is then unchanged.
+    /// Advances `state` in place. Throws InvalidInput if an end condition or what it asks of this cable is no
+    /// finite number, if a spring pushes back the wrong way, or if both ends prescribe a tension (the
+    /// displacement would be undetermined); `state` is then unchanged.
     StepReport advance(CableState& state, const EndConditions& ends) const;
 
     const Cable& cable() const { return cable_; }

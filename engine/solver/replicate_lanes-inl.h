@@ -48,6 +48,12 @@ HWY_INLINE bool all(Which mask) {
     return hn::AllTrue(Tag(), mask);
 }
 
+// of_numbers of candidate.h.
+HWY_INLINE Which of_numbers(Lanes tension_N, Lanes displacement_m) {
+    const Lanes largest = lanes_of(largest_number);
+    return hn::And(hn::Le(hn::Abs(tension_N), largest), hn::Le(hn::Abs(displacement_m), largest));
+}
+
 // A condition at one end.
 struct Line {
     Lanes displacement_factor;

@@ -139,6 +139,11 @@ HWY_INLINE Which advance_lanes(const ReplicateGroup& group, int lane) {
     only(hn::Not(mass), distal);
     Which done = hn::And(hn::AndNot(hn::And(meet, against), taut),
                          hn::Or(mass, hn::And(proximal.holds, distal.holds)));
+    const Which hangs = hn::AndNot(hn::Or(proximal.moves, distal.moves), g.before.slack);
+    const auto numbers = [](const Side& side) HWY_ATTR {
+        return hn::Or(hn::Not(side.moves), of_numbers(side.tension_N, side.displacement_m));
+    };
+    done = hn::AndNot(hangs, hn::And(done, hn::And(numbers(proximal), numbers(distal))));
     only(done, proximal);
     only(done, distal);
     Extent near = extent_of(proximal.moving_nodes);

@@ -12,6 +12,7 @@ struct Sides {
     bool meet(const StepView& view) const {
         return proximal.moving_nodes + distal.moving_nodes >= view.nodes();
     }
+    bool rest() const { return proximal.moving_nodes + distal.moving_nodes == 0; }
     /// Of sides not driven against each other.
     Direction common_direction() const {
         return proximal.direction != Direction::none ? proximal.direction : distal.direction;

@@ -18,7 +18,7 @@ struct Motion {
 /// The paper's Sec. III.B cable: Table I with 40 N of preload.
 Cable preloaded_cable(int segments, double static_friction);
 
-/// Every kind of end and motion, with mu_s equal to mu_d and with Table I's.
+/// Every pair of inputs and kind of motion, with mu_s equal to mu_d and with Table I's.
 std::vector<Motion> all_motions(int steps);
 
 }  // namespace capstan::test

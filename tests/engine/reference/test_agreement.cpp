@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
+#include <numbers>
 #include <set>
 
 #include "capstan/reference/band_lu.h"
 #include "capstan/reference/generic_solver.h"
 #include "capstan/reference/linear_assumed.h"
-#include "capstan/solver/quasi_static_step.h"
+#include "capstan/solver/pull_pull.h"
 #include "motions.h"
 
 namespace capstan {
@@ -62,6 +64,76 @@ TEST_P(Agreement, WithTheGenericSolverWhereverItConverges) {
     RecordProperty("converged_steps", converged);
     RecordProperty("steps", steps);
     RecordProperty("largest_difference_N", std::to_string(largest_N));
+}
+
+// Every number of segments up to 60, at instants spread over the path.
+class EverySegmentCount : public testing::TestWithParam<test::Motion> {};
+
+TEST_P(EverySegmentCount, AgreesWithTheGenericSolverWhereverItConverges) {
+    constexpr int most_segments = 60;
+    constexpr int steps_between = 41;
+    int steps = 0;
+    int converged = 0;
+    double largest_N = 0.0;
+    for (int segments = 1; segments <= most_segments; ++segments) {
+        const Cable cable = test::preloaded_cable(segments, GetParam().static_friction);
+        const QuasiStaticStep step(cable, ModelRules::cured());
+        const reference::GenericSolver generic(cable);
+        CableState state = pretensioned(cable);
+        for (std::size_t n = 0; n < GetParam().path.size(); ++n) {
+            CableState other = state;
+            ASSERT_TRUE(step.advance(state, GetParam().path[n]).verified);
+            if ((n + segments) % steps_between != 0) continue;
+            ++steps;
+            if (!generic.advance(other, GetParam().path[n]).converged) continue;
+            ++converged;
+            largest_N = std::max(largest_N, difference_N(other, state));
+        }
+    }
+    std::cout << "    1 to 60 segments: " << converged << " of " << steps
+              << " steps converged, largest difference " << largest_N << " N\n";
+    EXPECT_LT(largest_N, agreement_N);
+    EXPECT_GE(converged, 0.95 * steps);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMotion, EverySegmentCount, testing::ValuesIn(test::all_motions(250)),
+                         [](const auto& which) { return which.param.name; });
+
+// The pair is two cables at the angles that it finds; each of them must be what the generic solver says.
+TEST(PullPullAgreement, OfEachCableWithTheGenericSolverAtTheAnglesFound) {
+    const Cable cable = test::preloaded_cable(20, 0.63);
+    const PullPull pair(cable, cable, {0.020, 0.104});
+    const reference::GenericSolver generic(cable);
+    PullPullState state = pair.at_rest();
+    const double rest_m = state.cable_a.displacement_m.front();
+    int steps = 0;
+    int converged = 0;
+    double largest_N = 0.0;
+    for (int n = 1; n <= 400; ++n) {
+        const PullPullState before = state;
+        const double angle = 2.0 * std::numbers::pi * n / 200.0;
+        pair.advance(state, {MotorTorque{0.4 * std::sin(angle)}, LoadAngle{0.05 * std::sin(1.7 * angle)}});
+        const double reeled_in_m = pair.pulleys().motor_radius_m * state.motor_angle_rad;
+        const double given_m = pair.pulleys().load_radius_m * state.load_angle_rad;
+        const auto compare = [&](CableState from, double proximal_m, double distal_m,
+                                 const CableState& found) {
+            ++steps;
+            if (!generic
+                     .advance(from,
+                              {EndCondition::position_m(proximal_m), EndCondition::position_m(distal_m)})
+                     .converged) {
+                return;
+            }
+            ++converged;
+            largest_N = std::max(largest_N, difference_N(from, found));
+        };
+        compare(before.cable_a, rest_m - reeled_in_m, -given_m, state.cable_a);
+        compare(before.cable_b, rest_m + reeled_in_m, given_m, state.cable_b);
+    }
+    std::cout << "    " << converged << " of " << steps << " steps converged, largest difference "
+              << largest_N << " N\n";
+    EXPECT_LT(largest_N, agreement_N);
+    EXPECT_GE(converged, 0.95 * steps);
 }
 
 TEST_P(Agreement, WithBandLuInEveryStep) {

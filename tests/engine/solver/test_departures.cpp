@@ -60,6 +60,19 @@ TEST(ElongationRules, TwoOfThemOpenAGapWhenAFrontPasses) {
     EXPECT_NEAR(mean / e2 - 1.0, exponent * exponent / 12.0, 1e-5);
 }
 
+// The gap of the paper's two rules, of the size of a segment's friction, can be more than the tension there.
+TEST(ElongationRules, WhereTheirGapLeavesNoAnswerTheCableStillDoesNotPush) {
+    CableSpecification specification = test::paper_specification(2);
+    specification.dynamic_friction = specification.static_friction;
+    const QuasiStaticStep step(Cable(specification), ModelRules::paper());
+    CableState state = pretensioned(step.cable());
+    step.advance(state, {EndCondition::position_m(0.005), EndCondition::position_m(0.02)});
+    const StepReport report =
+        step.advance(state, {EndCondition::position_m(0.0049), EndCondition::position_m(0.0199)});
+    EXPECT_FALSE(report.verified);
+    for (const double tension_N : state.tension_N) EXPECT_GE(tension_N, 0.0);
+}
+
 TEST(ZeroVelocityPoint, LiesInsideASegmentWhereNoNodeRests) {
     // Both ends are pulled apart until no node rests: without E7 and E8 nothing verifies.
     const Cable cable = test::paper_cable(5);

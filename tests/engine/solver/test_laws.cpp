@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "capstan/cable/invalid_input.h"
 #include "example_cables.h"
@@ -120,58 +118,6 @@ TEST(PartialMotion, ReachesTheFarEndWhereMassMotionBegins) {
     }
 }
 
-TEST(Mirror, SwappingTheEndsGivesTheMirroredAnswer) {
-    CableSpecification mirrored = test::routed_specification(12);
-    std::reverse(mirrored.curvature.begin(), mirrored.curvature.end());
-    const Cable cable(test::routed_specification(12));
-    const Cable other(mirrored);
-    const QuasiStaticStep step(cable, ModelRules::cured());
-    const QuasiStaticStep other_step(other, ModelRules::cured());
-    CableState state = pretensioned(cable);
-    CableState reflected = pretensioned(other);
-    // The mirrored cable's displacements count the other way, from a rest that lies elsewhere.
-    const double shift_m = state.displacement_m.front();
-    const int last = cable.segments();
-    for (const auto& [proximal_m, distal_m] : test::both_ends_wander(2000, 2e-4, 3)) {
-        const double u1 = shift_m + proximal_m;
-        const double u2 = distal_m;
-        const StepReport a =
-            step.advance(state, {EndCondition::position_m(u1), EndCondition::position_m(u2)});
-        const StepReport b = other_step.advance(
-            reflected, {EndCondition::position_m(shift_m - u2), EndCondition::position_m(shift_m - u1)});
-        ASSERT_TRUE(a.verified && b.verified);
-        EXPECT_EQ(a.pattern.kind, b.pattern.kind);
-        for (int node = 0; node <= last; ++node) {
-            EXPECT_NEAR(state.tension_N[node], reflected.tension_N[last - node], 1e-9);
-            EXPECT_NEAR(state.displacement_m[node], shift_m - reflected.displacement_m[last - node], 1e-14);
-        }
-    }
-}
-
-TEST(TimeSteps, HalvingThemConverges) {
-    const Cable cable = test::paper_cable(40);
-    const QuasiStaticStep step(cable, ModelRules::cured());
-    const auto tension_after_a_cycle_and_a_bit = [&](int samples) {
-        CableState state = pretensioned(cable);
-        for (const EndConditions& ends :
-             test::sine_against_locked_end(cable, 0.008, samples, samples * 9 / 8)) {
-            step.advance(state, ends);
-        }
-        return state.tension_N;
-    };
-    const auto finest = tension_after_a_cycle_and_a_bit(12800);
-    double last_error_N = 1e9;
-    for (const int samples : {100, 200, 400, 800}) {
-        const auto coarse = tension_after_a_cycle_and_a_bit(samples);
-        double error_N = 0.0;
-        for (std::size_t node = 0; node < coarse.size(); ++node) {
-            error_N = std::max(error_N, std::abs(coarse[node] - finest[node]));
-        }
-        EXPECT_LT(error_N, 0.75 * last_error_N + 1e-9) << samples << " samples a cycle";
-        last_error_N = error_N;
-    }
-}
-
 TEST(BadInput, IsRefusedByNameAndLeavesTheStateAlone) {
     const Cable cable = test::paper_cable(5);
     const QuasiStaticStep step(cable, ModelRules::cured());
@@ -191,6 +137,17 @@ TEST(BadInput, IsRefusedByNameAndLeavesTheStateAlone) {
     EXPECT_NE(refusal({EndCondition::position_m(0), EndCondition::tension_N(INFINITY)}).find("distal"),
               std::string::npos);
     EXPECT_NE(refusal({EndCondition::tension_N(5), EndCondition::tension_N(5)}).find("both ends"),
+              std::string::npos);
+    EXPECT_NE(refusal({EndCondition::position_m(-1e300), EndCondition::position_m(0)}).find("1e150"),
+              std::string::npos);
+    // A number, but the tension of so long a pull is none.
+    EXPECT_NE(refusal({EndCondition::position_m(-1e149), EndCondition::position_m(0)}).find("units"),
+              std::string::npos);
+    // The displacement that this factor means is none either.
+    EXPECT_NE(refusal({{1e-310, 0.0, 1.0}, EndCondition::position_m(0)}).find("units"), std::string::npos);
+    EXPECT_NE(refusal({EndCondition::position_m(0), distal_spring({-500.0, 10.0, 0.0})}).find("stiffness"),
+              std::string::npos);
+    EXPECT_NE(refusal({proximal_spring({-500.0, 10.0, 0.0}), EndCondition::position_m(0)}).find("stiffness"),
               std::string::npos);
     EXPECT_EQ(state.tension_N, before.tension_N);
     EXPECT_EQ(state.displacement_m, before.displacement_m);

@@ -40,6 +40,14 @@ TEST_F(Slack, CarriesNothingUntilTautAgain) {
     }
 }
 
+TEST_F(Slack, IsStillSlackWhileNothingMoves) {
+    move_proximal_end_to(0.002);
+    const CableState hanging = state;
+    move_proximal_end_to(0.002);
+    EXPECT_EQ(report.pattern.kind, MotionKind::slack) << "at rest, but carrying nothing";
+    EXPECT_EQ(state.displacement_m, hanging.displacement_m);
+}
+
 TEST_F(Slack, ErasesFrictionHistory) {
     move_proximal_end_to(0.003);
     move_proximal_end_to(-0.002);  // taut again: everything slides, as if never moved before
