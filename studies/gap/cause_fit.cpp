@@ -158,8 +158,8 @@ CauseFit CauseFitter::fit(const std::vector<const CandidateCause*>& causes,
     }
     LeastSquaresOptions options;
     options.differences = Differences::forward;
-    options.parameter_tolerance = 2e-3;
-    options.most_iterations = 12;
+    options.parameter_tolerance = 1e-3;
+    options.most_iterations = 20;
     options.jacobian_at_end = false;
     const LeastSquaresFit found = fit_least_squares(
         [&](const Eigen::MatrixXd& coordinates) { return residuals(causes, coordinates, left_out); },

@@ -16,6 +16,8 @@ constexpr std::size_t most_fitted = 8;
 constexpr std::size_t most_pairs = 3;
 // Mean square residuals below this are as good as one: the floor is not known better.
 constexpr double as_good_as_noise = 1.06;
+// What goes on below that still tells two causes apart, but counts for less.
+constexpr double below_noise_weight = 0.2;
 // A cause nobody has thought of is granted to leave this share of the gap.
 constexpr double share_left_by_unknown = 0.12;
 // Only what a single cause leaves above this is looked at for a second.
@@ -98,7 +100,9 @@ class Diagnoser {
 
     double evidence_of(double mean_square, std::size_t open_numbers) const {
         const double samples = fitter_.independent_samples();
-        return -0.5 * samples * std::log(std::max(mean_square, as_good_as_noise)) -
+        return -0.5 * samples *
+                   (std::log(std::max(mean_square, as_good_as_noise)) +
+                    below_noise_weight * std::log(mean_square)) -
                0.5 * static_cast<double>(open_numbers) * std::log(samples);
     }
 
