@@ -142,6 +142,30 @@ Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>&
     return all;
 }
 
+// The nominal numbers can take over much of what a cause does, and a search that lets them go there first
+// ends there. So the last cause's size is found roughly with everything else held.
+Eigen::VectorXd CauseFitter::roughly_sized(const std::vector<const CandidateCause*>& causes,
+                                           const Eigen::VectorXd& start, std::optional<std::size_t> left_out,
+                                           int& evaluations) const {
+    const std::vector<OpenNumber>& numbers = causes.back()->numbers;
+    const std::vector<double> factors = {0.1, 0.3, 1.0, 2.0, 4.0, 8.0};
+    Eigen::MatrixXd tried = start.replicate(1, static_cast<Eigen::Index>(factors.size()));
+    bool has_size = false;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        const bool size =
+            numbers[k].kind == OpenNumber::Kind::size || numbers[k].kind == OpenNumber::Kind::signed_size;
+        has_size |= size;
+        const auto row = start.size() - static_cast<Eigen::Index>(numbers.size() - k);
+        for (std::size_t f = 0; size && f < factors.size(); ++f)
+            tried(row, static_cast<Eigen::Index>(f)) *= factors[f];
+    }
+    if (!has_size) return start;
+    Eigen::Index best = 0;
+    residuals(causes, tried, left_out).colwise().squaredNorm().minCoeff(&best);
+    evaluations += static_cast<int>(factors.size());
+    return tried.col(best);
+}
+
 CauseFit CauseFitter::fit(const std::vector<const CandidateCause*>& causes,
                           const Eigen::VectorXd& nominal_start, const std::vector<Eigen::VectorXd>& starts,
                           std::optional<std::size_t> left_out) const {
@@ -156,14 +180,16 @@ CauseFit CauseFitter::fit(const std::vector<const CandidateCause*>& causes,
         residuals(causes, grid, left_out).colwise().squaredNorm().minCoeff(&best);
         fit.evaluations = static_cast<int>(starts.size());
     }
+    const Eigen::VectorXd start = left_out ? Eigen::VectorXd(grid.col(best))
+                                           : roughly_sized(causes, grid.col(best), left_out, fit.evaluations);
     LeastSquaresOptions options;
     options.differences = Differences::forward;
     options.parameter_tolerance = 1e-3;
     options.most_iterations = 20;
     options.jacobian_at_end = false;
     const LeastSquaresFit found = fit_least_squares(
-        [&](const Eigen::MatrixXd& coordinates) { return residuals(causes, coordinates, left_out); },
-        grid.col(best), options);
+        [&](const Eigen::MatrixXd& coordinates) { return residuals(causes, coordinates, left_out); }, start,
+        options);
     fit.coordinates = found.parameters;
     fit.residuals = found.residuals;
     fit.sum_of_squares = found.sum_of_squares;

@@ -55,6 +55,10 @@ class CauseFitter {
     double independent_samples() const;
 
   private:
+    Eigen::VectorXd roughly_sized(const std::vector<const CandidateCause*>& causes,
+                                  const Eigen::VectorXd& start, std::optional<std::size_t> left_out,
+                                  int& evaluations) const;
+
     const Recording& recording_;
     EffectsTwin twin_;
     int threads_;
