@@ -82,12 +82,12 @@ Command simulate_command() {
         "the pattern passed the model's own check, tension and displacement of every node. Use it to find instants for "
         "[[regime]]. With a recording (NAME.csv and NAME.json): moves the bench's model with the recording's driven "
         "channels and writes, in the recording's own form, what it was fed (freed of noise) and what it says that the "
-        "other channels should have measured.",
+        "other channels should have measured; --html draws that over what they did measure.",
         {Argument{"CONFIG", "A study's configuration (TOML), or a recording (CSV with its JSON sidecar)."}},
-        {parameters_option, segments_option, output_option, help_option},
+        {parameters_option, segments_option, output_option, page_option, help_option},
         {"capstan simulate configs/paper.toml -o motion.csv",
          "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'",
-         "capstan simulate bench.csv --parameters fitted.json -o model.csv"},
+         "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html"},
         run};
 }
 
