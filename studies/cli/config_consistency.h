@@ -11,5 +11,7 @@ namespace capstan::cli {
 /// the `known` problems are left alone.
 std::vector<ConfigProblem> inconsistencies_of(const ReadConfig& config,
                                               const std::vector<ConfigProblem>& known);
+std::vector<ConfigProblem> inconsistencies_of(const ReadBench& bench,
+                                              const std::vector<ConfigProblem>& known);
 
 }  // namespace capstan::cli
