@@ -80,6 +80,7 @@
       doubt: { domain: ["unverified", "ambiguous", "unused"], range: [unknown, known, css("--quiet")] },
       source: { domain: ["paper", "paper, upper bound", "this study"], range: [css("--quiet"), css("--quiet"), css("--accent")] },
       series: { range: SERIES.map(shade) },
+      ends: { domain: ["motor", "load", "load, ideal transmission"].filter((name) => rows.some((row) => row.series === name)), range: [css("--unknown"), css("--known"), css("--quiet")] },
       bench_and_models: bench_and_models(rows),
       heat: { zero: true, interpolate: "lab", range: dark.matches ? ["#16212c", "#1f5f86", "#63b5d8", "#f3f1d2"] : ["#f6f8f4", "#a9d3e0", "#3d8bb4", "#123a5e"] },
     };
