@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "capstan/cli/config_consistency.h"
 
 namespace capstan::cli {
@@ -22,14 +20,8 @@ class BenchChecks {
 
     std::vector<ConfigProblem> run() {
         const BenchPlan& plan = bench_.plan;
-        if (sound("cable") && plan.cable.static_friction < plan.cable.dynamic_friction) {
-            problem(
-                "cable.static_friction",
-                fmt::format(
-                    "static_friction is {}, below dynamic_friction {}; a segment at rest holds at least as "
-                    "much as one that slides",
-                    plan.cable.static_friction, plan.cable.dynamic_friction));
-        }
+        if (const std::string message = friction_problem(plan.cable); sound("cable") && !message.empty())
+            problem("cable.static_friction", message);
         if (sound("motor.input") && sound("load.input") && plan.motor_drive == bench::MotorDrive::torque &&
             plan.load_kind == bench::LoadKind::torque) {
             problem(
@@ -46,10 +38,7 @@ class BenchChecks {
     }
 
   private:
-    bool sound(std::string_view path) const {
-        return std::none_of(known_.begin(), known_.end(),
-                            [&](const ConfigProblem& problem) { return problem.key.starts_with(path); });
-    }
+    bool sound(std::string_view path) const { return cli::sound(known_, path); }
 
     void problem(const std::string& key, std::string message) {
         const auto line = bench_.lines.find(key);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "capstan/cli/config_problem.h"
@@ -13,5 +14,8 @@ std::vector<ConfigProblem> inconsistencies_of(const ReadConfig& config,
                                               const std::vector<ConfigProblem>& known);
 std::vector<ConfigProblem> inconsistencies_of(const ReadBench& bench,
                                               const std::vector<ConfigProblem>& known);
+
+/// What is wrong with a cable's two friction coefficients beside each other; empty if nothing.
+std::string friction_problem(const CableSpecification& cable);
 
 }  // namespace capstan::cli
