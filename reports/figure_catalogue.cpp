@@ -22,6 +22,7 @@ Figure read_figure(const EmbeddedFile& file) {
     Figure figure;
     figure.id = id_of(file.name);
     figure.spec = spec.dump();
+    figure.page = about.value("page", "study");
     figure.section = about.at("section");
     figure.title = about.at("title");
     figure.paper = about.value("paper", std::map<std::string, std::string>{});

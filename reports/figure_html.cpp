@@ -17,6 +17,7 @@ bool is_shown(const Table& table, const Row& row, const Figure& figure, const Fi
         row.whole("recommendation_id") != shown.recommendation_id) {
         return false;
     }
+    if (shown.run != 0 && table.has_column("run") && row.whole("run") != shown.run) return false;
     if (figure.knowledge.empty() || !table.has_column("knowledge")) return true;
     return std::find(figure.knowledge.begin(), figure.knowledge.end(), row.text("knowledge")) !=
            figure.knowledge.end();
@@ -45,7 +46,7 @@ int chart_height_px(const Table& table, const Figure& figure, const FigureRows& 
 
 }  // namespace
 
-std::string figure_html(const StudyTables& tables, const Figure& figure, const FigureRows& rows) {
+std::string figure_html(const Tables& tables, const Figure& figure, const FigureRows& rows) {
     for (const std::string& table : figure.tables) {
         if (!has_rows(tables[table], figure, rows)) return "";
     }
@@ -56,13 +57,17 @@ std::string figure_html(const StudyTables& tables, const Figure& figure, const F
         title = fmt::format("{}: {}", regime_title(rows.regime), figure.title);
     }
     if (rows.recommendation_id != 0) id += fmt::format("-{}", rows.recommendation_id);
+    if (rows.run != 0) {
+        id += fmt::format("-{}", rows.run);
+        title = fmt::format("Run {}: {}", rows.run, figure.title);
+    }
     const auto original = figure.paper.find(rows.regime);
     const std::string paper =
         original == figure.paper.end()
             ? ""
             : fmt::format(R"( <span class="paper-figure">paper: {}</span>)", escape_html(original->second));
     return fmt::format(
-        R"(<figure id="{id}" data-figure="{figure}" data-regime="{regime}" data-recommendation="{recommendation}">
+        R"(<figure id="{id}" data-figure="{figure}" data-regime="{regime}" data-recommendation="{recommendation}" data-run="{run}">
 <h3 id="{id}-title">{title}{paper}</h3>
 <div class="chart" role="group" aria-labelledby="{id}-title" aria-describedby="{id}-caption" style="min-height:{height}px"></div>
 <figcaption id="{id}-caption">{caption}</figcaption>
@@ -72,7 +77,8 @@ std::string figure_html(const StudyTables& tables, const Figure& figure, const F
         fmt::arg("id", escape_html(id)), fmt::arg("figure", escape_html(figure.id)),
         fmt::arg("regime", escape_html(rows.regime)),
         fmt::arg("recommendation", rows.recommendation_id == 0 ? "" : std::to_string(rows.recommendation_id)),
-        fmt::arg("title", escape_html(title)), fmt::arg("paper", paper),
+        fmt::arg("run", rows.run == 0 ? "" : std::to_string(rows.run)), fmt::arg("title", escape_html(title)),
+        fmt::arg("paper", paper),
         fmt::arg("height", chart_height_px(tables[figure.tables.front()], figure, rows)),
         fmt::arg("caption", escape_html(figure.caption)));
 }

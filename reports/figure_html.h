@@ -5,7 +5,7 @@
 #include <string>
 
 #include "capstan/reports/figure_catalogue.h"
-#include "capstan/reports/study_tables.h"
+#include "capstan/reports/table.h"
 
 namespace capstan::reports {
 
@@ -13,9 +13,10 @@ namespace capstan::reports {
 struct FigureRows {
     std::string regime;                  // '': all
     std::int64_t recommendation_id = 0;  // 0: all
+    std::int64_t run = 0;                // of a recording, 0: all
 };
 
 // '' when a table has no such rows: a figure without data is left out.
-std::string figure_html(const StudyTables& tables, const Figure& figure, const FigureRows& rows);
+std::string figure_html(const Tables& tables, const Figure& figure, const FigureRows& rows);
 
 }  // namespace capstan::reports

@@ -50,14 +50,18 @@ std::string safe_in_script(const Json& json) {
 
 }  // namespace
 
-std::string page_data(const StudyTables& tables) {
+std::string page_data(const Tables& tables, std::string_view page) {
     Json data;
     for (const Table& table : tables.all()) {
         if (table.name != "study") data["tables"][table.name] = table_json(table);
     }
-    for (const Figure& figure : figures()) data["figures"][figure.id] = Json::parse(figure.spec);
-    for (const Row& regime : tables["regime"].each()) {
-        data["regime_titles"][regime.text("regime")] = regime_title(regime.text("regime"));
+    for (const Figure& figure : figures()) {
+        if (figure.page == page) data["figures"][figure.id] = Json::parse(figure.spec);
+    }
+    data["regime_titles"] = Json::object();
+    if (const Table* regimes = tables.find("regime")) {
+        for (const Row& regime : regimes->each())
+            data["regime_titles"][regime.text("regime")] = regime_title(regime.text("regime"));
     }
     return safe_in_script(data);
 }

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "capstan/reports/embedded_files.h"
 #include "capstan/reports/figure_html.h"
 #include "capstan/reports/html_text.h"
 #include "capstan/reports/page_data.h"
+#include "capstan/reports/page_frame.h"
 #include "capstan/reports/recommendation_section.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/reports/study_tables.h"
@@ -36,22 +36,13 @@ constexpr Section figure_sections[] = {
 std::string each_figure(const StudyTables& tables, const char* section) {
     std::string html;
     for (const Figure& figure : figures()) {
-        if (figure.section != section) continue;
+        if (figure.page != "study" || figure.section != section) continue;
         if (figure.per == "study") html += figure_html(tables, figure, {});
         if (figure.per != "regime") continue;
         for (const Row& regime : tables["regime"].each())
             html += figure_html(tables, figure, {regime.text("regime")});
     }
     return html;
-}
-
-std::string section_html(const char* id, const char* title, const char* intro, const std::string& content) {
-    if (content.empty()) return "";
-    return fmt::format(
-        "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}</h2>\n<p "
-        "class=\"intro\">{2}</p>\n"
-        "{3}</section>\n",
-        id, escape_html(title), escape_html(intro), content);
 }
 
 std::string signed_number(double value) {
@@ -149,24 +140,11 @@ std::string noise_selector(const StudyTables& tables) {
 }
 
 std::string navigation(const std::string& main_html, const StudyTables& tables) {
-    std::string links;
-    const auto link = [&](const std::string& id, const std::string& title) {
-        if (main_html.find("<section id=\"" + id + "\"") == std::string::npos) return;
-        links += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, escape_html(title));
-    };
-    link("recommendation", "What to do");
-    for (const Section& section : figure_sections) link(section.id, section.title);
-    link("paper", "The paper and ours");
-    link("making", "How it was made");
-    return "<nav aria-label=\"Sections\"><ul>\n" + links + "</ul>\n" + noise_selector(tables) + "</nav>\n";
-}
-
-std::string scripts() {
-    std::string html;
-    for (const char* name : {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js", "page.js"}) {
-        html += fmt::format("<script data-file=\"{}\">{}</script>\n", name, embedded_file(name));
-    }
-    return html;
+    std::vector<SectionLink> links = {{"recommendation", "What to do"}};
+    for (const Section& section : figure_sections) links.push_back({section.id, section.title});
+    links.push_back({"paper", "The paper and ours"});
+    links.push_back({"making", "How it was made"});
+    return navigation_html(main_html, links, noise_selector(tables));
 }
 
 }  // namespace
@@ -181,39 +159,17 @@ std::string study_report_html(storage::Database& database, std::int64_t study_id
     }
     main_html += paper_section(tables) + making_section(tables);
 
-    const std::string name = escape_html(study.text("name"));
-    // The policy holds the page to its promise: it loads nothing.
-    std::string page = fmt::format(
-        R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; img-src data: blob:">
-<title>{} – capstan report</title>
-<style>
-{}</style>
-</head>
-<body>
-<a class="skip" href="#content">Skip to the content</a>
-<header>
-<p class="kind">Sensor placement study</p>
-<h1>{}</h1>
-<p class="verdict">{}</p>
-</header>
-)",
-        name, embedded_file("page.css"), name, escape_html(verdict(tables)));
-    page += navigation(main_html, tables);
-    page +=
-        "<main id=\"content\" tabindex=\"-1\">\n<noscript><p>The figures need JavaScript; the words and "
-        "tables do not.</p></noscript>\n";
-    page += main_html + "</main>\n";
-    page +=
-        fmt::format("<footer><p>Made by capstan {} from study {}. This page needs no network.</p></footer>\n",
-                    escape_html(study.text("program_version")), study.whole("study_id"));
-    page += "<script type=\"application/json\" id=\"study-data\">" + page_data(tables) + "</script>\n";
-    return page + scripts() + "</body>\n</html>\n";
+    PageFrame frame;
+    frame.document_title = study.text("name") + " – capstan report";
+    frame.kind = "Sensor placement study";
+    frame.title = study.text("name");
+    frame.verdict = verdict(tables);
+    frame.navigation_html = navigation(main_html, tables);
+    frame.main_html = std::move(main_html);
+    frame.footer = fmt::format("Made by capstan {} from study {}.", study.text("program_version"),
+                               study.whole("study_id"));
+    frame.data_json = page_data(tables, "study");
+    return page_html(frame);
 }
 
 }  // namespace capstan::reports

@@ -1,62 +1,16 @@
 #pragma once
 // All tables of one study, read at once.
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "capstan/storage/read_only_query.h"
+#include "capstan/reports/table.h"
+#include "capstan/storage/database.h"
 
 namespace capstan::reports {
 
-using Value = storage::QueryValue;
-
-// One row, read by column name.
-class Row {
-  public:
-    Row(const std::vector<std::string>& columns, const std::vector<Value>& values)
-        : columns_(columns), values_(values) {}
-
-    const Value& at(std::string_view column) const;
-    std::string text(std::string_view column) const;
-    double number(std::string_view column) const;
-    std::int64_t whole(std::string_view column) const;
-    std::optional<double> maybe_number(std::string_view column) const;
-
-  private:
-    const std::vector<std::string>& columns_;
-    const std::vector<Value>& values_;
-};
-
-struct Table {
-    std::string name;
-    std::string meaning;
-    std::vector<std::string> columns;
-    std::vector<std::vector<Value>> rows;
-
-    bool empty() const { return rows.empty(); }
-    std::vector<Row> each() const;
-    bool has_column(std::string_view column) const;
-};
-
-class StudyTables {
+class StudyTables : public Tables {
   public:
     StudyTables(storage::Database& database, std::int64_t study_id);
 
-    const std::vector<Table>& all() const { return tables_; }
-    const Table& operator[](std::string_view name) const;
     Row study() const { return (*this)["study"].each().front(); }
-
-  private:
-    std::vector<Table> tables_;
 };
-
-// The same value wherever it is shown, in full precision: numbers read back to the same bits.
-nlohmann::json to_json(const Value& value);
 
 }  // namespace capstan::reports

@@ -1,5 +1,5 @@
 "use strict";
-// Draws the page's figures from the study's tables; redraws them for another noise level, theme or width.
+// Draws the page's figures from its tables; redraws them for another noise level, theme or width.
 (() => {
   const study = JSON.parse(document.getElementById("study-data").textContent);
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -19,6 +19,7 @@
   const OTHER_METHODS = [["#6a4c93", "#a98bd6", "wedge"], ["#7a5c3e", "#c09a74", "arrow"], ["#3b6e22", "#8bc26b", "stroke"]];
   const FAMILIES = { even: ["#0072b2", "#6db6ee", "circle", "Even"], distal: ["#d55e00", "#f07c2b", "square", "Distal"], both: ["#009e73", "#2fbf95", "diamond", "Both ends"] };
   const OTHER_FAMILY = ["#8a6d00", "#d8b83f", "triangle-up"];
+  const SERIES = [["#56b4e9", "#7cc8f2"], ["#0072b2", "#3f8fe0"], ["#009e73", "#2fbf95"], ["#e69f00", "#f0b429"], ["#d55e00", "#f07c2b"]];
   const BOUND = { method: "known_direction_bound", title: "Bound, direction known" };
   const capital = (word) => word.charAt(0).toUpperCase() + word.slice(1);
   const shade = (pair) => pair[dark.matches ? 1 : 0];
@@ -38,16 +39,17 @@
   }
   const chosenNoise = () => {
     const box = document.querySelector('input[name="noise"]:checked');
-    return box ? Number(box.value) : tables.noise_level[0]?.noise_level_id;
+    return box ? Number(box.value) : tables.noise_level?.[0]?.noise_level_id;
   };
 
   function rowsOf(figure, table) {
-    const { regime, recommendation } = figure.dataset;
+    const { regime, recommendation, run } = figure.dataset;
     const { knowledge } = about(figure);
     const noise = chosenNoise();
     return tables[table].filter((row) =>
       (!regime || !("regime" in row) || row.regime === regime) &&
       (!recommendation || !("recommendation_id" in row) || row.recommendation_id === Number(recommendation)) &&
+      (!run || !("run" in row) || row.run === Number(run)) &&
       (recommendation || !("noise_level_id" in row) || row.noise_level_id === noise) &&
       (!knowledge || !("knowledge" in row) || knowledge.includes(row.knowledge)));
   }
@@ -60,7 +62,7 @@
   // ---- named scales and @words of the specs
   function scales(rows) {
     const has = new Set(rows.map((row) => row.method));
-    const methods = [...tables.fusion_method, BOUND].filter((m) => has.has(m.method));
+    const methods = [...(tables.fusion_method ?? []), BOUND].filter((m) => has.has(m.method));
     let others = 0;
     const looks = methods.map((m) => METHODS[m.method] ?? OTHER_METHODS[others++ % OTHER_METHODS.length]);
     const families = familyOrder(rows);
@@ -77,8 +79,18 @@
       doubt_shape: { domain: ["unverified", "ambiguous", "unused"], range: ["circle", "square", "triangle-up"] },
       doubt: { domain: ["unverified", "ambiguous", "unused"], range: [unknown, known, css("--quiet")] },
       source: { domain: ["paper", "paper, upper bound", "this study"], range: [css("--quiet"), css("--quiet"), css("--accent")] },
+      series: { range: SERIES.map(shade) },
+      ends: { domain: ["motor", "load", "load, ideal transmission"].filter((name) => rows.some((row) => row.series === name)), range: [css("--unknown"), css("--known"), css("--quiet")] },
+      bench_and_models: bench_and_models(rows),
       heat: { zero: true, interpolate: "lab", range: dark.matches ? ["#16212c", "#1f5f86", "#63b5d8", "#f3f1d2"] : ["#f6f8f4", "#a9d3e0", "#3d8bb4", "#123a5e"] },
     };
+  }
+
+  // The bench in ink, the model that is judged in blue, the one it is compared with in orange.
+  function bench_and_models(rows) {
+    const names = distinct(rows, "series").filter(Boolean);
+    const look = (name) => /^(bench|measured)/.test(name) ? css("--quiet") : /without/.test(name) ? css("--unknown") : css("--known");
+    return { domain: names, range: names.map(look) };
   }
 
   function fill(part, named, words) {

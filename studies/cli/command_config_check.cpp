@@ -67,6 +67,29 @@ nlohmann::ordered_json in_json(const StudyPlan& plan) {
             {"repetitions", plan.repetitions}};
 }
 
+std::string bench_in_words(const std::string& file, const bench::BenchPlan& plan) {
+    std::string text = fmt::format("{}: ok\n  a bench: {} segments to a cable, {} samples", file,
+                                   plan.cable.segments, plan.samples());
+    for (const std::string& effect : bench::effects_there(plan)) text += ", " + effect;
+    return text + "\n";
+}
+
+nlohmann::ordered_json bench_in_json(const bench::BenchPlan& plan) {
+    return {{"ok", true},
+            {"kind", "bench"},
+            {"name", plan.name},
+            {"segments", plan.cable.segments},
+            {"samples", plan.samples()},
+            {"effects", bench::effects_there(plan)}};
+}
+
+// Builds the cable, which refuses what no key alone shows.
+void check_bench(const Invocation& invocation, const std::string& file) {
+    const bench::BenchPlan plan = read_bench(file).plan;
+    const Cable cable(plan.cable);
+    deliver(invocation, invocation.has("json") ? json_text(bench_in_json(plan)) : bench_in_words(file, plan));
+}
+
 nlohmann::ordered_json problems_json(const ConfigError& error) {
     nlohmann::ordered_json json = {{"ok", false}, {"problems", nlohmann::ordered_json::array()}};
     for (const ConfigProblem& problem : error.problems()) {
@@ -81,6 +104,10 @@ nlohmann::ordered_json problems_json(const ConfigError& error) {
 ExitCode run(const Invocation& invocation) {
     const std::string& file = invocation.argument("CONFIG");
     try {
+        if (content_of_config(file) == ConfigContent::bench) {
+            check_bench(invocation, file);
+            return ExitCode::success;
+        }
         const ReadConfig config = read_config(file);
         require_runnable(config);
         deliver(invocation,
@@ -99,8 +126,8 @@ Command config_check_command() {
     return {
         "config check",
         "Check a configuration; list every problem with its line.",
-        "Checks a configuration without running it, except for the true motion, which shows whether each instant is "
-        "in its regime. Prints ok and how much work the study is, or every problem with its line and what to try.",
+        "Checks a configuration of a study or a bench without running it, except for the true motion, which shows whether each instant is "
+        "in its regime (studies). Prints ok and how much work the study is, or every problem with its line and what to try.",
         {config_argument},
         {output_option, json_option, help_option},
         {"capstan config check my.toml"},

@@ -8,7 +8,8 @@ namespace capstan::cli {
 namespace {
 
 ExitCode run(const Invocation& invocation) {
-    deliver(invocation, config_text(default_plan(), Comments::every_key));
+    deliver(invocation, invocation.has("bench") ? config_text(default_bench(), Comments::every_key)
+                                                : config_text(default_plan(), Comments::every_key));
     return ExitCode::success;
 }
 
@@ -20,8 +21,10 @@ Command config_default_command() {
         "Print a complete configuration with every key explained.",
         "Prints a complete configuration: every key with its meaning, unit, limits and default. It runs as it is.",
         {},
-        {output_option, help_option},
-        {"capstan config default -o my.toml"},
+        {{"bench", '\0', OptionKind::flag, "", "Of a bench, for `capstan simulate`, instead of a study."},
+         output_option,
+         help_option},
+        {"capstan config default -o my.toml", "capstan config default --bench -o bench.toml"},
         run};
 }
 

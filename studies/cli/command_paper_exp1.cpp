@@ -8,6 +8,7 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/paper_experiment.h"
+#include "capstan/cli/paper_pages.h"
 #include "capstan/cli/wrapped_text.h"
 #include "capstan/paper/pretension_ramps.h"
 
@@ -101,6 +102,7 @@ ExitCode run(const Invocation& invocation) {
     const auto runs = run_every_setting([](const CableSetting& setting, double pretension_N) {
         return paper::run_pretension_ramps(setting, pretension_N, {});
     });
+    deliver_page(invocation, [&] { return reports::experiment_page_html(exp1_page(runs)); });
     return deliver_experiment(invocation, in_csv(runs),
                               invocation.has("json") ? json_text(in_json(runs)) : in_words(runs));
 }
@@ -117,8 +119,9 @@ Command paper_exp1_command() {
         "load: table_1, and reproduces with less wrap and pretension. 100 segments to a cable and 5 ms to a step: "
         "the stiction rule depends on the length of a segment, and with fewer of them so would the numbers.",
         {},
-        {trajectories_option, json_option, help_option},
-        {"capstan paper exp1", "capstan paper exp1 --json -o ramps.csv"},
+        {trajectories_option, page_option, json_option, help_option},
+        {"capstan paper exp1", "capstan paper exp1 --html exp1.html",
+         "capstan paper exp1 --json -o ramps.csv"},
         run};
 }
 

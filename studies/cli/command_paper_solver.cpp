@@ -6,6 +6,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/paper_pages.h"
 #include "capstan/paper/solver_comparison.h"
 
 namespace capstan::cli {
@@ -15,11 +16,6 @@ namespace {
 using paper::Agreement;
 using paper::Solver;
 using paper::SolverRate;
-
-struct RatesOfCable {
-    int segments = 0;
-    std::vector<SolverRate> rates;  // closed form, linear-assumed, generic
-};
 
 struct Comparison {
     std::vector<Agreement> agreements;
@@ -99,6 +95,9 @@ std::string rate_table(const std::vector<RatesOfCable>& cables) {
 
 ExitCode run(const Invocation& invocation) {
     const Comparison comparison = measured(invocation.real("seconds"));
+    deliver_page(invocation, [&] {
+        return reports::experiment_page_html(solver_page(comparison.agreements, comparison.rates));
+    });
     deliver(invocation, invocation.has("json")
                             ? json_text(in_json(comparison))
                             : agreement_table(comparison.agreements) + rate_table(comparison.rates));
@@ -126,9 +125,11 @@ Command paper_solver_command() {
           0.01,
           60},
          output_option,
+         page_option,
          json_option,
          help_option},
-        {"capstan paper solver", "capstan paper solver --json -o solver.json"},
+        {"capstan paper solver", "capstan paper solver --html solver.html",
+         "capstan paper solver --json -o solver.json"},
         run};
 }
 

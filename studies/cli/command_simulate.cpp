@@ -7,7 +7,9 @@
 #include "capstan/cli/config_reader.h"
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/simulated_bench.h"
 #include "capstan/cli/simulated_recording.h"
+#include "capstan/cli/usage_error.h"
 #include "capstan/placement/true_motion.h"
 
 namespace capstan::cli {
@@ -54,6 +56,13 @@ void append_line(std::string& text, const TrueSample& sample, double sample_rate
 
 ExitCode run(const Invocation& invocation) {
     if (names_a_recording(invocation.argument("CONFIG"))) return simulate_recording(invocation);
+    if (content_of_config(invocation.argument("CONFIG")) == ConfigContent::bench)
+        return simulate_bench_file(invocation);
+    if (invocation.has("html")) {
+        throw UsageError(
+            "capstan simulate: a study's motion has no page; --html is for benches and recordings. `capstan study run` "
+            "and `capstan report` make the page of a study");
+    }
     const StudyPlan plan = read_config(invocation.argument("CONFIG")).plan;
     const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
     const CableState start = pretensioned(step.cable());
@@ -70,24 +79,30 @@ const Option parameters_option{
     "parameters", '\0', OptionKind::text, "FILE",
     "Recordings only: the model's parameters, as `capstan calibrate --save` wrote them."};
 
+const Option tensions_option{"tensions", '\0', OptionKind::flag, "",
+                             "Benches only: also the tension of every node of both cables."};
+
 }  // namespace
 
 Command simulate_command() {
     return {
         "simulate",
-        "Simulate the motion of a configuration, or the model of a recorded bench, as CSV.",
-        "With a configuration: simulates the motion that it describes and writes one line per sample: time, kind of "
+        "Simulate a study's motion, a bench, or a recording's model, as CSV.",
+        "With a study's configuration: simulates the motion that it describes and writes one line per sample: time, kind of "
         "motion, the study regime it belongs to, how many nodes move from each end (the last-moving nodes k and k' of "
         "the paper, each counted from its own end) and which way (1 towards the load, -1 towards the motor), whether "
         "the pattern passed the model's own check, tension and displacement of every node. Use it to find instants for "
-        "[[regime]]. With a recording (NAME.csv and NAME.json): moves the bench's model with the recording's driven "
+        "[[regime]]. With a bench's configuration (`capstan config default --bench`): simulates two cables between pulleys "
+        "and writes time, torque and angle of motor and load, whether the step was solved, and the least tension in "
+        "each cable (0: slack); --html draws them, with the tension along the cables. With a recording (NAME.csv and NAME.json): moves the bench's model with the recording's driven "
         "channels and writes, in the recording's own form, what it was fed (freed of noise) and what it says that the "
-        "other channels should have measured.",
-        {Argument{"CONFIG", "A study's configuration (TOML), or a recording (CSV with its JSON sidecar)."}},
-        {parameters_option, segments_option, output_option, help_option},
+        "other channels should have measured; --html draws that over what they did measure.",
+        {Argument{"CONFIG", "A study or a bench (TOML), or a recording (CSV with its JSON sidecar)."}},
+        {parameters_option, segments_option, tensions_option, output_option, page_option, help_option},
         {"capstan simulate configs/paper.toml -o motion.csv",
          "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'",
-         "capstan simulate bench.csv --parameters fitted.json -o model.csv"},
+         "capstan simulate configs/bench-slack.toml --html slack.html -o slack.csv",
+         "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html"},
         run};
 }
 

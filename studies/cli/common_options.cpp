@@ -59,6 +59,10 @@ const Option segments_option{
     2,
     100000};
 
+const Option page_option{
+    "html", '\0', OptionKind::text, "FILE",
+    "Also write FILE: one page of figures and numbers that needs no network; open it in a browser."};
+
 const Argument config_argument{
     "CONFIG", "The study's configuration (TOML); `capstan config default` explains every key."};
 const Argument study_argument{"STUDY", "Its number, its name (the last one begun under it), or latest.",

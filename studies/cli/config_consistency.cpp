@@ -27,11 +27,7 @@ class Checks {
     }
 
   private:
-    // No problem is known of the key, or of any key of the section.
-    bool sound(std::string_view path) const {
-        return std::none_of(known_.begin(), known_.end(),
-                            [&](const ConfigProblem& problem) { return problem.key.starts_with(path); });
-    }
+    bool sound(std::string_view path) const { return cli::sound(known_, path); }
 
     // At the first of these keys that stands in the file.
     void problem(std::initializer_list<std::string> keys, std::string message) {
@@ -45,13 +41,9 @@ class Checks {
     }
 
     void check_friction() {
-        const CableSpecification& cable = config_.plan.transmission.cable;
-        if (cable.static_friction >= cable.dynamic_friction) return;
-        problem({"transmission.static_friction", "transmission.dynamic_friction"},
-                fmt::format(
-                    "static_friction is {}, below dynamic_friction {}; a segment at rest holds at least as "
-                    "much as one that slides",
-                    cable.static_friction, cable.dynamic_friction));
+        const std::string message = friction_problem(config_.plan.transmission.cable);
+        if (!message.empty())
+            problem({"transmission.static_friction", "transmission.dynamic_friction"}, message);
     }
 
     void check_nodes() {
@@ -147,6 +139,13 @@ class Checks {
 };
 
 }  // namespace
+
+std::string friction_problem(const CableSpecification& cable) {
+    if (cable.static_friction >= cable.dynamic_friction) return {};
+    return fmt::format(
+        "static_friction is {}, below dynamic_friction {}; a segment at rest holds at least as much as one that slides",
+        cable.static_friction, cable.dynamic_friction);
+}
 
 std::vector<ConfigProblem> inconsistencies_of(const ReadConfig& config,
                                               const std::vector<ConfigProblem>& known) {

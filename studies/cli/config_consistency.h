@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "capstan/cli/config_problem.h"
@@ -11,5 +12,10 @@ namespace capstan::cli {
 /// the `known` problems are left alone.
 std::vector<ConfigProblem> inconsistencies_of(const ReadConfig& config,
                                               const std::vector<ConfigProblem>& known);
+std::vector<ConfigProblem> inconsistencies_of(const ReadBench& bench,
+                                              const std::vector<ConfigProblem>& known);
+
+/// What is wrong with a cable's two friction coefficients beside each other; empty if nothing.
+std::string friction_problem(const CableSpecification& cable);
 
 }  // namespace capstan::cli

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "capstan/bench/bench_plan.h"
 #include "capstan/placement/study_plan.h"
 
 namespace capstan::cli {
@@ -15,7 +16,7 @@ namespace capstan::cli {
 /// What a key can hold; nothing where the key is left out.
 using ConfigValue =
     std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::int64_t>,
-                 std::vector<std::string>, std::vector<std::vector<std::int64_t>>>;
+                 std::vector<double>, std::vector<std::string>, std::vector<std::vector<std::int64_t>>>;
 
 enum class ValueKind {
     text,
@@ -24,6 +25,7 @@ enum class ValueKind {
     yes_or_no,
     choice,         ///< one of `names`
     whole_numbers,  ///< a list
+    real_numbers,   ///< a list; the same number may come twice
     names,          ///< a list of some of `names`
     node_sets,      ///< a list of lists of nodes
 };
@@ -39,47 +41,60 @@ struct Limits {
 };
 
 /// When a key has a meaning, for keys that depend on another one.
+template <class Plan>
 struct KeyCondition {
-    std::function<bool(const StudyPlan&, int row)> holds;  ///< empty: always
-    std::string words;                                     ///< kind = "spring"
+    std::function<bool(const Plan&, int row)> holds;  ///< empty: always
+    std::string words;                                ///< kind = "spring"
 };
 
 enum class Presence { optional, required };
 
-/// One key of a study's configuration: all that reading, checking, writing and explaining it need.
+/// One key of a configuration: all that reading, checking, writing and explaining it need.
+template <class Plan>
 struct ConfigKey {
-    std::string_view section;  ///< "" at the top, else as in [section]
-    std::string_view name;     ///< ends in its unit
+    std::string section;  ///< "" at the top, else as in [section]
+    std::string name;     ///< ends in its unit
     ValueKind kind = ValueKind::text;
-    std::string_view unit;
+    std::string unit;
     Limits limits{};
     std::vector<std::string> names{};
     bool takes_all = false;  ///< the text "all" stands for the whole list
     Presence presence = Presence::optional;
     ConfigValue default_value{};
     std::string help{};
-    KeyCondition condition{};
+    KeyCondition<Plan> condition{};
     /// `row` counts the tables of a repeated section from 0, and is 0 elsewhere.
-    std::function<ConfigValue(const StudyPlan&, int row)> read{};
-    std::function<void(StudyPlan&, int row, const ConfigValue&)> write{};
+    std::function<ConfigValue(const Plan&, int row)> read{};
+    std::function<void(Plan&, int row, const ConfigValue&)> write{};
 };
 
 /// One table of the configuration, or a list of tables.
+template <class Plan>
 struct ConfigSection {
-    std::string_view path;
-    std::string_view help;
+    std::string path;
+    std::string help;
     /// Repeated sections only: [[path]].
-    int (*rows)(const StudyPlan&) = nullptr;
-    void (*set_rows)(StudyPlan&, int count) = nullptr;
-    void (*fill_default)(StudyPlan&) = nullptr;
+    int (*rows)(const Plan&) = nullptr;
+    void (*set_rows)(Plan&, int count) = nullptr;
+    void (*fill_default)(Plan&) = nullptr;
 
     bool is_repeated() const { return rows != nullptr; }
 };
 
-/// The one list of sections, in the order of reading and writing.
-const std::vector<ConfigSection>& config_sections();
+/// A kind of configuration.
+template <class Plan>
+struct ConfigSchema {
+    std::string introduction;                   ///< the comment that a printed default begins with
+    std::vector<ConfigSection<Plan>> sections;  ///< in the order of reading and writing
+    std::vector<ConfigKey<Plan>> keys;          ///< a key may rely on all keys before it
+};
 
-/// The one list of keys. A key may rely on all keys before it.
-const std::vector<ConfigKey>& config_keys();
+/// The one list of sections and keys of each kind of configuration.
+template <class Plan>
+const ConfigSchema<Plan>& config_schema();
+template <>
+const ConfigSchema<StudyPlan>& config_schema<StudyPlan>();
+template <>
+const ConfigSchema<bench::BenchPlan>& config_schema<bench::BenchPlan>();
 
 }  // namespace capstan::cli

@@ -1,113 +1,22 @@
-// The key table: one row per key. Defaults have their home here, and the reason for a default is in its help.
+// The key table of a study: one row per key. Defaults have their home here, and the reason for a default is
+// in its help.
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "capstan/cli/config_key.h"
+#include "capstan/cli/config_cable_keys.h"
 #include "capstan/estimation/fusion_method.h"
 
 namespace capstan::cli {
 
 namespace {
 
-constexpr Limits above_zero{0.0, false};
-constexpr Limits zero_or_more{0.0, true};
-
-using Read = std::function<ConfigValue(const StudyPlan&, int)>;
-using Write = std::function<void(StudyPlan&, int, const ConfigValue&)>;
-
-// A key that is a field of the plan; `field(plan, row)` refers to it.
-template <class Stored, class Field>
-void bind_field(ConfigKey& key, Field field) {
-    key.read = [field](const StudyPlan& plan, int row) -> ConfigValue {
-        return static_cast<Stored>(field(plan, row));
-    };
-    key.write = [field](StudyPlan& plan, int row, const ConfigValue& value) {
-        auto& target = field(plan, row);
-        target = static_cast<std::remove_reference_t<decltype(target)>>(std::get<Stored>(value));
-    };
-}
-
-struct KeyText {
-    std::string_view section;
-    std::string_view name;
-    std::string_view unit;
-    std::string help;
-};
-
-template <class Field>
-ConfigKey text(KeyText about, ConfigValue default_value, Field field) {
-    ConfigKey key{about.section, about.name, ValueKind::text, about.unit};
-    key.help = std::move(about.help);
-    key.default_value = std::move(default_value);
-    bind_field<std::string>(key, field);
-    return key;
-}
-
-template <class Field>
-ConfigKey whole(KeyText about, Limits limits, ConfigValue default_value, Field field) {
-    ConfigKey key{about.section, about.name, ValueKind::whole_number, about.unit, limits};
-    key.help = std::move(about.help);
-    key.default_value = std::move(default_value);
-    bind_field<std::int64_t>(key, field);
-    return key;
-}
-
-template <class Field>
-ConfigKey real(KeyText about, Limits limits, ConfigValue default_value, Field field) {
-    ConfigKey key{about.section, about.name, ValueKind::real_number, about.unit, limits};
-    key.help = std::move(about.help);
-    key.default_value = std::move(default_value);
-    bind_field<double>(key, field);
-    return key;
-}
-
-template <class Field>
-ConfigKey yes_or_no(KeyText about, bool default_value, Field field) {
-    ConfigKey key{about.section, about.name, ValueKind::yes_or_no, about.unit};
-    key.help = std::move(about.help);
-    key.default_value = default_value;
-    bind_field<bool>(key, field);
-    return key;
-}
-
-template <class Value>
-struct Named {
-    std::string name;
-    Value value;
-};
-
-template <class Value, class Field, class Same = std::equal_to<>>
-ConfigKey choice(KeyText about, std::vector<Named<Value>> all, ConfigValue default_value, Field field,
-                 Same same = {}) {
-    ConfigKey key{about.section, about.name, ValueKind::choice, about.unit};
-    key.help = std::move(about.help);
-    key.default_value = std::move(default_value);
-    for (const auto& each : all) key.names.push_back(each.name);
-    key.read = [all, field, same](const StudyPlan& plan, int row) -> ConfigValue {
-        const auto found = std::find_if(all.begin(), all.end(),
-                                        [&](const auto& each) { return same(each.value, field(plan, row)); });
-        return found->name;
-    };
-    key.write = [all, field](StudyPlan& plan, int row, const ConfigValue& value) {
-        const auto found = std::find_if(all.begin(), all.end(), [&](const auto& each) {
-            return each.name == std::get<std::string>(value);
-        });
-        field(plan, row) = found->value;
-    };
-    return key;
-}
-
-ConfigKey required(ConfigKey key) {
-    key.presence = Presence::required;
-    key.default_value = std::monostate{};
-    return key;
-}
+using StudyKey = ConfigKey<StudyPlan>;
 
 // ---- the whole study
 
-void add_study_keys(std::vector<ConfigKey>& keys) {
+void add_study_keys(std::vector<StudyKey>& keys) {
     keys.push_back(text(
         {"", "name", "", "Name of the study in lists and reports."}, std::string("study"),
         [](auto& plan, int) -> auto& { return plan.name; }));
@@ -129,69 +38,41 @@ void add_study_keys(std::vector<ConfigKey>& keys) {
 
 // ---- [transmission]
 
+constexpr auto transmission_cable = [](auto& plan) -> auto& {
+    return plan.transmission.cable;
+};
+
 bool same_rules(const ModelRules& a, const ModelRules& b) {
     return a.elongation == b.elongation && a.stiction == b.stiction && a.check == b.check;
 }
 
-void add_transmission_keys(std::vector<ConfigKey>& keys) {
-    constexpr std::string_view at = "transmission";
-    keys.push_back(whole(
-        {at, "segments", "",
+void add_transmission_keys(std::vector<StudyKey>& keys) {
+    const std::string at = "transmission";
+    add_cable_keys<StudyPlan>(
+        keys, at,
+        {10, 10.0,
          "Equal pieces into which the cable is cut; nodes are their ends, numbered 1 (proximal, "
          "motor) to segments + 1 (distal, load). Sensors sit at nodes."},
-        {1, true, 10000}, std::int64_t{10},
-        [](auto& plan, int) -> auto& { return plan.transmission.cable.segments; }));
-    keys.push_back(real(
-        {at, "axial_stiffness_N", "N",
-         "Axial stiffness EA: force per unit strain, not per elongation. The paper's Table I says \"2 "
-         "kN/m\" for its 2 m cable; used directly as EA = 2000 N it reproduces the paper's figures "
-         "best."},
-        above_zero, 2000.0,
-        [](auto& plan, int) -> auto& { return plan.transmission.cable.axial_stiffness_N; }));
-    keys.push_back(real(
-        {at, "dynamic_friction", "", "Friction coefficient of a segment that slides."}, zero_or_more, 0.21,
-        [](auto& plan, int) -> auto& { return plan.transmission.cable.dynamic_friction; }));
-    keys.push_back(real(
-        {at, "static_friction", "",
-         "Friction coefficient of a segment about to slide; at least dynamic_friction."},
-        zero_or_more, 0.63,
-        [](auto& plan, int) -> auto& { return plan.transmission.cable.static_friction; }));
-    keys.push_back(real(
-        {at, "pretension_N", "N", "Tension of the whole cable before anything moves."}, zero_or_more, 10.0,
-        [](auto& plan, int) -> auto& { return plan.transmission.cable.pretension_N; }));
+        transmission_cable);
     keys.push_back(choice<ModelRules>(
         {at, "rules", "",
          "How the model is read where the paper is silent or contradicts itself: \"cured\" is our consistent reading, "
          "\"paper\" follows the paper to the letter."},
         {{"cured", ModelRules::cured()}, {"paper", ModelRules::paper()}}, std::string("cured"),
         [](auto& plan, int) -> auto& { return plan.transmission.rules; }, same_rules));
-
-    constexpr std::string_view piece = "transmission.curvature";
-    keys.push_back(required(real(
-        {piece, "length_m", "m", "Length of conduit along its axis."}, above_zero, {},
-        [](auto& plan, int row) -> auto& { return plan.transmission.cable.curvature[row].length_m; })));
-    ConfigKey radius = real(
-        {piece, "bend_radius_m", "m", "Bend radius of the piece; left out where it is straight."}, above_zero,
-        {},
-        [](auto& plan, int row) -> auto& { return plan.transmission.cable.curvature[row].bend_radius_m; });
-    radius.read = [](const StudyPlan& plan, int row) -> ConfigValue {
-        const double radius_m = plan.transmission.cable.curvature[row].bend_radius_m;
-        return radius_m == straight ? ConfigValue{} : ConfigValue{radius_m};
-    };
-    keys.push_back(std::move(radius));
 }
 
 // ---- [motion]
 
 // Both ends have the same keys; only what they do by default differs.
 struct EndText {
-    std::string_view section;
+    std::string section;
     double default_amplitude_m;
     EndMotion TrueMotion::*end;
 };
 
-void add_end_keys(std::vector<ConfigKey>& keys, const EndText& end) {
-    const auto at = end.section;
+void add_end_keys(std::vector<StudyKey>& keys, const EndText& end) {
+    const std::string& at = end.section;
     const auto motion = [member = end.end](auto& plan, int) -> auto& {
         return plan.motion.*member;
     };
@@ -207,7 +88,7 @@ void add_end_keys(std::vector<ConfigKey>& keys, const EndText& end) {
     const auto amplitude = [motion](auto& plan, int row) -> auto& {
         return motion(plan, row).amplitude;
     };
-    ConfigKey amplitude_m =
+    StudyKey amplitude_m =
         real({at, "amplitude_m", "m",
               "Amplitude of the motion, of the cable's end or of the spring's wall: rest + "
               "amplitude sin(2 pi frequency time + phase), positive towards the distal end. 0: "
@@ -217,8 +98,8 @@ void add_end_keys(std::vector<ConfigKey>& keys, const EndText& end) {
                              "kind = \"position\" or \"spring\""};
     keys.push_back(std::move(amplitude_m));
 
-    ConfigKey amplitude_N = real({at, "amplitude_N", "N", "Amplitude of the tension about the pretension."},
-                                 zero_or_more, 0.0, amplitude);
+    StudyKey amplitude_N = real({at, "amplitude_N", "N", "Amplitude of the tension about the pretension."},
+                                zero_or_more, 0.0, amplitude);
     amplitude_N.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) == EndKind::tension; },
                              "kind = \"tension\""};
     keys.push_back(std::move(amplitude_N));
@@ -236,7 +117,7 @@ void add_end_keys(std::vector<ConfigKey>& keys, const EndText& end) {
         {at, "stop_s", "s", "When it ends; the end holds still after."}, above_zero,
         EndMotion{}.stop_s, [motion](auto& plan, int row) -> auto& { return motion(plan, row).stop_s; }));
 
-    ConfigKey stiffness = required(real(
+    StudyKey stiffness = required(real(
         {at, "spring_stiffness_N_per_m", "N/m", "Stiffness of the spring."}, above_zero,
         {}, [motion](auto& plan, int row) -> auto& { return motion(plan, row).spring_stiffness_N_per_m; }));
     stiffness.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) == EndKind::spring; },
@@ -244,7 +125,7 @@ void add_end_keys(std::vector<ConfigKey>& keys, const EndText& end) {
     keys.push_back(std::move(stiffness));
 }
 
-void add_motion_keys(std::vector<ConfigKey>& keys) {
+void add_motion_keys(std::vector<StudyKey>& keys) {
     keys.push_back(real(
         {"motion", "sample_rate_Hz", "Hz",
          "Samples per second. Each sample is one quasi-static step; smaller steps follow the motion "
@@ -260,7 +141,7 @@ void add_motion_keys(std::vector<ConfigKey>& keys) {
 
 // ---- [[regime]], [[noise]]
 
-void add_regime_keys(std::vector<ConfigKey>& keys) {
+void add_regime_keys(std::vector<StudyKey>& keys) {
     std::vector<Named<Regime>> regimes;
     for (const Regime regime : all_regimes) regimes.push_back({std::string(name_of(regime)), regime});
     keys.push_back(required(choice<Regime>(
@@ -269,7 +150,7 @@ void add_regime_keys(std::vector<ConfigKey>& keys) {
          "end, the distal end or both move while others rest."},
         regimes, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].regime; })));
 
-    ConfigKey samples{"regime", "samples", ValueKind::whole_numbers, "", {1, true, 1e7}};
+    StudyKey samples{"regime", "samples", ValueKind::whole_numbers, "", {1, true, 1e7}};
     samples.presence = Presence::required;
     samples.help =
         "Instants at which sensors are judged, as samples of the motion; each must be in this regime. "
@@ -290,7 +171,7 @@ void add_regime_keys(std::vector<ConfigKey>& keys) {
         {0, true, 1}, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].duty_share; })));
 }
 
-void add_noise_keys(std::vector<ConfigKey>& keys) {
+void add_noise_keys(std::vector<StudyKey>& keys) {
     keys.push_back(required(text(
         {"noise", "label", "", "Name of the noise level in tables and figures."}, {},
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].label; })));
@@ -319,9 +200,9 @@ std::vector<std::string> names_of(const std::vector<Entry>& catalogue) {
 }
 
 // A list of names out of a catalogue, or "all".
-ConfigKey name_list(KeyText about, std::vector<std::string> catalogue,
-                    std::vector<std::string> StudyPlan::*field) {
-    ConfigKey key{about.section, about.name, ValueKind::names, about.unit};
+StudyKey name_list(KeyText about, std::vector<std::string> catalogue,
+                   std::vector<std::string> StudyPlan::*field) {
+    StudyKey key{about.section, about.name, ValueKind::names, about.unit};
     key.help = std::move(about.help);
     key.names = catalogue;
     key.takes_all = true;
@@ -334,8 +215,8 @@ ConfigKey name_list(KeyText about, std::vector<std::string> catalogue,
     return key;
 }
 
-ConfigKey sensor_counts() {
-    ConfigKey key{"layouts", "counts", ValueKind::whole_numbers, "", {1, true, 10001}};
+StudyKey sensor_counts() {
+    StudyKey key{"layouts", "counts", ValueKind::whole_numbers, "", {1, true, 10001}};
     key.help = "Numbers of sensors tried with each family; \"all\" is 1 up to one at every node.";
     key.takes_all = true;
     key.default_value = std::string("all");
@@ -354,8 +235,8 @@ ConfigKey sensor_counts() {
 }
 
 // People count nodes from 1, the plan from 0.
-ConfigKey explicit_layouts() {
-    ConfigKey key{"layouts", "explicit", ValueKind::node_sets, "", {1, true, 10001}};
+StudyKey explicit_layouts() {
+    StudyKey key{"layouts", "explicit", ValueKind::node_sets, "", {1, true, 10001}};
     key.help = "Further layouts as lists of nodes, counted from 1 at the proximal end: [[1, 6, 11], [3, 9]].";
     key.default_value = std::vector<std::vector<std::int64_t>>{};
     key.read = [](const StudyPlan& plan, int) -> ConfigValue {
@@ -376,7 +257,7 @@ ConfigKey explicit_layouts() {
     return key;
 }
 
-void add_layout_keys(std::vector<ConfigKey>& keys) {
+void add_layout_keys(std::vector<StudyKey>& keys) {
     std::string help = "Rules that place sensors:";
     for (const LayoutFamily& family : layout_families()) {
         help += " \"" + std::string(family.name) + "\" " + std::string(family.meaning) + ";";
@@ -388,8 +269,8 @@ void add_layout_keys(std::vector<ConfigKey>& keys) {
     keys.push_back(explicit_layouts());
 }
 
-void add_estimation_keys(std::vector<ConfigKey>& keys) {
-    constexpr std::string_view at = "estimation";
+void add_estimation_keys(std::vector<StudyKey>& keys) {
+    const std::string at = "estimation";
     std::string help = "Ways to fuse several sensors:";
     for (const FusionMethod& method : fusion_methods()) {
         help += " \"" + std::string(method.name) + "\" (" + std::string(method.title) + ") " +
@@ -421,8 +302,8 @@ void add_estimation_keys(std::vector<ConfigKey>& keys) {
         {8, true, 100000}, std::int64_t{128}, [](auto& plan, int) -> auto& { return plan.curve_points; }));
 }
 
-std::vector<ConfigKey> all_keys() {
-    std::vector<ConfigKey> keys;
+std::vector<StudyKey> all_keys() {
+    std::vector<StudyKey> keys;
     add_study_keys(keys);
     add_transmission_keys(keys);
     add_motion_keys(keys);
@@ -437,31 +318,15 @@ std::vector<ConfigKey> all_keys() {
     return keys;
 }
 
-}  // namespace
-
-std::string Limits::words() const {
-    const auto number = [](double value) {
-        std::string text = std::to_string(static_cast<long long>(value));
-        return text;
-    };
-    const bool open_above = std::isinf(high) || high >= 1e7;
-    if (std::isinf(low)) return open_above ? "" : "at most " + number(high);
-    if (open_above) return low_is_allowed ? number(low) + " or more" : "above " + number(low);
-    return (low_is_allowed ? "" : "above ") + number(low) + " to " + number(high);
-}
-
-const std::vector<ConfigSection>& config_sections() {
-    static const std::vector<ConfigSection> sections = {
+std::vector<ConfigSection<StudyPlan>> all_sections() {
+    return {
         {"", "The study."},
         {"transmission", "The cable in its conduit."},
-        {"transmission.curvature",
-         "The conduit's course from the proximal end: pieces of one bend radius each.",
-         [](const StudyPlan& plan) { return static_cast<int>(plan.transmission.cable.curvature.size()); },
-         [](StudyPlan& plan, int count) { plan.transmission.cable.curvature.assign(count, {}); },
-         // The paper's: 2 m of conduit at its bend radius.
-         [](StudyPlan& plan) {
-             plan.transmission.cable.curvature = {{2.0, 0.28}};
-         }},
+        // The paper's: 2 m of conduit at its bend radius.
+        curvature_section<StudyPlan>("transmission.curvature", transmission_cable,
+                                     [](StudyPlan& plan) {
+                                         plan.transmission.cable.curvature = {{2.0, 0.28}};
+                                     }),
         {"motion", "The true motion, which the estimators have to find out from the sensors."},
         {"motion.proximal", "The proximal end, where the motor is."},
         {"motion.distal", "The distal end, where the load is."},
@@ -484,12 +349,18 @@ const std::vector<ConfigSection>& config_sections() {
         {"estimation", "How readings become tensions."},
         {"recommendation", "What counts as better."},
     };
-    return sections;
 }
 
-const std::vector<ConfigKey>& config_keys() {
-    static const std::vector<ConfigKey> keys = all_keys();
-    return keys;
+}  // namespace
+
+template <>
+const ConfigSchema<StudyPlan>& config_schema<StudyPlan>() {
+    static const ConfigSchema<StudyPlan> schema{
+        "A study for capstan: where to put tension sensors in a cable-conduit transmission. Every key is "
+        "here with its default; a key that is left out takes it. Check a file with "
+        "`capstan config check FILE`, run it with `capstan study run FILE`.",
+        all_sections(), all_keys()};
+    return schema;
 }
 
 }  // namespace capstan::cli

@@ -28,6 +28,11 @@ std::vector<ConfigProblem> by_line(std::vector<ConfigProblem> problems) {
 
 }  // namespace
 
+bool sound(const std::vector<ConfigProblem>& known, std::string_view path) {
+    return std::none_of(known.begin(), known.end(),
+                        [&](const ConfigProblem& problem) { return problem.key.starts_with(path); });
+}
+
 ConfigError::ConfigError(const std::string& file, std::vector<ConfigProblem> problems)
     : UsageError(in_lines(file, by_line(problems))), problems_(by_line(std::move(problems))) {}
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capstan/cli/usage_error.h"
@@ -14,6 +15,9 @@ struct ConfigProblem {
     std::string key;      ///< full path, "regime[2].samples"; empty: no key in particular
     std::string message;  ///< what is wrong; what to try
 };
+
+/// No problem is known of the key, or of any key of the section.
+bool sound(const std::vector<ConfigProblem>& known, std::string_view path);
 
 /// Every problem of a configuration, one a line: FILE:LINE: key: what is wrong; what to try.
 class ConfigError : public UsageError {

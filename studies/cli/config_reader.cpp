@@ -50,22 +50,29 @@ std::string number_text(double value) {
 }
 
 // Reads the text section by section, in the order of the key table, and goes on after a problem.
+template <class Plan>
 class Reading {
   public:
-    Reading(const toml::table& root, ReadConfig& config) : root_(root), config_(config) {}
+    Reading(const toml::table& root, ReadPlan<Plan>& config) : root_(root), config_(config) {}
 
     std::vector<ConfigProblem> run() {
         refuse_unknown_keys(root_, "", "");
-        for (const ConfigSection& section : config_sections()) {
+        for (const Section& section : config_sections()) {
             section.is_repeated() ? read_repeated(section) : read_single(section);
         }
         return std::move(problems_);
     }
 
   private:
+    using Key = ConfigKey<Plan>;
+    using Section = ConfigSection<Plan>;
+
+    static const std::vector<Key>& config_keys() { return config_schema<Plan>().keys; }
+    static const std::vector<Section>& config_sections() { return config_schema<Plan>().sections; }
+
     // ---- sections
 
-    void read_single(const ConfigSection& section) {
+    void read_single(const Section& section) {
         const toml::node* node = find(section.path);
         if (node == nullptr) return read_keys(section, nullptr, 0, std::string(section.path));
         const toml::table* table = node->as_table();
@@ -81,7 +88,7 @@ class Reading {
         read_keys(section, table, 0, std::string(section.path));
     }
 
-    void read_repeated(const ConfigSection& section) {
+    void read_repeated(const Section& section) {
         const toml::node* node = find(section.path);
         if (node == nullptr) return section.fill_default(config_.plan);
         const toml::array* rows = node->as_array();
@@ -134,7 +141,7 @@ class Reading {
 
     static std::string where_else(const std::string& name, std::string_view section,
                                   const std::vector<std::string>& known) {
-        for (const ConfigKey& key : config_keys()) {
+        for (const Key& key : config_keys()) {
             if (key.name != name || key.section == section) continue;
             return key.section.empty() ? "; it belongs to the top of the file, before the first section"
                                        : fmt::format("; it belongs to section [{}]", key.section);
@@ -145,13 +152,14 @@ class Reading {
     // Keys of a section, and sections right below it.
     static std::vector<std::string> known_names(std::string_view section) {
         std::vector<std::string> names;
-        for (const ConfigKey& key : config_keys()) {
+        for (const Key& key : config_keys()) {
             if (key.section == section) names.emplace_back(key.name);
         }
-        for (const ConfigSection& other : config_sections()) {
+        for (const Section& other : config_sections()) {
             if (other.path.empty()) continue;
             const auto dot = other.path.rfind('.');
-            const std::string_view parent = dot == std::string_view::npos ? "" : other.path.substr(0, dot);
+            const std::string_view parent =
+                dot == std::string_view::npos ? "" : std::string_view(other.path).substr(0, dot);
             if (parent == section) {
                 names.emplace_back(other.path.substr(dot == std::string_view::npos ? 0 : dot + 1));
             }
@@ -161,8 +169,8 @@ class Reading {
 
     // ---- keys
 
-    void read_keys(const ConfigSection& section, const toml::table* table, int row, const std::string& path) {
-        for (const ConfigKey& key : config_keys()) {
+    void read_keys(const Section& section, const toml::table* table, int row, const std::string& path) {
+        for (const Key& key : config_keys()) {
             if (key.section != section.path) continue;
             const std::string full =
                 path.empty() ? std::string(key.name) : path + "." + std::string(key.name);
@@ -170,7 +178,7 @@ class Reading {
         }
     }
 
-    void read_key(const ConfigKey& key, const toml::table* table, int row, const std::string& path) {
+    void read_key(const Key& key, const toml::table* table, int row, const std::string& path) {
         const toml::node* node = table == nullptr ? nullptr : table->get(key.name);
         const bool applies = !key.condition.holds || key.condition.holds(config_.plan, row);
         if (node == nullptr) {
@@ -187,9 +195,9 @@ class Reading {
         }
         note_line(path, *node);
         if (!applies) {
-            return problem(
-                *node, path,
-                fmt::format("has a meaning only with {}; remove it or change kind", key.condition.words));
+            return problem(*node, path,
+                           fmt::format("has a meaning only with {}; remove it, or change what it depends on",
+                                       key.condition.words));
         }
         if (const std::optional<ConfigValue> value = value_of(key, *node, path)) {
             key.write(config_.plan, row, *value);
@@ -197,8 +205,7 @@ class Reading {
     }
 
     // The value of a node as its key wants it; nothing after a problem.
-    std::optional<ConfigValue> value_of(const ConfigKey& key, const toml::node& node,
-                                        const std::string& path) {
+    std::optional<ConfigValue> value_of(const Key& key, const toml::node& node, const std::string& path) {
         if (key.takes_all && node.value_exact<std::string>() == "all") return ConfigValue{std::string("all")};
         switch (key.kind) {
             case ValueKind::text:
@@ -213,6 +220,8 @@ class Reading {
                 return real_of(key, node, path);
             case ValueKind::whole_numbers:
                 return list_of<std::int64_t>(key, node, path, &Reading::whole_of);
+            case ValueKind::real_numbers:
+                return reals_of(key, node, path);
             case ValueKind::names:
                 return list_of<std::string>(key, node, path, &Reading::name_of_list);
             case ValueKind::node_sets:
@@ -234,8 +243,7 @@ class Reading {
         return *flag;
     }
 
-    std::optional<ConfigValue> name_of_list(const ConfigKey& key, const toml::node& node,
-                                            const std::string& path) {
+    std::optional<ConfigValue> name_of_list(const Key& key, const toml::node& node, const std::string& path) {
         const auto name = node.value_exact<std::string>();
         if (!name) return wrong_type(node, path, "a text in quotes");
         if (std::find(key.names.begin(), key.names.end(), *name) == key.names.end()) {
@@ -245,8 +253,7 @@ class Reading {
         return *name;
     }
 
-    std::optional<ConfigValue> whole_of(const ConfigKey& key, const toml::node& node,
-                                        const std::string& path) {
+    std::optional<ConfigValue> whole_of(const Key& key, const toml::node& node, const std::string& path) {
         const auto value = node.value_exact<std::int64_t>();
         if (!value) return wrong_type(node, path, "a whole number");
         if (!key.limits.admits(static_cast<double>(*value)))
@@ -254,8 +261,7 @@ class Reading {
         return *value;
     }
 
-    std::optional<ConfigValue> real_of(const ConfigKey& key, const toml::node& node,
-                                       const std::string& path) {
+    std::optional<ConfigValue> real_of(const Key& key, const toml::node& node, const std::string& path) {
         if (!node.is_number()) return wrong_type(node, path, "a number");
         const double value = *node.value<double>();
         if (!std::isfinite(value))
@@ -265,8 +271,8 @@ class Reading {
     }
 
     template <class Item>
-    std::optional<ConfigValue> list_of(const ConfigKey& key, const toml::node& node, const std::string& path,
-                                       std::optional<ConfigValue> (Reading::*item_of)(const ConfigKey&,
+    std::optional<ConfigValue> list_of(const Key& key, const toml::node& node, const std::string& path,
+                                       std::optional<ConfigValue> (Reading::*item_of)(const Key&,
                                                                                       const toml::node&,
                                                                                       const std::string&)) {
         const toml::array* array = node.as_array();
@@ -290,8 +296,22 @@ class Reading {
         return items;
     }
 
-    std::optional<ConfigValue> sets_of(const ConfigKey& key, const toml::node& node,
-                                       const std::string& path) {
+    std::optional<ConfigValue> reals_of(const Key& key, const toml::node& node, const std::string& path) {
+        const toml::array* array = node.as_array();
+        if (array == nullptr) return wrong_type(node, path, "a list in [ ]");
+        if (array->empty()) return refuse(node, path, "is empty; give it at least one number");
+        std::vector<double> values;
+        bool good = true;
+        for (const toml::node& element : *array) {
+            const auto value = real_of(key, element, path);
+            good = good && value.has_value();
+            if (value) values.push_back(std::get<double>(*value));
+        }
+        if (!good) return std::nullopt;
+        return values;
+    }
+
+    std::optional<ConfigValue> sets_of(const Key& key, const toml::node& node, const std::string& path) {
         const toml::array* array = node.as_array();
         if (array == nullptr) return wrong_type(node, path, "a list of lists, as [[1, 6, 11]]");
         std::vector<std::vector<std::int64_t>> sets;
@@ -339,14 +359,14 @@ class Reading {
         return refuse(node, path, fmt::format("is {}, but must be {}", type_words(node), wanted));
     }
 
-    std::optional<ConfigValue> out_of_range(const ConfigKey& key, const toml::node& node,
-                                            std::string_view path, const std::string& value) {
+    std::optional<ConfigValue> out_of_range(const Key& key, const toml::node& node, std::string_view path,
+                                            const std::string& value) {
         const std::string unit = key.unit.empty() ? "" : " " + std::string(key.unit);
         return refuse(node, path, fmt::format("is {}{}, but must be {}", value, unit, key.limits.words()));
     }
 
     const toml::table& root_;
-    ReadConfig& config_;
+    ReadPlan<Plan>& config_;
     std::vector<ConfigProblem> problems_;
 };
 
@@ -364,6 +384,16 @@ std::string content_of(const std::filesystem::path& path) {
     std::string content{std::istreambuf_iterator<char>(stream), {}};
     if (!stream) throw ConfigError(file, {{0, 0, "", "cannot be read; check its permissions"}});
     return content;
+}
+
+// A bench without the key that says so has pulleys all the same.
+bool describes_a_bench(std::string_view toml) {
+    try {
+        const toml::table root = toml::parse(toml);
+        return root["kind"].value<std::string>() == "bench" || root.contains("pulleys");
+    } catch (const toml::parse_error&) {
+        return false;
+    }
 }
 
 // A message of the study begins with the path of what it speaks of, "layouts.counts: ..." or "regime mass:
@@ -389,8 +419,9 @@ int line_spoken_of(const std::string& message, const ReadConfig& config) {
 
 }  // namespace
 
-ReadConfig parse_config(std::string_view toml, const std::string& file) {
-    ReadConfig config{file, {}, {}};
+template <class Plan>
+ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file) {
+    ReadPlan<Plan> config{file, {}, {}};
     toml::table root;
     try {
         root = toml::parse(toml, file);
@@ -399,16 +430,36 @@ ReadConfig parse_config(std::string_view toml, const std::string& file) {
         throw ConfigError(file, {{static_cast<int>(at.line), static_cast<int>(at.column), "",
                                   "not valid TOML: " + std::string(error.description())}});
     }
-    std::vector<ConfigProblem> problems = Reading(root, config).run();
+    std::vector<ConfigProblem> problems = Reading<Plan>(root, config).run();
     const std::vector<ConfigProblem> more = inconsistencies_of(config, problems);
     problems.insert(problems.end(), more.begin(), more.end());
     if (!problems.empty()) throw ConfigError(file, std::move(problems));
     config.plan.config_toml = config_text(config.plan, Comments::none);
     return config;
 }
+template ReadPlan<StudyPlan> parse_plan(std::string_view toml, const std::string& file);
+template ReadPlan<bench::BenchPlan> parse_plan(std::string_view toml, const std::string& file);
+
+ReadConfig parse_config(std::string_view toml, const std::string& file) {
+    return parse_plan<StudyPlan>(toml, file);
+}
+
+ConfigContent content_of_config(const std::filesystem::path& path) {
+    return describes_a_bench(content_of(path)) ? ConfigContent::bench : ConfigContent::study;
+}
 
 ReadConfig read_config(const std::filesystem::path& path) {
-    return parse_config(content_of(path), path.string());
+    const std::string toml = content_of(path);
+    if (describes_a_bench(toml)) {
+        throw ConfigError(path.string(), {{0, 0, "",
+                                           "describes a bench, not a study; run it with `capstan simulate " +
+                                               path.string() + "`"}});
+    }
+    return parse_config(toml, path.string());
+}
+
+ReadBench read_bench(const std::filesystem::path& path) {
+    return parse_plan<bench::BenchPlan>(content_of(path), path.string());
 }
 
 void require_runnable(const ReadConfig& config) {

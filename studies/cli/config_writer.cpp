@@ -66,6 +66,8 @@ std::string_view kind_words(ValueKind kind) {
             return "";
         case ValueKind::whole_numbers:
             return "list of whole numbers";
+        case ValueKind::real_numbers:
+            return "list of numbers";
         case ValueKind::names:
             return "list of names";
         case ValueKind::node_sets:
@@ -75,7 +77,8 @@ std::string_view kind_words(ValueKind kind) {
 }
 
 // "number [N], above 0; default 2000.0"
-std::string facts_of(const ConfigKey& key) {
+template <class Plan>
+std::string facts_of(const ConfigKey<Plan>& key) {
     std::string facts(kind_words(key.kind));
     if (key.kind == ValueKind::choice) {
         for (const auto& name : key.names) facts += (facts.empty() ? "" : " or ") + toml_string(name);
@@ -99,7 +102,8 @@ std::string comment(std::string_view text) {
     return wrapped(text, comment_width, "# ", "# ") + "\n";
 }
 
-std::string key_text(const ConfigKey& key, const StudyPlan& plan, int row, Comments comments) {
+template <class Plan>
+std::string key_text(const ConfigKey<Plan>& key, const Plan& plan, int row, Comments comments) {
     const bool applies = !key.condition.holds || key.condition.holds(plan, row);
     const std::string value = applies ? std::visit(ToToml{}, key.read(plan, row)) : "";
     std::string text;
@@ -111,7 +115,8 @@ std::string key_text(const ConfigKey& key, const StudyPlan& plan, int row, Comme
     return text;
 }
 
-std::string section_text(const ConfigSection& section, const StudyPlan& plan, int row, Comments comments) {
+template <class Plan>
+std::string section_text(const ConfigSection<Plan>& section, const Plan& plan, int row, Comments comments) {
     std::string text;
     if (!section.path.empty()) {
         text += "\n";
@@ -119,7 +124,7 @@ std::string section_text(const ConfigSection& section, const StudyPlan& plan, in
         text += section.is_repeated() ? fmt::format("[[{}]]\n", section.path)
                                       : fmt::format("[{}]\n", section.path);
     }
-    for (const ConfigKey& key : config_keys()) {
+    for (const ConfigKey<Plan>& key : config_schema<Plan>().keys) {
         if (key.section == section.path) text += key_text(key, plan, row, comments);
     }
     return text;
@@ -127,23 +132,25 @@ std::string section_text(const ConfigSection& section, const StudyPlan& plan, in
 
 }  // namespace
 
-std::string config_text(const StudyPlan& plan, Comments comments) {
+template <class Plan>
+std::string config_text(const Plan& plan, Comments comments) {
     std::string text;
-    if (comments == Comments::every_key) {
-        text += comment(
-            "A study for capstan: where to put tension sensors in a cable-conduit transmission. Every key is "
-            "here with its default; a key that is left out takes it. Check a file with "
-            "`capstan config check FILE`, run it with `capstan study run FILE`.");
-    }
-    for (const ConfigSection& section : config_sections()) {
+    if (comments == Comments::every_key) text += comment(config_schema<Plan>().introduction);
+    for (const ConfigSection<Plan>& section : config_schema<Plan>().sections) {
         const int rows = section.is_repeated() ? section.rows(plan) : 1;
         for (int row = 0; row < rows; ++row) text += section_text(section, plan, row, comments);
     }
     return text;
 }
+template std::string config_text(const StudyPlan& plan, Comments comments);
+template std::string config_text(const bench::BenchPlan& plan, Comments comments);
 
 StudyPlan default_plan() {
     return parse_config("", "defaults").plan;
+}
+
+bench::BenchPlan default_bench() {
+    return parse_plan<bench::BenchPlan>("kind = \"bench\"", "defaults").plan;
 }
 
 }  // namespace capstan::cli

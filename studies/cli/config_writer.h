@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "capstan/bench/bench_plan.h"
 #include "capstan/placement/study_plan.h"
 
 namespace capstan::cli {
@@ -10,9 +11,11 @@ enum class Comments { none, every_key };
 
 /// The configuration of a plan in full: every section and key in the order of the key table, so that equal
 /// plans have equal texts, and reading the text gives the plan again.
-std::string config_text(const StudyPlan& plan, Comments comments);
+template <class Plan>
+std::string config_text(const Plan& plan, Comments comments);
 
 /// The plan of an empty configuration: all defaults.
 StudyPlan default_plan();
+bench::BenchPlan default_bench();
 
 }  // namespace capstan::cli

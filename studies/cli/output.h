@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,8 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 
 /// Writes the answer where --output says.
 void deliver(const Invocation& invocation, std::string_view text);
+
+/// Writes the page where --html says, if it does, and says so on standard error. `page` makes its text.
+void deliver_page(const Invocation& invocation, const std::function<std::string()>& page);
 
 }  // namespace capstan::cli

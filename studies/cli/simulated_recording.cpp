@@ -6,6 +6,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/page_recording.h"
 #include "capstan/gap/driven_inputs.h"
 #include "capstan/gap/parameter_file.h"
 #include "capstan/gap/recording_reader.h"
@@ -20,12 +21,13 @@ using gap::TwinRun;
 
 // What a run was driven by and what the model says to it, channel by channel.
 std::vector<std::vector<double>> fed_and_predicted(const Recording& recording, std::size_t run,
-                                                   TwinRun twin) {
+                                                   const TwinRun& twin) {
     gap::DrivenInputs inputs = gap::driven_inputs(recording, recording.runs[run]);
+    std::vector<std::vector<double>> values = twin.values;
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
-        if (!inputs.values[channel].empty()) twin.values[channel] = std::move(inputs.values[channel]);
+        if (!inputs.values[channel].empty()) values[channel] = std::move(inputs.values[channel]);
     }
-    return std::move(twin.values);
+    return values;
 }
 
 std::string head_line(const Recording& recording) {
@@ -59,8 +61,13 @@ ExitCode simulate_recording(const Invocation& invocation) {
     if (invocation.has("parameters"))
         values = gap::read_parameter_values(invocation.text("parameters"), twin->parameters());
     std::string text = head_line(recording);
-    for (std::size_t run = 0; run < recording.runs.size(); ++run)
-        append_run(text, recording.runs[run], fed_and_predicted(recording, run, twin->run(run, values)));
+    std::vector<TwinRun> modelled;
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        modelled.push_back(twin->run(run, values));
+        append_run(text, recording.runs[run], fed_and_predicted(recording, run, modelled.back()));
+    }
+    deliver_page(invocation,
+                 [&] { return reports::experiment_page_html(recording_page(recording, modelled)); });
     deliver(invocation, text);
     return ExitCode::success;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/bench/waveform.h"
+
 namespace capstan::paper {
 
 namespace {
@@ -71,15 +73,12 @@ PullPull paper_bench(const CableSetting& setting, double pretension_N, int segme
 }
 
 double ramp_torque_Nm(double time_s) {
-    const double quarter_s = highest_torque_Nm / slope_Nm_per_s;
-    if (time_s < quarter_s) return slope_Nm_per_s * time_s;
-    const double half_period_s = dwell_s + 2.0 * quarter_s;
-    const double since_top_s = time_s - quarter_s;
-    const double half_periods = std::floor(since_top_s / half_period_s);
-    const double into_s = since_top_s - half_periods * half_period_s;
-    const double side = std::fmod(half_periods, 2.0) == 0.0 ? 1.0 : -1.0;
-    const double fallen_Nm = slope_Nm_per_s * std::max(into_s - dwell_s, 0.0);
-    return side * (highest_torque_Nm - fallen_Nm);
+    bench::Waveform ramps;
+    ramps.kind = bench::WaveformKind::ramps;
+    ramps.ramp_amplitude = highest_torque_Nm;
+    ramps.slope_per_s = slope_Nm_per_s;
+    ramps.dwell_s = dwell_s;
+    return ramps.at(time_s);
 }
 
 RampRun run_pretension_ramps(const CableSetting& setting, double pretension_N, const Resolution& resolution) {

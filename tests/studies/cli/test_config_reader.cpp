@@ -140,15 +140,16 @@ TEST(ConfigReader, ProblemsOfTheStudyAreShownAtTheLineTheySpeakOf) {
 }
 
 // What resume and replay rely on.
-void expect_round_trip(const StudyPlan& plan) {
+template <class Plan>
+void expect_round_trip(const Plan& plan) {
     const std::string text = config_text(plan, Comments::none);
-    const StudyPlan again = parse_config(text, "again").plan;
+    const Plan again = parse_plan<Plan>(text, "again").plan;
     EXPECT_EQ(config_text(again, Comments::none), text);
     EXPECT_EQ(again.config_toml, text);
-    for (const ConfigSection& section : config_sections()) {
+    for (const auto& section : config_schema<Plan>().sections) {
         const int rows = section.is_repeated() ? section.rows(plan) : 1;
         ASSERT_EQ(section.is_repeated() ? section.rows(again) : 1, rows) << section.path;
-        for (const ConfigKey& key : config_keys()) {
+        for (const auto& key : config_schema<Plan>().keys) {
             for (int row = 0; key.section == section.path && row < rows; ++row) {
                 EXPECT_EQ(key.read(again, row), key.read(plan, row)) << key.section << "." << key.name;
             }
@@ -163,14 +164,19 @@ TEST(ConfigWriter, PrintedDefaultReadsBackAsTheDefault) {
     expect_round_trip(plan);
 }
 
-TEST(ConfigWriter, PrintedDefaultExplainsEveryKey) {
-    const std::string text = config_text(default_plan(), Comments::every_key);
-    for (const ConfigKey& key : config_keys()) {
+template <class Plan>
+void expect_every_key_explained(const Plan& plan) {
+    const std::string text = config_text(plan, Comments::every_key);
+    for (const auto& key : config_schema<Plan>().keys) {
         // In use, or behind a comment sign where it does not apply.
-        EXPECT_THAT(text, AnyOf(HasSubstr("\n" + std::string(key.name) + " ="),
-                                HasSubstr("\n# " + std::string(key.name) + " =")));
+        EXPECT_THAT(text, AnyOf(HasSubstr("\n" + key.name + " ="), HasSubstr("\n# " + key.name + " =")));
         EXPECT_FALSE(key.help.empty()) << key.name;
     }
+}
+
+TEST(ConfigWriter, PrintedDefaultExplainsEveryKey) {
+    expect_every_key_explained(default_plan());
+    expect_every_key_explained(default_bench());
 }
 
 TEST(ConfigWriter, AwkwardValuesRoundTrip) {
@@ -194,10 +200,11 @@ TEST_P(ShippedConfig, ReadsBackAsItself) {
     expect_round_trip(config.plan);
 }
 
-std::vector<std::string> shipped_configs() {
+std::vector<std::string> shipped_configs(ConfigContent content) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(CONFIGS_FOLDER)) {
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
+        if (entry.path().extension() != ".toml") continue;
+        if (content_of_config(entry.path()) == content) names.push_back(entry.path().filename().string());
     }
     std::sort(names.begin(), names.end());
     return names;
@@ -209,7 +216,17 @@ std::string plain_name(const testing::TestParamInfo<std::string>& info) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Configs, ShippedConfig, testing::ValuesIn(shipped_configs()), plain_name);
+INSTANTIATE_TEST_SUITE_P(Configs, ShippedConfig, testing::ValuesIn(shipped_configs(ConfigContent::study)),
+                         plain_name);
+
+class ShippedBench : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedBench, ReadsBackAsItself) {
+    expect_round_trip(read_bench(std::filesystem::path(CONFIGS_FOLDER) / GetParam()).plan);
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, ShippedBench, testing::ValuesIn(shipped_configs(ConfigContent::bench)),
+                         plain_name);
 
 }  // namespace
 }  // namespace capstan::cli

@@ -1,0 +1,82 @@
+#include "capstan/reports/page_frame.h"
+
+#include <fmt/format.h>
+
+#include "capstan/reports/embedded_files.h"
+#include "capstan/reports/html_text.h"
+
+namespace capstan::reports {
+namespace {
+
+std::string scripts() {
+    std::string html;
+    for (const char* name : {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js", "page.js"}) {
+        html += fmt::format("<script data-file=\"{}\">{}</script>\n", name, embedded_file(name));
+    }
+    return html;
+}
+
+// The policy holds the page to its promise: it loads nothing.
+std::string head_html(const PageFrame& frame) {
+    return fmt::format(
+        R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; img-src data: blob:">
+<title>{}</title>
+<style>
+{}</style>
+</head>
+)",
+        escape_html(frame.document_title), embedded_file("page.css"));
+}
+
+}  // namespace
+
+std::string page_html(const PageFrame& frame) {
+    std::string page = head_html(frame);
+    page += fmt::format(
+        R"(<body>
+<a class="skip" href="#content">Skip to the content</a>
+<header>
+<p class="kind">{}</p>
+<h1>{}</h1>
+<p class="verdict">{}</p>
+</header>
+)",
+        escape_html(frame.kind), escape_html(frame.title), escape_html(frame.verdict));
+    page += frame.navigation_html;
+    page +=
+        "<main id=\"content\" tabindex=\"-1\">\n<noscript><p>The figures need JavaScript; the words and "
+        "tables do not.</p></noscript>\n";
+    page += frame.main_html + "</main>\n";
+    page +=
+        fmt::format("<footer><p>{} This page needs no network.</p></footer>\n", escape_html(frame.footer));
+    page += "<script type=\"application/json\" id=\"study-data\">" + frame.data_json + "</script>\n";
+    return page + scripts() + "</body>\n</html>\n";
+}
+
+std::string section_html(const std::string& id, const std::string& title, const std::string& intro,
+                         const std::string& content) {
+    if (content.empty()) return "";
+    return fmt::format(
+        "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}</h2>\n<p "
+        "class=\"intro\">{2}</p>\n"
+        "{3}</section>\n",
+        id, escape_html(title), escape_html(intro), content);
+}
+
+std::string navigation_html(const std::string& main_html, const std::vector<SectionLink>& links,
+                            const std::string& extra_html) {
+    std::string items;
+    for (const SectionLink& link : links) {
+        if (main_html.find("<section id=\"" + link.id + "\"") == std::string::npos) continue;
+        items += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", link.id, escape_html(link.title));
+    }
+    return "<nav aria-label=\"Sections\"><ul>\n" + items + "</ul>\n" + extra_html + "</nav>\n";
+}
+
+}  // namespace capstan::reports

@@ -1,0 +1,37 @@
+#pragma once
+// What every page is made of: head, style, navigation, the scripts that draw its figures. A page loads
+// nothing.
+
+#include <string>
+#include <vector>
+
+namespace capstan::reports {
+
+// Plain text but for what ends in _html or _json.
+struct PageFrame {
+    std::string document_title;
+    std::string kind;  // above the title: 'Sensor placement study'
+    std::string title;
+    std::string verdict;  // the page in one sentence
+    std::string navigation_html;
+    std::string main_html;
+    std::string footer;
+    std::string data_json;  // of page_data
+};
+
+std::string page_html(const PageFrame& frame);
+
+// '' without content; `intro` is plain text.
+std::string section_html(const std::string& id, const std::string& title, const std::string& intro,
+                         const std::string& content);
+
+struct SectionLink {
+    std::string id;
+    std::string title;
+};
+
+// Links to those of the sections that are on the page; `extra_html` stands beside them.
+std::string navigation_html(const std::string& main_html, const std::vector<SectionLink>& links,
+                            const std::string& extra_html);
+
+}  // namespace capstan::reports

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/bench/waveform.h"
+#include "capstan/effects/effect_catalogue.h"
+#include "capstan/solver/pull_pull.h"
+
+namespace capstan::bench {
+
+enum class MotorDrive { torque, angle };
+
+/// What the load pulley meets.
+enum class LoadKind {
+    locked,  ///< its angle stays zero
+    handle,  ///< moved from outside: its angle is prescribed
+    torque,  ///< it takes a torque from the transmission; zero: free
+    spring,  ///< a spring to a wall that may move
+};
+
+/// Every effect absent: effect catalogue x parameters.
+std::vector<std::vector<double>> no_effects();
+
+/// A pull-pull bench and what is done with it.
+struct BenchPlan {
+    std::string name;
+    CableSpecification cable;  ///< each of the pair
+    Pulleys pulleys;
+    MotorDrive motor_drive = MotorDrive::torque;
+    Waveform motor;  ///< N m or rad
+    LoadKind load_kind = LoadKind::locked;
+    Waveform load;  ///< N m of a torque; rad of a handle or a wall
+    double load_stiffness_Nm_per_rad = 0.0;
+    double sample_rate_Hz = 0.0;
+    double duration_s = 0.0;
+    /// effect catalogue x parameters; as the catalogue's `absent` where an effect is not there.
+    std::vector<std::vector<double>> effects = no_effects();
+    std::string config_toml;
+
+    int samples() const;  ///< beyond the first, which is at rest
+    PullPullInputs inputs_at(double time_s) const;
+};
+
+/// Catalogue names of the effects that are there, variants in brackets.
+std::vector<std::string> effects_there(const BenchPlan& plan);
+BenchEffects effects_of(const BenchPlan& plan);
+
+}  // namespace capstan::bench

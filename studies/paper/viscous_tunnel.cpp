@@ -1,0 +1,132 @@
+#include "capstan/paper/viscous_tunnel.h"
+
+#include <cmath>
+
+#include "capstan/paper/error_reduction_tunnel.h"
+#include "capstan/sensing/random_stream.h"
+#include "capstan/solver/bench_simulation.h"
+
+namespace capstan::paper {
+
+namespace {
+
+struct TorqueRun {
+    std::vector<double> load_torque_Nm;  // samples
+    int unsolved_steps = 0;
+};
+
+struct Tunnel {
+    PullPull pair;
+    double time_step_s = 0.0;
+    int steps = 0;
+
+    TorqueRun run(const BenchEffects& effects) const {
+        BenchSimulation bench({pair.cable_a(), true, pair.pulleys(), {}}, effects);
+        TorqueRun run;
+        for (int step = 1; step <= steps; ++step) {
+            const double time_s = step * time_step_s;
+            const double angle_rad = handle_angle_rad(time_s);
+            const BenchInputs inputs{MotorTorque{tunnel_torque_Nm(angle_rad)}, LoadAngle{angle_rad},
+                                     time_step_s, time_s};
+            if (!bench.advance(inputs).converged) ++run.unsolved_steps;
+            run.load_torque_Nm.push_back(bench.load_torque_Nm());
+        }
+        return run;
+    }
+    TorqueRun model(double drag_N_s_per_m2) const {
+        BenchEffects effects;
+        effects.viscous_friction.drag_N_s_per_m2 = drag_N_s_per_m2;
+        return run(effects);
+    }
+};
+
+BenchEffects effects_of(const ViscousBench& bench, double conduit_m) {
+    BenchEffects effects;
+    effects.viscous_friction.drag_N_s_per_m2 = bench.drag_N_s_per_m2;
+    effects.load_friction.coulomb_Nm = bench.load_friction_Nm;
+    // Typical, as the effects' catalogue says: 1 rad of wrap per rad of handle, 5 mN m of cogging.
+    effects.moving_bend = {{conduit_m - 0.3, conduit_m}, bench.remainder * 1.0};
+    effects.motor_cogging = {bench.remainder * 0.005, bench.remainder * 0.005, 7.0};
+    return effects;
+}
+
+void add_noise(std::vector<double>& torque_Nm, double deviation_Nm) {
+    for (std::size_t k = 0; k < torque_Nm.size(); ++k) {
+        RandomAddress address;
+        address.node = static_cast<std::uint32_t>(k);
+        torque_Nm[k] += deviation_Nm * standard_normals(address)[0];
+    }
+}
+
+// The drag of least squares by Gauss and Newton: the torque is nearly linear in it, so a few steps do.
+double fitted_drag(const Tunnel& tunnel, const std::vector<double>& bench_Nm) {
+    constexpr double difference = 0.5;
+    constexpr double near_enough = 0.01;
+    double drag = 0.0;
+    for (int iteration = 0; iteration < 6; ++iteration) {
+        const auto here_Nm = tunnel.model(drag).load_torque_Nm;
+        const auto there_Nm = tunnel.model(drag + difference).load_torque_Nm;
+        double slope_squares = 0.0;
+        double slope_residual = 0.0;
+        for (std::size_t k = 0; k < bench_Nm.size(); ++k) {
+            const double slope = (there_Nm[k] - here_Nm[k]) / difference;
+            slope_squares += slope * slope;
+            slope_residual += slope * (bench_Nm[k] - here_Nm[k]);
+        }
+        const double change = slope_residual / slope_squares;
+        drag = std::max(0.0, drag + change);
+        if (std::abs(change) < near_enough) break;
+    }
+    return drag;
+}
+
+ResidualLine residual_line(const std::vector<ViscousSample>& samples, double ViscousSample::*model_Nm) {
+    const auto count = static_cast<double>(samples.size());
+    double speed = 0.0, residual = 0.0, speed_squares = 0.0, products = 0.0, squares = 0.0;
+    for (const ViscousSample& sample : samples) {
+        const double left_Nm = sample.bench_torque_Nm - sample.*model_Nm;
+        speed += sample.load_speed_rad_per_s;
+        residual += left_Nm;
+        speed_squares += sample.load_speed_rad_per_s * sample.load_speed_rad_per_s;
+        products += sample.load_speed_rad_per_s * left_Nm;
+        squares += left_Nm * left_Nm;
+    }
+    ResidualLine line;
+    line.slope_Nm_s_per_rad = (products - speed * residual / count) / (speed_squares - speed * speed / count);
+    line.offset_Nm = (residual - line.slope_Nm_s_per_rad * speed) / count;
+    line.sum_of_squares_Nm2 = squares;
+    line.rms_Nm = std::sqrt(squares / count);
+    return line;
+}
+
+}  // namespace
+
+ViscousComparison compare_viscous_models(const CableSetting& setting, double pretension_N,
+                                         const ViscousBench& bench, const Resolution& resolution) {
+    const int steps = static_cast<int>(std::lround(2.0 * handle_period_s / resolution.time_step_s));
+    const Tunnel tunnel{paper_bench(setting, pretension_N, resolution.segments), resolution.time_step_s,
+                        steps};
+    TorqueRun measured = tunnel.run(effects_of(bench, tunnel.pair.cable_a().length_m()));
+    add_noise(measured.load_torque_Nm, bench.torque_noise_Nm);
+
+    ViscousComparison comparison{setting.name, pretension_N, bench, 0.0, {}, {}, {}, 0};
+    comparison.fitted_drag_N_s_per_m2 = fitted_drag(tunnel, measured.load_torque_Nm);
+    const TorqueRun without = tunnel.model(0.0);
+    const TorqueRun with = tunnel.model(comparison.fitted_drag_N_s_per_m2);
+    for (int step = 1; step <= steps; ++step) {
+        const double time_s = step * resolution.time_step_s;
+        const double half_s = 0.5 * resolution.time_step_s;
+        const double turned_rad = handle_angle_rad(time_s + half_s) - handle_angle_rad(time_s - half_s);
+        const double angle_rad = handle_angle_rad(time_s);
+        const auto at = static_cast<std::size_t>(step - 1);
+        comparison.samples.push_back({time_s, angle_rad, turned_rad / resolution.time_step_s,
+                                      tunnel_torque_Nm(angle_rad), measured.load_torque_Nm[at],
+                                      without.load_torque_Nm[at], with.load_torque_Nm[at]});
+    }
+    comparison.without_term = residual_line(comparison.samples, &ViscousSample::without_term_Nm);
+    comparison.with_term = residual_line(comparison.samples, &ViscousSample::with_term_Nm);
+    comparison.unsolved_steps = measured.unsolved_steps + without.unsolved_steps + with.unsolved_steps;
+    return comparison;
+}
+
+}  // namespace capstan::paper
