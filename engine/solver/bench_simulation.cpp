@@ -274,7 +274,7 @@ bool BenchSimulation::bracket_load(const BenchInputs& inputs, const Free& free, 
                                    int& iterations) {
     constexpr double first_width_rad = 0.005;
     constexpr double angle_tolerance_rad = 1e-9;
-    constexpr double torque_tolerance_Nm = 1e-7;
+    constexpr double balanced_Nm = 1e-7;
     constexpr int most_trials = 60;
     const auto torque_left = [&](double load_rad) {
         begin_cables(inputs);
@@ -301,7 +301,7 @@ bool BenchSimulation::bracket_load(const BenchInputs& inputs, const Free& free, 
         const double middle =
             at_low == at_high ? 0.5 * (low + high) : low + (high - low) * at_low / (at_low - at_high);
         const double at_middle = torque_left(middle);
-        if (std::abs(at_middle) < torque_tolerance_Nm || std::abs(high - low) < angle_tolerance_rad)
+        if (std::abs(at_middle) < balanced_Nm || std::abs(high - low) < angle_tolerance_rad)
             return true;
         if (at_middle * at_high < 0.0) {
             low = high;
