@@ -37,14 +37,17 @@ struct Scored {
     double evidence = 0.0;
 };
 
-// Least squares of `target` on the columns of `directions`: what is left.
-double left_after(const Eigen::VectorXd& target, const Eigen::MatrixXd& directions) {
+// Least squares of `target` on the columns of `directions`: what is left. The last direction may be a
+// cause's, which cannot be there less than not at all: against it, it explains nothing.
+double left_after(const Eigen::VectorXd& target, const Eigen::MatrixXd& directions, bool last_is_a_cause) {
     const Eigen::MatrixXd normal = directions.transpose() * directions;
     const Eigen::VectorXd weights =
         (normal + 1e-9 * normal.trace() * Eigen::MatrixXd::Identity(normal.rows(), normal.cols()))
             .ldlt()
-            .solve(directions.transpose() * target);
-    return (target - directions * weights).squaredNorm();
+            .solve(-directions.transpose() * target);
+    if (last_is_a_cause && weights[weights.size() - 1] < 0.0)
+        return left_after(target, directions.leftCols(directions.cols() - 1), false);
+    return (target + directions * weights).squaredNorm();
 }
 
 // Residual energy of the nominal model beyond noise, in units of noise.
@@ -80,7 +83,7 @@ class Diagnoser {
 
     Diagnosis run() {
         fit_nominal();
-        const std::vector<Screened> screened = screen({}, none_.fit);
+        const std::vector<Screened> screened = screen({}, nominal_);
         std::vector<Scored> singles = {none_};
         fit_best(screened, {}, singles);
         sort_by_evidence(singles);
@@ -124,8 +127,10 @@ class Diagnoser {
 
     void fit_nominal() {
         tell("nominal model", 0.0);
-        const Eigen::MatrixXd nominal = Eigen::VectorXd::Zero(nominal_coordinates);
-        nominal_sum_ = fitter_.residuals({&causes_.front()}, nominal).squaredNorm();
+        nominal_.causes = {&causes_.front()};
+        nominal_.coordinates = Eigen::VectorXd::Zero(nominal_coordinates);
+        nominal_.residuals = fitter_.residuals(nominal_.causes, nominal_.coordinates).col(0);
+        nominal_.sum_of_squares = nominal_.residuals.squaredNorm();
         none_ = scored(fitter_.fit({&causes_.front()}, Eigen::VectorXd::Zero(nominal_coordinates),
                                    {Eigen::VectorXd(0)}));
     }
@@ -133,16 +138,16 @@ class Diagnoser {
     // What each cause could explain on top of a fit, by the direction in which it moves the residuals, the
     // fit's own numbers free to follow.
     std::vector<Screened> screen(const std::vector<const CandidateCause*>& present, const CauseFit& fit) {
-        const auto data = static_cast<Eigen::Index>(fitter_.data_rows());
-        const Eigen::VectorXd here = fit.residuals.head(data);
-        // The nominal numbers and those of the causes already there.
+        // The nominal numbers and those of the causes already there, with their priors.
         constexpr double step = 0.02;
         const Eigen::Index known = fit.coordinates.size();
+        const Eigen::Index rows = static_cast<Eigen::Index>(fitter_.data_rows()) + known;
+        const Eigen::VectorXd here = fit.residuals.head(rows);
         Eigen::MatrixXd moved = fit.coordinates.replicate(1, known);
         moved.diagonal().array() += step;
-        Eigen::MatrixXd directions(data, known + 1);
+        Eigen::MatrixXd directions(rows, known + 1);
         directions.leftCols(known) =
-            (fitter_.residuals(fit.causes, moved).topRows(data).colwise() - here) / step;
+            (fitter_.residuals(fit.causes, moved).topRows(rows).colwise() - here) / step;
         evaluations_ += static_cast<int>(known);
 
         std::vector<Screened> all;
@@ -160,17 +165,17 @@ class Diagnoser {
             best.start = starts.front();
             if (starts.front().size() ==
                 0) {  // a nominal number that may go far: its direction is there already
-                best.sum_of_squares = left_after(here, directions.leftCols(known));
+                best.sum_of_squares = left_after(here, directions.leftCols(known), false);
                 all.push_back(best);
                 continue;
             }
-            const Eigen::MatrixXd there = fitter_.residuals(together, grid).topRows(data);
+            const Eigen::MatrixXd there = fitter_.residuals(together, grid).topRows(rows);
             evaluations_ += static_cast<int>(starts.size());
             for (std::size_t k = 0; k < starts.size(); ++k) {
                 directions.col(known) = there.col(static_cast<Eigen::Index>(k)) - here;
-                const double left =
-                    std::min(left_after(here, directions),
-                             left_after(there.col(static_cast<Eigen::Index>(k)), directions.leftCols(known)));
+                const double left = std::min(
+                    left_after(here, directions, true),
+                    left_after(there.col(static_cast<Eigen::Index>(k)), directions.leftCols(known), false));
                 if (left < best.sum_of_squares) best = {cause, starts[k], left};
             }
             all.push_back(best);
@@ -189,7 +194,6 @@ class Diagnoser {
     void fit_best(const std::vector<Screened>& screened, const std::vector<const CandidateCause*>& present,
                   std::vector<Scored>& fits) {
         std::size_t fitted = 0;
-        const Eigen::VectorXd nominal = none_.fit.coordinates;
         for (const Screened& each : screened) {
             // A wrong nominal number is always worth a fit: the quick look lets every cause have it on top.
             const bool nominal_number = each.cause->numbers.empty();
@@ -199,7 +203,7 @@ class Diagnoser {
                  0.3 + 0.4 * static_cast<double>(fitted) / most_fitted);
             std::vector<const CandidateCause*> together = present;
             together.push_back(each.cause);
-            fits.push_back(scored(fitter_.fit(together, nominal, {each.start})));
+            fits.push_back(scored(fitter_.fit(together, nominal_.coordinates, {each.start})));
         }
     }
 
@@ -228,7 +232,7 @@ class Diagnoser {
     Diagnosis verdict(const std::vector<Scored>& singles, const std::vector<Scored>& pairs) {
         Diagnosis diagnosis;
         const Scored& best = singles.front();
-        const double nominal_misfit = nominal_sum_ / static_cast<double>(fitter_.data_rows());
+        const double nominal_misfit = misfit(nominal_);
         const bool two =
             !pairs.empty() && pairs.front().evidence > best.evidence + second_cause_evidence &&
             misfit(best.fit) - misfit(pairs.front().fit) > second_cause_share * (nominal_misfit - 1.0);
@@ -270,7 +274,7 @@ class Diagnoser {
         diagnosis.friction_ratio = numbers.friction_ratio;
         diagnosis.stiffness_ratio = numbers.stiffness_ratio;
         diagnosis.pretension_ratio = numbers.pretension_ratio;
-        diagnosis.misfit_before = nominal_sum_ / static_cast<double>(fitter_.data_rows());
+        diagnosis.misfit_before = misfit(nominal_);
         diagnosis.misfit_after = misfit(fit);
         Eigen::Index next = nominal_coordinates;
         for (const CandidateCause* cause : fit.causes) {
@@ -360,7 +364,7 @@ class Diagnoser {
     CauseFitter fitter_;
     std::vector<CandidateCause> causes_;
     Scored none_;
-    double nominal_sum_ = 0.0;  // of squares, all numbers nominal
+    CauseFit nominal_;  // nothing fitted: where searches start, for the nominal fit may have gone astray
     int evaluations_ = 0;
 };
 
