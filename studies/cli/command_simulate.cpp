@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "capstan/cable/motion_name.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/config_reader.h"
@@ -15,22 +16,6 @@
 namespace capstan::cli {
 
 namespace {
-
-std::string_view kind_name(MotionKind kind) {
-    switch (kind) {
-        case MotionKind::rest:
-            return "rest";
-        case MotionKind::partial:
-            return "partial";
-        case MotionKind::mass:
-            return "mass";
-        case MotionKind::opposed:
-            return "opposed";
-        case MotionKind::slack:
-            return "slack";
-    }
-    return {};
-}
 
 std::string head_line(int nodes) {
     std::string line =
@@ -46,7 +31,7 @@ void append_line(std::string& text, const TrueSample& sample, double sample_rate
     const auto regime = regime_of(pattern);
     auto out = std::back_inserter(text);
     fmt::format_to(out, "{},{},{},{},{},{},{},{},{}", sample.sample, sample.sample / sample_rate_Hz,
-                   kind_name(pattern.kind), regime ? name_of(*regime) : "", pattern.proximal_moving_nodes,
+                   name_of(pattern.kind), regime ? name_of(*regime) : "", pattern.proximal_moving_nodes,
                    pattern.distal_moving_nodes, sign(pattern.proximal_direction),
                    sign(pattern.distal_direction), sample.report.verified ? 1 : 0);
     for (const double tension_N : sample.now.tension_N) fmt::format_to(out, ",{}", tension_N);

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/cable/motion_name.h"
 #include "capstan/solver/pull_pull.h"
 #include "promises.h"
 #include "pull_pull_walk.h"
@@ -37,22 +38,6 @@ std::string group_of(const QuasiStaticStep& step) {
     return std::string(cured ? "cured rules, mu_s " : "paper's rules, mu_s ") +
            (stiction ? "above" : "equal to") + " mu_d, friction exponent " +
            (resolved ? "below 20" : "20 to 300");
-}
-
-const char* name_of(MotionKind kind) {
-    switch (kind) {
-        case MotionKind::rest:
-            return "rest";
-        case MotionKind::partial:
-            return "partial";
-        case MotionKind::mass:
-            return "mass";
-        case MotionKind::opposed:
-            return "opposed";
-        case MotionKind::slack:
-            return "slack";
-    }
-    return "";
 }
 
 void write(std::ostream& out, const EndConditions& ends) {
