@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
-#include "capstan/solver/bench_cable.h"
-#include "capstan/solver/pull_pull.h"
+#include "capstan/solver/bench_cables.h"
+#include "capstan/solver/bench_pulleys.h"
 
 namespace capstan {
 
@@ -15,100 +17,87 @@ struct BenchDescription {
     Inertia inertia;  ///< known ones; an effect's inertia comes on top
 };
 
-/// What moves the bench in one step. A torque at both pulleys moves nothing definite; a single cable's load
-/// end is held at a LoadAngle.
-struct BenchInputs {
-    MotorInput motor;
-    LoadInput load;
-    double time_step_s = 0.0;
-    double session_time_s = 0.0;  ///< since the session began: what drifts goes on from run to run
-};
-
 struct BenchReport {
     bool converged = true;
     int iterations = 0;
 };
 
-/// A bench over time, with the effects that the ideal model leaves out.
+/// Up to four benches of one geometry, moved by the same inputs, each with its own numbers and effects: a
+/// SIMD lane each. What a bench does never depends on its neighbours.
 ///
 /// Node displacements and the free pulley angles solve equilibrium by Newton's method: one tridiagonal system
-/// a cable (BenchCableEquations), bordered by the pulleys' torque balances. Friction has bristles (E22), by
-/// default so stiff that a bench without effects agrees with PullPull to the discretisation. 2 to 4
+/// a cable (BenchCables), bordered by the pulleys' torque balances (BenchPulleys). Friction has bristles
+/// (E22), by default so stiff that a bench without effects agrees with PullPull to the discretisation. 2 to 4
 /// iterations a step, O(nodes).
-class BenchSimulation {
+class BenchSimulations {
   public:
-    /// At rest under the pretension. Throws InvalidInput if a radius is not positive.
-    BenchSimulation(const BenchDescription& description, const BenchEffects& effects);
-    BenchSimulation(const BenchSimulation&) = delete;
-    BenchSimulation& operator=(const BenchSimulation&) = delete;
+    /// 1 to bench_lanes of each; pulleys, cable length and segments of the first are everybody's. At rest
+    /// under the pretension. Throws InvalidInput if a radius is not positive.
+    BenchSimulations(std::span<const BenchDescription> descriptions, std::span<const BenchEffects> effects);
+
+    int count() const { return count_; }
 
     /// Throws InvalidInput if the inputs determine no motion or are not finite; nothing has moved then.
-    BenchReport advance(const BenchInputs& inputs);
+    std::array<BenchReport, bench_lanes> advance(const BenchInputs& inputs);
 
-    /// What the encoders and torque cells of an ideal bench would read.
-    double motor_angle_rad() const { return motor_.encoder_rad; }
-    double load_angle_rad() const { return load_.encoder_rad; }
-    double motor_torque_Nm() const { return motor_.torque_Nm; }
-    double load_torque_Nm() const { return load_.torque_Nm; }
-
-    const BenchCable& cable_a() const { return cables_[0]; }
-    const BenchCable& cable_b() const { return cables_[1]; }
-    /// Between the segments' middles, where a segment's tension stands.
-    double tension_at_N(const BenchCable& cable, double position_m) const;
+    const BenchPulleys& pulleys(int bench) const { return pulleys_[static_cast<std::size_t>(bench)]; }
+    /// 0: cable A, 1: cable B.
+    double tension_at_N(int bench, int cable, double position_m) const {
+        return cables_.tension_at_N(cable, bench, position_m);
+    }
+    const BenchCables& cables() const { return cables_; }
 
   private:
-    struct Torque {
-        double value_Nm = 0.0;
-        double per_rad = 0.0;
+    using EachAngles = std::array<PulleyAngles, bench_lanes>;
+    using EachReport = std::array<BenchReport, bench_lanes>;
+    struct Free {
+        LaneFlags motor;
+        LaneFlags load;
     };
-    struct Pulley {
-        double angle_rad = 0.0;
-        double speed_rad_per_s = 0.0;
-        double bristle = 0.0;
-        double torque_Nm = 0.0;    // of the motor, on the load
-        double encoder_rad = 0.0;  // beyond the backlash
-    };
-    /// How its Coulomb friction finds its sign: by bristles, which hold at rest, or by speed.
-    enum class Bearing { finds_its_angle, is_turned };
-    static Bearing bearing_of(bool free);
-    static Torque losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
-                         double inertia_kg_m2, double angle_rad, double time_step_s);
-    static void turn(Pulley& pulley, double angle_rad, double time_step_s);
     /// The cables' pull on both pulleys, linear in their further turns.
     struct Pull {
-        EndTension motor;
-        EndTension load;
+        EndTensions motor;
+        EndTensions load;
     };
 
-    struct Free {
-        bool motor = false;
-        bool load = false;
-    };
-    struct Angles {
-        double motor_rad = 0.0;
-        double load_rad = 0.0;
-    };
+    void begin(const BenchInputs& inputs, const LaneFlags& active);
+    Pull linearise(const LaneFlags& active, const EachAngles& angles, double session_time_s);
+    void iterate(const BenchInputs& inputs, const Free& free, LaneFlags active, EachAngles& angles,
+                 EachReport& reports);
+    void bracket_load(const BenchInputs& inputs, const Free& free, int lane, EachAngles& angles,
+                      EachReport& reports);
 
-    bool iterate(const BenchInputs& inputs, const Free& free, Angles& angles, int& iterations);
-    bool bracket_load(const BenchInputs& inputs, const Free& free, Angles& angles, int& iterations);
-    bool motor_is_free(const BenchInputs& inputs) const;
-    bool load_is_free(const BenchInputs& inputs) const;
-    double load_inertia_kg_m2(const BenchInputs& inputs) const;
-    void begin_cables(const BenchInputs& inputs);
-    Pull linearise_cables(double motor_rad, double load_rad, double session_time_s);
-    Torque motor_balance(const BenchInputs& inputs, double angle_rad) const;
-    Torque load_balance(const BenchInputs& inputs, double angle_rad) const;
-    Torque held_by(const BenchInputs& inputs, double angle_rad) const;
-    void settle(const BenchInputs& inputs, double motor_rad, double load_rad);
+    int count_;
+    Pulleys radii_;
+    std::vector<BenchEffects> effects_;
+    std::vector<double> pretension_N_;
+    BenchCables cables_;
+    std::vector<BenchPulleys> pulleys_;
+};
 
-    BenchDescription description_;
-    BenchEffects effects_;
-    std::vector<double> wrap_per_load_angle_;     // nodes, empty if no bend moves
-    std::vector<double> added_wrap_rad_;          // nodes
-    std::vector<BenchCableEquations> equations_;  // cables
-    BenchCable cables_[2];
-    Pulley motor_;
-    Pulley load_;
+/// One bench over time, with the effects that the ideal model leaves out.
+class BenchSimulation {
+  public:
+    BenchSimulation(const BenchDescription& description, const BenchEffects& effects)
+        : benches_({&description, 1}, {&effects, 1}) {}
+
+    BenchReport advance(const BenchInputs& inputs) { return benches_.advance(inputs)[0]; }
+
+    /// What the encoders and torque cells of an ideal bench would read.
+    double motor_angle_rad() const { return benches_.pulleys(0).motor_angle_rad(); }
+    double load_angle_rad() const { return benches_.pulleys(0).load_angle_rad(); }
+    double motor_torque_Nm() const { return benches_.pulleys(0).motor_torque_Nm(); }
+    double load_torque_Nm() const { return benches_.pulleys(0).load_torque_Nm(); }
+    /// 0: cable A, 1: cable B.
+    double tension_at_N(int cable, double position_m) const {
+        return benches_.tension_at_N(0, cable, position_m);
+    }
+    /// At the pulleys.
+    double motor_tension_N(int cable) const { return benches_.cables().motor_tension_N(cable, 0); }
+    double load_tension_N(int cable) const { return benches_.cables().load_tension_N(cable, 0); }
+
+  private:
+    BenchSimulations benches_;
 };
 
 }  // namespace capstan

@@ -31,12 +31,11 @@ void simulate_closed_form(const BenchPlan& plan, const PullPull& pair, const Eac
 }
 
 // Tensions stand between the segments' middles, and at the pulleys.
-std::vector<double> node_tensions_N(const BenchSimulation& simulation, const BenchCable& cable,
-                                    const Cable& description) {
-    std::vector<double> tension_N = {cable.motor_tension_N};
+std::vector<double> node_tensions_N(const BenchSimulation& simulation, int cable, const Cable& description) {
+    std::vector<double> tension_N = {simulation.motor_tension_N(cable)};
     for (int node = 1; node < description.segments(); ++node)
         tension_N.push_back(simulation.tension_at_N(cable, description.node_position_m(node)));
-    tension_N.push_back(cable.load_tension_N);
+    tension_N.push_back(simulation.load_tension_N(cable));
     return tension_N;
 }
 
@@ -49,8 +48,8 @@ void simulate_with_effects(const BenchPlan& plan, const Cable& cable, const Each
                             simulation.load_torque_Nm(),
                             simulation.load_angle_rad(),
                             solved,
-                            node_tensions_N(simulation, simulation.cable_a(), cable),
-                            node_tensions_N(simulation, simulation.cable_b(), cable)};
+                            node_tensions_N(simulation, 0, cable),
+                            node_tensions_N(simulation, 1, cable)};
     };
     each(instant(0.0, true));
     for (int sample = 1; sample <= plan.samples(); ++sample) {

@@ -95,28 +95,39 @@ BenchNumbers CauseFitter::numbers(const std::vector<const CandidateCause*>& caus
     return bench;
 }
 
+void CauseFitter::write_residuals(std::size_t run, const TwinRun& twin,
+                                  Eigen::Ref<Eigen::VectorXd> all) const {
+    for (const ResidualSeries& series : series_) {
+        if (series.run != run) continue;
+        const std::vector<double>& measured = recording_.runs[run].values[series.channel];
+        const std::vector<double>& predicted = twin.values[series.channel];
+        for (std::size_t row = 0; row < series.rows; ++row) {
+            const std::size_t sample = static_cast<std::size_t>(series.first_sample) + row;
+            all[static_cast<Eigen::Index>(series.first_row + row)] =
+                (measured[sample * static_cast<std::size_t>(twin_.stride())] - predicted[sample]) /
+                series.scale;
+        }
+    }
+}
+
 Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>& causes,
                                        const Eigen::MatrixXd& coordinates,
                                        std::optional<std::size_t> left_out) const {
     const auto data = static_cast<Eigen::Index>(data_rows_);
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(data + coordinates.rows(), coordinates.cols());
     const int runs = static_cast<int>(recording_.runs.size());
-    parallel_for_each_index(runs * static_cast<int>(coordinates.cols()), threads_, [&](int task) {
+    const int columns = static_cast<int>(coordinates.cols());
+    const int groups = (columns + bench_lanes - 1) / bench_lanes;
+    parallel_for_each_index(runs * groups, threads_, [&](int task) {
         const auto run = static_cast<std::size_t>(task % runs);
-        const Eigen::Index column = task / runs;
+        const int first = task / runs * bench_lanes;
         if (run == left_out) return;
-        const TwinRun twin_run = twin_.run(run, numbers(causes, coordinates.col(column)));
-        for (const ResidualSeries& series : series_) {
-            if (series.run != run) continue;
-            const std::vector<double>& measured = recording_.runs[run].values[series.channel];
-            const std::vector<double>& predicted = twin_run.values[series.channel];
-            for (std::size_t row = 0; row < series.rows; ++row) {
-                const std::size_t sample = static_cast<std::size_t>(series.first_sample) + row;
-                all(static_cast<Eigen::Index>(series.first_row + row), column) =
-                    (measured[sample * static_cast<std::size_t>(twin_.stride())] - predicted[sample]) /
-                    series.scale;
-            }
-        }
+        std::vector<BenchNumbers> benches;
+        for (int column = first; column < std::min(columns, first + bench_lanes); ++column)
+            benches.push_back(numbers(causes, coordinates.col(column)));
+        const std::vector<TwinRun> twins = twin_.run_each(run, benches);
+        for (std::size_t lane = 0; lane < twins.size(); ++lane)
+            write_residuals(run, twins[lane], all.col(first + static_cast<Eigen::Index>(lane)));
     });
     // Priors. Of several causes the most generous speaks for each nominal number.
     double spread[nominal_coordinates] = {nominal_log_std, nominal_log_std, nominal_log_std};

@@ -55,6 +55,7 @@ class CauseFitter {
     double independent_samples() const;
 
   private:
+    void write_residuals(std::size_t run, const TwinRun& twin, Eigen::Ref<Eigen::VectorXd> all) const;
     Eigen::VectorXd roughly_sized(const std::vector<const CandidateCause*>& causes,
                                   const Eigen::VectorXd& start, std::optional<std::size_t> left_out,
                                   int& evaluations) const;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/solver/bench_simulation.h"
 
 namespace capstan::gap {
 
@@ -58,65 +57,95 @@ int EffectsTwin::samples(std::size_t run) const {
 }
 
 TwinRun EffectsTwin::run(std::size_t run_index, const BenchNumbers& numbers) const {
+    return run_each(run_index, std::span(&numbers, 1)).front();
+}
+
+std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index, std::span<const BenchNumbers> numbers) const {
     const RecordedRun& run = recording_.runs[run_index];
-    const DrivenInputs& inputs = inputs_[run_index];
-    BenchSimulation bench(description_of(recording_, run, numbers, options_.segments), numbers.effects);
-    const auto given = [&](const char* channel, int sample) {
-        return inputs
+    std::vector<BenchDescription> descriptions;
+    std::vector<BenchEffects> effects;
+    for (const BenchNumbers& each : numbers) {
+        descriptions.push_back(description_of(recording_, run, each, options_.segments));
+        effects.push_back(each.effects);
+    }
+    BenchSimulations benches(descriptions, effects);
+    const std::vector<Reader> readers = readers_of(run);
+
+    std::vector<TwinRun> twins(numbers.size());
+    for (TwinRun& twin : twins) {
+        twin.values.resize(recording_.channels.size());
+        for (const Reader& reader : readers)
+            twin.values[reader.channel].reserve(static_cast<std::size_t>(samples(run_index)));
+    }
+    for (int sample = 0; sample < run.samples(); sample += options_.stride) {
+        const auto reports = benches.advance(inputs_at(run_index, sample));
+        for (std::size_t bench = 0; bench < twins.size(); ++bench) {
+            if (!reports[bench].converged) ++twins[bench].unsolved_steps;
+            for (const Reader& reader : readers) {
+                const double value = reader.read(benches, static_cast<int>(bench));
+                twins[bench].values[reader.channel].push_back(
+                    std::isfinite(value) ? std::clamp(value, -absurd, absurd) : absurd);
+            }
+        }
+    }
+    const double time_step_s = options_.stride / recording_.sample_rate_Hz;
+    for (std::size_t bench = 0; bench < twins.size(); ++bench) {
+        for (const auto& [channel, faults] : numbers[bench].sensor_faults) {
+            std::vector<double>& values =
+                twins[bench].values[static_cast<std::size_t>(*recording_.channel(channel))];
+            if (!values.empty()) values = sensed(std::move(values), faults, time_step_s);
+        }
+    }
+    return twins;
+}
+
+BenchInputs EffectsTwin::inputs_at(std::size_t run_index, int sample) const {
+    const RecordedRun& run = recording_.runs[run_index];
+    const auto given = [&](const char* channel) {
+        return inputs_[run_index]
             .values[static_cast<std::size_t>(*recording_.channel(channel))][static_cast<std::size_t>(sample)];
     };
-    const bool by_torque = !run.drives("motor_angle");
-    const bool load_driven = run.drives("load_angle");
-    const bool by_load_torque = !load_driven && run.drives("load_torque");
+    BenchInputs step{MotorAngle{0.0}, LoadAngle{0.0}, options_.stride / recording_.sample_rate_Hz,
+                     run.session_start_s + run.time_s[static_cast<std::size_t>(sample)]};
+    if (run.drives("motor_angle")) {
+        step.motor = MotorAngle{given("motor_angle")};
+    } else {
+        step.motor = MotorTorque{given("motor_torque")};
+    }
+    if (run.drives("load_angle")) {
+        step.load = LoadAngle{given("load_angle")};
+    } else if (run.drives("load_torque")) {
+        step.load = LoadTorque{given("load_torque")};
+    }
+    return step;
+}
 
-    TwinRun twin;
-    twin.values.resize(recording_.channels.size());
-    std::vector<std::pair<std::size_t, std::function<double()>>> readers;
+// How each predicted channel is read off a bench.
+std::vector<EffectsTwin::Reader> EffectsTwin::readers_of(const RecordedRun& run) const {
+    std::vector<Reader> readers;
     for (std::size_t channel = 0; channel < recording_.channels.size(); ++channel) {
         const std::string& name = recording_.channels[channel].name;
         if (run.drives(name)) continue;
-        if (name == "motor_torque") readers.emplace_back(channel, [&] { return bench.motor_torque_Nm(); });
-        if (name == "motor_angle") readers.emplace_back(channel, [&] { return bench.motor_angle_rad(); });
-        if (name == "load_torque") readers.emplace_back(channel, [&] { return bench.load_torque_Nm(); });
-        if (name == "load_angle" && by_load_torque)
-            readers.emplace_back(channel, [&] { return bench.load_angle_rad(); });
+        const auto of_pulleys = [&](double (BenchPulleys::*value)() const) {
+            readers.push_back({channel, [value](const BenchSimulations& benches, int bench) {
+                                   return (benches.pulleys(bench).*value)();
+                               }});
+        };
+        if (name == "motor_torque") of_pulleys(&BenchPulleys::motor_torque_Nm);
+        if (name == "motor_angle") of_pulleys(&BenchPulleys::motor_angle_rad);
+        if (name == "load_torque") of_pulleys(&BenchPulleys::load_torque_Nm);
+        if (name == "load_angle" && !run.drives("load_angle") && run.drives("load_torque"))
+            of_pulleys(&BenchPulleys::load_angle_rad);
     }
     for (const TensionSensor& sensor : recording_.tension_sensors) {
-        const BenchCable& cable = sensor.cable == CableName::a ? bench.cable_a() : bench.cable_b();
         if (run.drives(sensor.channel)) continue;
-        readers.emplace_back(
-            static_cast<std::size_t>(*recording_.channel(sensor.channel)),
-            [&bench, &cable, at_m = sensor.position_m] { return bench.tension_at_N(cable, at_m); });
+        readers.push_back({static_cast<std::size_t>(*recording_.channel(sensor.channel)),
+                           [cable = sensor.cable == CableName::a ? 0 : 1, at_m = sensor.position_m](
+                               const BenchSimulations& benches, int bench) {
+                               return benches.tension_at_N(bench, cable, at_m);
+                           }});
     }
-    for (auto& [channel, reader] : readers)
-        twin.values[channel].reserve(static_cast<std::size_t>(samples(run_index)));
-
-    const double time_step_s = options_.stride / recording_.sample_rate_Hz;
-    for (int sample = 0; sample < run.samples(); sample += options_.stride) {
-        BenchInputs step{MotorAngle{0.0}, LoadAngle{0.0}, time_step_s,
-                         run.session_start_s + run.time_s[static_cast<std::size_t>(sample)]};
-        if (by_torque) {
-            step.motor = MotorTorque{given("motor_torque", sample)};
-        } else {
-            step.motor = MotorAngle{given("motor_angle", sample)};
-        }
-        if (load_driven) {
-            step.load = LoadAngle{given("load_angle", sample)};
-        } else if (by_load_torque) {
-            step.load = LoadTorque{given("load_torque", sample)};
-        }
-        if (!bench.advance(step).converged) ++twin.unsolved_steps;
-        for (auto& [channel, reader] : readers) {
-            const double value = reader();
-            twin.values[channel].push_back(std::isfinite(value) ? std::clamp(value, -absurd, absurd)
-                                                                : absurd);
-        }
-    }
-    for (const auto& [channel, faults] : numbers.sensor_faults) {
-        std::vector<double>& values = twin.values[static_cast<std::size_t>(*recording_.channel(channel))];
-        if (!values.empty()) values = sensed(std::move(values), faults, time_step_s);
-    }
-    return twin;
+    return readers;
 }
 
 }  // namespace capstan::gap

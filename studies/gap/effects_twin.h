@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "capstan/gap/driven_inputs.h"
 #include "capstan/gap/recording.h"
 #include "capstan/gap/twin.h"
+#include "capstan/solver/bench_simulation.h"
 
 namespace capstan::gap {
 
@@ -42,8 +44,17 @@ class EffectsTwin {
 
     /// channels x predicted samples; empty for driven channels.
     TwinRun run(std::size_t run, const BenchNumbers& numbers) const;
+    /// The same run of up to bench_lanes benches at once; each the same bits as alone.
+    std::vector<TwinRun> run_each(std::size_t run, std::span<const BenchNumbers> numbers) const;
 
   private:
+    struct Reader {
+        std::size_t channel = 0;
+        std::function<double(const BenchSimulations&, int bench)> read;
+    };
+    std::vector<Reader> readers_of(const RecordedRun& run) const;
+    BenchInputs inputs_at(std::size_t run, int sample) const;
+
     const Recording& recording_;
     EffectsTwinOptions options_;
     std::vector<DrivenInputs> inputs_;

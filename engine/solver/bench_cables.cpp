@@ -1,0 +1,199 @@
+#include "capstan/solver/bench_cables.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace capstan {
+
+namespace {
+
+// Bristles so stiff that the closed-form step's fronts come out, and so soft that Newton's method sees where
+// a front goes: a front's own displacements are of this size.
+constexpr double numerical_presliding_m = 3e-6;
+
+Presliding bristles_of(const Presliding& effect) {
+    if (effect.length_m > numerical_presliding_m) return effect;
+    return {numerical_presliding_m, 0.0};
+}
+
+// Wrap angle of the cable that each node stands for: half of each segment beside it.
+std::vector<double> node_wrap_rad(const Cable& cable) {
+    std::vector<double> wrap(static_cast<std::size_t>(cable.nodes()), 0.0);
+    for (std::size_t segment = 0; segment < cable.wrap_angle_rad().size(); ++segment) {
+        wrap[segment] += 0.5 * cable.wrap_angle_rad()[segment];
+        wrap[segment + 1] += 0.5 * cable.wrap_angle_rad()[segment];
+    }
+    return wrap;
+}
+
+// Spreads an angle over the nodes whose cable lies in a stretch.
+void add_bend(const Cable& cable, const Stretch& stretch, double angle_rad, std::vector<double>& nodes) {
+    const double half_m = 0.5 * cable.segment_length_m();
+    for (int node = 0; node < cable.nodes(); ++node) {
+        const double middle_m = cable.node_position_m(node);
+        nodes[static_cast<std::size_t>(node)] +=
+            angle_rad * stretch.share_within(middle_m - half_m, middle_m + half_m);
+    }
+}
+
+}  // namespace
+
+BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
+                         bool has_second_cable) {
+    group_.nodes = cables.front().nodes();
+    group_.cables = has_second_cable ? 2 : 1;
+    group_.segment_m = cables.front().segment_length_m();
+    const auto nodes = static_cast<std::size_t>(group_.nodes);
+    for (int c = 0; c < group_.cables; ++c) {
+        Arrays& arrays = arrays_[c];
+        for (PerNode* each :
+             {&arrays.before_m, &arrays.before_bend, &arrays.lagging_speed_m_per_s, &arrays.crept_m,
+              &arrays.before_tension_N, &arrays.wrap_rad, &arrays.wrap_per_load_angle, &arrays.friction,
+              &arrays.displacement_m, &arrays.bend, &arrays.tension_N, &arrays.upper, &arrays.value,
+              &arrays.by_motor, &arrays.by_load})
+            each->resize(nodes);
+        group_.cable[c] = {arrays.before_m.data(),
+                           arrays.before_bend.data(),
+                           arrays.lagging_speed_m_per_s.data(),
+                           arrays.crept_m.data(),
+                           arrays.before_tension_N.data(),
+                           arrays.wrap_rad.data(),
+                           arrays.wrap_per_load_angle.data(),
+                           arrays.friction.data(),
+                           arrays.displacement_m.data(),
+                           arrays.bend.data(),
+                           arrays.tension_N.data(),
+                           arrays.upper.data(),
+                           arrays.value.data(),
+                           arrays.by_motor.data(),
+                           arrays.by_load.data()};
+    }
+    // Lanes without a bench of their own carry the first one's along.
+    for (int lane = 0; lane < bench_lanes; ++lane) {
+        const std::size_t bench =
+            static_cast<std::size_t>(lane) < cables.size() ? static_cast<std::size_t>(lane) : 0;
+        set_laws(lane, cables[bench], effects[bench]);
+        set_rest(lane, cables[bench], effects[bench]);
+    }
+}
+
+void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& effects) {
+    CableLaws& laws = group_.laws;
+    const double linear_m_per_N = group_.segment_m / cable.axial_stiffness_N();
+    const Presliding bristles = bristles_of(effects.presliding);
+    laws.stretch_m_per_N.of[lane] = linear_m_per_N;
+    laws.creep_m_per_N.of[lane] = effects.creep.ratio * linear_m_per_N;
+    creep_time_s_.of[lane] = effects.creep.time_constant_s;
+    laws.toe_m.of[lane] = group_.segment_m * effects.nonlinear_stiffness.toe_strain;
+    laws.toe_tension_N.of[lane] = effects.nonlinear_stiffness.toe_tension_N;
+    laws.bristle_m.of[lane] = bristles.length_m;
+    laws.bristle_exponent.of[lane] = bristles.exponent;
+    laws.rigid_N_per_m.of[lane] = effects.bending_stiffness.drag_N_per_m;
+    viscous_N_s_per_m2_.of[lane] = effects.viscous_friction.drag_N_s_per_m2;
+    laws.dynamic_friction.of[lane] = cable.dynamic_friction();
+    laws.stribeck_friction.of[lane] = effects.stribeck.extra_friction;
+    laws.stribeck_speed_m_per_s.of[lane] = effects.stribeck.speed_m_per_s;
+    stribeck_memory_s_.of[lane] = effects.stribeck.memory_s;
+    laws.load_exponent.of[lane] = effects.load_dependent_friction.exponent;
+    laws.load_reference_N_per_m.of[lane] = effects.load_dependent_friction.reference_N_per_m;
+    const bool varies = effects.stribeck.extra_friction != 0.0 ||
+                        effects.load_dependent_friction.exponent != 1.0 ||
+                        effects.moving_bend.extra_angle_per_load_angle != 0.0;
+    laws.varying_friction.of[lane] = varies ? 1.0 : 0.0;
+    laws.any_varying_friction |= varies;
+    laws.any_creep |= effects.creep.ratio > 0.0;
+    laws.any_toe |= effects.nonlinear_stiffness.toe_strain > 0.0;
+    laws.any_bristle_exponent |= bristles.exponent != 0.0;
+
+    for (int c = 0; c < group_.cables; ++c) {
+        std::vector<double> wrap_rad = node_wrap_rad(cable);
+        const LocalBend& bend = effects.local_bend;
+        if (bend.cables != (c == 0 ? BentCables::only_b : BentCables::only_a))
+            add_bend(cable, bend.stretch, bend.extra_angle_rad, wrap_rad);
+        std::vector<double> moving(wrap_rad.size(), 0.0);
+        if (effects.moving_bend.extra_angle_per_load_angle != 0.0)
+            add_bend(cable, effects.moving_bend.stretch, effects.moving_bend.extra_angle_per_load_angle,
+                     moving);
+        for (std::size_t node = 0; node < wrap_rad.size(); ++node) {
+            arrays_[c].wrap_rad[node].of[lane] = wrap_rad[node];
+            arrays_[c].wrap_per_load_angle[node].of[lane] = moving[node];
+            arrays_[c].friction[node].of[lane] =
+                std::tanh(0.5 * cable.dynamic_friction() * std::max(0.0, wrap_rad[node]));
+        }
+    }
+}
+
+void BenchCables::set_rest(int lane, const Cable& cable, const BenchEffects& effects) {
+    const double pretension_N = cable.pretension_N();
+    rest_[lane] = {cable.axial_stiffness_N(), effects.creep, effects.nonlinear_stiffness,
+                   effects.conduit_compliance.load_m_per_N};
+    const double motor_end_m = rest_displacement_m(lane, pretension_N);
+    for (int c = 0; c < group_.cables; ++c) {
+        for (int node = 0; node < group_.nodes; ++node) {
+            const auto at = static_cast<std::size_t>(node);
+            arrays_[c].before_m[at].of[lane] = motor_end_m + node * stretched_m(rest_[lane], pretension_N);
+            arrays_[c].crept_m[at].of[lane] = crept_m(rest_[lane], pretension_N);
+            arrays_[c].before_tension_N[at].of[lane] = pretension_N;
+        }
+        motor_tension_N_[c].of[lane] = load_tension_N_[c].of[lane] = pretension_N;
+    }
+}
+
+// Of one segment long at rest under a tension.
+double BenchCables::crept_m(const Rest& rest, double tension_N) const {
+    return rest.creep.ratio * group_.segment_m * tension_N / rest.axial_stiffness_N;
+}
+
+double BenchCables::stretched_m(const Rest& rest, double tension_N) const {
+    return crept_m(rest, tension_N) + group_.segment_m * rest.toe.strain(tension_N, rest.axial_stiffness_N);
+}
+
+double BenchCables::rest_displacement_m(int bench, double tension_N) const {
+    const Rest& rest = rest_[bench];
+    return -rest.load_compliance_m_per_N * tension_N - (group_.nodes - 1) * stretched_m(rest, tension_N);
+}
+
+void BenchCables::let_turn(bool motor, bool load) {
+    group_.motor_turns = motor;
+    group_.load_turns = load;
+}
+
+void BenchCables::begin(const LaneFlags& active, const LaneValues& load_angle_rad, double time_step_s) {
+    CableLaws& laws = group_.laws;
+    group_.time_step_s = time_step_s;
+    for (int lane = 0; lane < bench_lanes; ++lane) {
+        laws.creep_share.of[lane] =
+            laws.creep_m_per_N.of[lane] > 0.0 ? time_step_s / (creep_time_s_.of[lane] + time_step_s) : 0.0;
+        laws.stribeck_share.of[lane] = time_step_s / (stribeck_memory_s_.of[lane] + time_step_s);
+        laws.viscous_N_per_m2.of[lane] = viscous_N_s_per_m2_.of[lane] / time_step_s;
+    }
+    begin_cables(group_, active, load_angle_rad);
+}
+
+BenchCables::Ends BenchCables::linearise(const LaneFlags& active, const EndPlaces (&motor)[most_cables],
+                                         const EndPlaces (&load)[most_cables]) {
+    Ends ends;
+    linearise_cables(group_, active, motor, load, ends.motor, ends.load);
+    return ends;
+}
+
+LaneValues BenchCables::move(const LaneValues& motor_rad, const LaneValues& load_rad,
+                             const LaneValues& share) {
+    return move_cables(group_, motor_rad, load_rad, share);
+}
+
+void BenchCables::store() {
+    store_cables(group_, motor_tension_N_, load_tension_N_);
+}
+
+double BenchCables::tension_at_N(int cable, int bench, double position_m) const {
+    const int segments = group_.nodes - 1;
+    const double place = std::clamp(position_m / group_.segment_m - 0.5, 0.0, segments - 1.0);
+    const int segment = std::clamp(static_cast<int>(place), 0, std::max(0, segments - 2));
+    const double fraction = place - segment;
+    const PerNode& tension_N = arrays_[cable].before_tension_N;
+    return (1.0 - fraction) * tension_N[static_cast<std::size_t>(segment)].of[bench] +
+           fraction * tension_N[static_cast<std::size_t>(std::min(segment + 1, segments - 1))].of[bench];
+}
+
+}  // namespace capstan

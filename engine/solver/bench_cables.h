@@ -1,0 +1,76 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "capstan/cable/cable.h"
+#include "capstan/effects/bench_effects.h"
+#include "capstan/solver/bench_cables_kernel.h"
+
+namespace capstan {
+
+/// The cables of up to four benches that differ in their numbers: one each, or a pair.
+///
+/// A node stands for the cable from the middle of one segment to that of the next: tension is constant in a
+/// segment and falls across nodes (E1), so t_i - t_{i-1} = z tanh(mu theta / 2) (t_i + t_{i-1}) + drags, z
+/// the bristles' bend. Newton's method on the nodes' displacements, a tridiagonal system each.
+class BenchCables {
+  public:
+    /// `cables`: one of each bench, all with the same length and segments. At rest under its pretension, the
+    /// load end where its tension lets it, creep at an end.
+    BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects, bool has_second_cable);
+    BenchCables(const BenchCables&) = delete;
+    BenchCables& operator=(const BenchCables&) = delete;
+
+    /// Where a cable's motor end rests under a tension [m].
+    double rest_displacement_m(int bench, double tension_N) const;
+
+    void begin(const LaneFlags& active, const LaneValues& load_angle_rad, double time_step_s);
+    /// Which pulleys any bench lets find their angle: the others' turns are not solved for.
+    void let_turn(bool motor, bool load);
+
+    struct Ends {
+        EndTensions motor[most_cables];
+        EndTensions load[most_cables];
+    };
+    Ends linearise(const LaneFlags& active, const EndPlaces (&motor)[most_cables],
+                   const EndPlaces (&load)[most_cables]);
+    LaneValues move(const LaneValues& motor_rad, const LaneValues& load_rad, const LaneValues& share);
+    /// Makes the present guess the step's outcome.
+    void store();
+
+    int count() const { return group_.cables; }
+    /// At the pulley, beyond the friction of the last half segment.
+    double motor_tension_N(int cable, int bench) const { return motor_tension_N_[cable].of[bench]; }
+    double load_tension_N(int cable, int bench) const { return load_tension_N_[cable].of[bench]; }
+    /// Between the segments' middles, where a segment's tension stands.
+    double tension_at_N(int cable, int bench, double position_m) const;
+
+  private:
+    using PerNode = std::vector<LaneValues>;
+    struct Arrays {
+        PerNode before_m, before_bend, lagging_speed_m_per_s, crept_m, before_tension_N, wrap_rad,
+            wrap_per_load_angle, friction, displacement_m, bend, tension_N, upper, value, by_motor, by_load;
+    };
+    /// Of one bench: what its cable is stretched by at rest.
+    struct Rest {
+        double axial_stiffness_N = 0.0;
+        Creep creep;
+        NonlinearStiffness toe;
+        double load_compliance_m_per_N = 0.0;
+    };
+    void set_laws(int lane, const Cable& cable, const BenchEffects& effects);
+    void set_rest(int lane, const Cable& cable, const BenchEffects& effects);
+    double crept_m(const Rest& rest, double tension_N) const;
+    double stretched_m(const Rest& rest, double tension_N) const;
+
+    CablesGroup group_;  // refers to the arrays
+    // Times in the laws that a step's length turns into shares.
+    LaneValues creep_time_s_, stribeck_memory_s_, viscous_N_s_per_m2_;
+    Rest rest_[bench_lanes];
+    Arrays arrays_[most_cables];
+    LaneValues motor_tension_N_[most_cables];
+    LaneValues load_tension_N_[most_cables];
+};
+
+}  // namespace capstan

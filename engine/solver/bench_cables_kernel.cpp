@@ -1,0 +1,326 @@
+// A bench a lane. No fused multiply-add, and what a lane holds never depends on its neighbours.
+#include "capstan/solver/bench_cables_kernel.h"
+
+#include "capstan/solver/chosen_target.h"
+
+// foreach_target.h comes before highway.h.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "capstan/solver/bench_cables_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include "capstan/solver/bench_laws-inl.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace capstan::bench::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// What one node, or a segment, is like in the present guess.
+struct NodeGuess {
+    Lanes friction, bend, bend_per_m, slid_m;
+};
+struct SegmentGuess {
+    Lanes tension_N, per_m;
+};
+
+HWY_INLINE NodeGuess node_guess(const CableLanes& cable, const Laws& laws, int node, int lane) {
+    const Lanes slid_m = load(cable.displacement_m[node], lane) - load(cable.before_m[node], lane);
+    const LaneBristle bristle = bristle_after(laws, load(cable.before_bend[node], lane), slid_m);
+    store(bristle.bend, cable.bend[node], lane);
+    return {load(cable.friction[node], lane), bristle.bend, bristle.bend_per_m, slid_m};
+}
+
+HWY_INLINE SegmentGuess segment_guess(const CableLanes& cable, const Laws& laws, Which active, int segment,
+                                      int lane) {
+    const Lanes stretch_m =
+        load(cable.displacement_m[segment + 1], lane) - load(cable.displacement_m[segment], lane);
+    const Lanes last_N = load(cable.tension_N[segment], lane);
+    const Lanes crept_m =
+        laws.of->any_creep ? load(cable.crept_m[segment], lane) * laws.creep_stays : lanes_of(0.0);
+    const LaneTension tension = tension_of(laws, stretch_m - crept_m, last_N);
+    store(hn::IfThenElse(active, tension.value_N, last_N), cable.tension_N[segment], lane);
+    return {tension.value_N, tension.per_m};
+}
+
+// A tension beyond an end node's half segment, and how it goes with that node and its neighbour.
+struct InnerEnd {
+    Lanes value_N, per_end_m, per_inner_m;
+};
+
+// `way` -1 at the motor end, 1 at the load end: T = t (1 + way q) / (1 - way q) + way (drags), q = z tanh(mu
+// theta / 2).
+HWY_INLINE InnerEnd inner_end(const Laws& laws, const NodeGuess& node, const SegmentGuess& segment,
+                              double way_value, double span_m) {
+    const Lanes one = lanes_of(1.0);
+    const Lanes way = lanes_of(way_value);
+    const Lanes span = lanes_of(span_m);
+    const Lanes pressing_N = hn::Max(lanes_of(0.0), segment.tension_N);
+    const Lanes q = way * hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), node.friction * node.bend);
+    const Lanes grown = (one + q) / (one - q);
+    const Lanes rigid_N = laws.rigid_N_per_m * span;
+    const Lanes viscous_N_per_m = laws.viscous_N_per_m2 * span;
+    const Lanes by_bend_N = lanes_of(2.0) * node.friction * pressing_N / ((one - q) * (one - q)) + rigid_N;
+    const Lanes stiffness = segment.per_m * grown;
+    return {segment.tension_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.slid_m),
+            way * (stiffness + by_bend_N * node.bend_per_m + viscous_N_per_m), hn::Neg(way) * stiffness};
+}
+
+template <int cables>
+HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane, const EndPlaces* motor,
+                                const EndPlaces* load_end, EndTensions* at_motor, EndTensions* at_load) {
+    const Laws laws(group.laws, lane);
+    const int last = group.nodes - 1;
+    const double half_m = 0.5 * group.segment_m;
+    const Lanes one = lanes_of(1.0);
+    const Lanes zero = lanes_of(0.0);
+    SegmentGuess before[cables];
+    InnerEnd inner_motor[cables];
+    Lanes upper[cables], value[cables], by_motor[cables];
+
+    // Motor end: u_0 = at + per_rad turn + compliance T.
+    for (int c = 0; c < cables; ++c) {
+        const CableLanes& cable = group.cable[c];
+        before[c] = segment_guess(cable, laws, active, 0, lane);
+        inner_motor[c] = inner_end(laws, node_guess(cable, laws, 0, lane), before[c], -1.0, half_m);
+        const Lanes gives = load(motor[c].compliance_m_per_N, lane);
+        const Lanes pivot = one / (one - gives * inner_motor[c].per_end_m);
+        upper[c] = hn::Neg(gives) * inner_motor[c].per_inner_m * pivot;
+        value[c] = (load(motor[c].at_m, lane) + gives * inner_motor[c].value_N -
+                    load(cable.displacement_m[0], lane)) *
+                   pivot;
+        by_motor[c] = load(motor[c].per_rad, lane) * pivot;
+        store(upper[c], cable.upper[0], lane);
+        store(value[c], cable.value[0], lane);
+        store(by_motor[c], cable.by_motor[0], lane);
+    }
+
+    const Lanes rigid_N = laws.rigid_N_per_m * lanes_of(group.segment_m);
+    const Lanes viscous_N_per_m = laws.viscous_N_per_m2 * lanes_of(group.segment_m);
+    for (int node = 1; node < last; ++node) {
+        for (int c = 0; c < cables; ++c) {
+            const CableLanes& cable = group.cable[c];
+            const SegmentGuess behind = segment_guess(cable, laws, active, node, lane);
+            const NodeGuess here = node_guess(cable, laws, node, lane);
+            // A slack stretch presses on nothing.
+            const Lanes sum_N = hn::Max(zero, before[c].tension_N + behind.tension_N);
+            const Lanes q = hn::IfThenElseZero(hn::Gt(sum_N, zero), here.friction * here.bend);
+            const Lanes out_of_balance_N = behind.tension_N - before[c].tension_N - q * sum_N -
+                                           rigid_N * here.bend - viscous_N_per_m * here.slid_m;
+            const Lanes lower = before[c].per_m * (one + q);
+            const Lanes above = behind.per_m * (one - q);
+            const Lanes drag = (here.friction * sum_N + rigid_N) * here.bend_per_m + viscous_N_per_m;
+            const Lanes pivot = one / hn::Neg(lower + above + drag + lower * upper[c]);
+            upper[c] = above * pivot;
+            value[c] = (hn::Neg(out_of_balance_N) - lower * value[c]) * pivot;
+            store(upper[c], cable.upper[node], lane);
+            store(value[c], cable.value[node], lane);
+            if (group.motor_turns) {
+                by_motor[c] = hn::Neg(lower) * by_motor[c] * pivot;
+                store(by_motor[c], cable.by_motor[node], lane);
+            }
+            before[c] = behind;
+        }
+    }
+
+    // Load end: u_last = at + per_rad turn - compliance T.
+    for (int c = 0; c < cables; ++c) {
+        const CableLanes& cable = group.cable[c];
+        const InnerEnd inner = inner_end(laws, node_guess(cable, laws, last, lane), before[c], 1.0, half_m);
+        const Lanes gives = load(load_end[c].compliance_m_per_N, lane);
+        const Lanes lower = gives * inner.per_inner_m;
+        const Lanes pivot = one / (one + gives * inner.per_end_m - lower * upper[c]);
+        Lanes moved = (load(load_end[c].at_m, lane) - gives * inner.value_N -
+                       load(cable.displacement_m[last], lane) - lower * value[c]) *
+                      pivot;
+        Lanes moved_by_motor = group.motor_turns ? hn::Neg(lower) * by_motor[c] * pivot : zero;
+        Lanes moved_by_load = load(load_end[c].per_rad, lane) * pivot;
+        store(moved, cable.value[last], lane);
+        store(moved_by_motor, cable.by_motor[last], lane);
+        store(moved_by_load, cable.by_load[last], lane);
+        const auto set = [&](const InnerEnd& end, EndTensions& of, Lanes v0, Lanes v1, Lanes m0, Lanes m1,
+                             Lanes l0, Lanes l1) HWY_ATTR {
+            store(end.value_N + end.per_end_m * v0 + end.per_inner_m * v1, of.value_N, lane);
+            store(end.per_end_m * m0 + end.per_inner_m * m1, of.per_motor_rad, lane);
+            store(end.per_end_m * l0 + end.per_inner_m * l1, of.per_load_rad, lane);
+        };
+        for (int node = last; node-- > 0;) {
+            const Lanes up = load(cable.upper[node], lane);
+            const Lanes end_value = moved;
+            const Lanes end_by_motor = moved_by_motor;
+            const Lanes end_by_load = moved_by_load;
+            moved = load(cable.value[node], lane) - up * moved;
+            store(moved, cable.value[node], lane);
+            if (group.motor_turns) {
+                moved_by_motor = load(cable.by_motor[node], lane) - up * moved_by_motor;
+                store(moved_by_motor, cable.by_motor[node], lane);
+            }
+            if (group.load_turns) {
+                moved_by_load = hn::Neg(up) * moved_by_load;
+                store(moved_by_load, cable.by_load[node], lane);
+            }
+            if (node == last - 1)
+                set(inner, at_load[c], end_value, moved, end_by_motor, moved_by_motor, end_by_load,
+                    moved_by_load);
+            if (node == 0)
+                set(inner_motor[c], at_motor[c], moved, end_value, moved_by_motor, end_by_motor,
+                    moved_by_load, end_by_load);
+        }
+    }
+}
+
+void linearise(const CablesGroup& group, const LaneFlags& active, const EndPlaces* motor,
+               const EndPlaces* load_end, EndTensions* at_motor, EndTensions* at_load) {
+    for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
+        const Which which = flags_at(active, lane);
+        if (group.cables == 2) {
+            linearise_lanes<2>(group, which, lane, motor, load_end, at_motor, at_load);
+        } else {
+            linearise_lanes<1>(group, which, lane, motor, load_end, at_motor, at_load);
+        }
+    }
+}
+
+void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& load_angle_rad) {
+    for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
+        const Which which = flags_at(active, lane);
+        const Laws laws(group.laws, lane);
+        const auto copy = [&](const LaneValues& from, LaneValues& to) HWY_ATTR {
+            store(hn::IfThenElse(which, load(from, lane), load(to, lane)), to, lane);
+        };
+        for (int c = 0; c < group.cables; ++c) {
+            const CableLanes& cable = group.cable[c];
+            const int last = group.nodes - 1;
+            for (int node = 0; node <= last; ++node) copy(cable.before_m[node], cable.displacement_m[node]);
+            for (int segment = 0; segment < last; ++segment)
+                copy(cable.before_tension_N[segment], cable.tension_N[segment]);
+            if (!group.laws.any_varying_friction) continue;
+            for (int node = 0; node <= last; ++node) {
+                const Lanes tension_N =
+                    lanes_of(0.5) * (load(cable.before_tension_N[node < last ? node : last - 1], lane) +
+                                     load(cable.before_tension_N[node > 0 ? node - 1 : 0], lane));
+                const Lanes wrap_rad =
+                    hn::Max(lanes_of(0.0),
+                            load(cable.wrap_rad[node], lane) +
+                                load(load_angle_rad, lane) * load(cable.wrap_per_load_angle[node], lane));
+                const double span_m = (node == 0 || node == last ? 0.5 : 1.0) * group.segment_m;
+                const Lanes friction =
+                    friction_of(laws, wrap_rad, load(cable.lagging_speed_m_per_s[node], lane),
+                                tension_N * wrap_rad / lanes_of(span_m));
+                const Lanes constant = load(cable.friction[node], lane);
+                store(hn::IfThenElse(laws.varies, friction, constant), cable.friction[node], lane);
+            }
+        }
+    }
+}
+
+LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
+                const LaneValues& share_values) {
+    LaneValues largest;
+    for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
+        const Lanes share = load(share_values, lane);
+        const Which moves = hn::Ne(share, lanes_of(0.0));
+        const Lanes motor = load(motor_rad, lane);
+        const Lanes turned = load(load_rad, lane);
+        Lanes most = lanes_of(0.0);
+        for (int c = 0; c < group.cables; ++c) {
+            const CableLanes& cable = group.cable[c];
+            for (int node = 0; node < group.nodes; ++node) {
+                Lanes move_m = load(cable.value[node], lane);
+                if (group.motor_turns) move_m = move_m + motor * load(cable.by_motor[node], lane);
+                if (group.load_turns) move_m = move_m + turned * load(cable.by_load[node], lane);
+                const Lanes here = load(cable.displacement_m[node], lane);
+                store(hn::IfThenElse(moves, here + share * move_m, here), cable.displacement_m[node], lane);
+                // A move that is no number is the largest.
+                const Lanes size = hn::Abs(move_m);
+                most = hn::IfThenElse(hn::Le(size, most), most, size);
+            }
+        }
+        store(most, largest, lane);
+    }
+    return largest;
+}
+
+void keep(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N) {
+    for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
+        const Laws laws(group.laws, lane);
+        const Which all = hn::Eq(lanes_of(0.0), lanes_of(0.0));
+        const int last = group.nodes - 1;
+        const double half_m = 0.5 * group.segment_m;
+        for (int c = 0; c < group.cables; ++c) {
+            const CableLanes& cable = group.cable[c];
+            const SegmentGuess first = segment_guess(cable, laws, all, 0, lane);
+            SegmentGuess final_segment = first;
+            for (int segment = 1; segment < last; ++segment)
+                final_segment = segment_guess(cable, laws, all, segment, lane);
+            store(inner_end(laws, node_guess(cable, laws, 0, lane), first, -1.0, half_m).value_N,
+                  motor_tension_N[c], lane);
+            for (int node = 1; node < last; ++node) node_guess(cable, laws, node, lane);
+            store(inner_end(laws, node_guess(cable, laws, last, lane), final_segment, 1.0, half_m).value_N,
+                  load_tension_N[c], lane);
+            for (int node = 0; node <= last; ++node) {
+                const Lanes now_m = load(cable.displacement_m[node], lane);
+                if (group.laws.any_varying_friction) {
+                    const Lanes speed =
+                        hn::Abs(now_m - load(cable.before_m[node], lane)) / lanes_of(group.time_step_s);
+                    const Lanes lagging = load(cable.lagging_speed_m_per_s[node], lane);
+                    store(lagging + laws.stribeck_share * (speed - lagging),
+                          cable.lagging_speed_m_per_s[node], lane);
+                }
+                store(now_m, cable.before_m[node], lane);
+                store(load(cable.bend[node], lane), cable.before_bend[node], lane);
+            }
+            for (int segment = 0; segment < last; ++segment) {
+                const Lanes tension_N = load(cable.tension_N[segment], lane);
+                store(tension_N, cable.before_tension_N[segment], lane);
+                if (!group.laws.any_creep) continue;
+                store(load(cable.crept_m[segment], lane) * laws.creep_stays +
+                          laws.creep_share * laws.creep_m_per_N * tension_N,
+                      cable.crept_m[segment], lane);
+            }
+        }
+    }
+}
+
+}  // namespace capstan::bench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace capstan {
+namespace bench {
+
+HWY_EXPORT(begin);
+HWY_EXPORT(linearise);
+HWY_EXPORT(move);
+HWY_EXPORT(keep);
+
+}  // namespace bench
+
+void begin_cables(const CablesGroup& group, const LaneFlags& active, const LaneValues& load_angle_rad) {
+    using namespace bench;
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(begin); });
+    chosen(group, active, load_angle_rad);
+}
+
+void linearise_cables(const CablesGroup& group, const LaneFlags& active, const EndPlaces* motor,
+                      const EndPlaces* load, EndTensions* at_motor, EndTensions* at_load) {
+    using namespace bench;
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(linearise); });
+    chosen(group, active, motor, load, at_motor, at_load);
+}
+
+LaneValues move_cables(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
+                       const LaneValues& share) {
+    using namespace bench;
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(move); });
+    return chosen(group, motor_rad, load_rad, share);
+}
+
+void store_cables(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N) {
+    using namespace bench;
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(keep); });
+    chosen(group, motor_tension_N, load_tension_N);
+}
+
+}  // namespace capstan
+#endif

@@ -1,0 +1,151 @@
+#include "capstan/solver/bench_pulleys.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace capstan {
+
+namespace {
+
+// Stiffness of contact once a backlash is closed: far above any cable's.
+constexpr double contact_Nm_per_rad = 5e3;
+// Bristles of a pulley's bearing: as the cable's, at a radius of some centimetres.
+constexpr double bearing_presliding_rad = 1e-4;
+constexpr double bearing_speed_rad_per_s = 0.01;
+
+// Torque through a joint with lost motion, for an angle across it.
+double beyond_gap_rad(double angle_rad, double half_gap_rad) {
+    return angle_rad > half_gap_rad    ? angle_rad - half_gap_rad
+           : angle_rad < -half_gap_rad ? angle_rad + half_gap_rad
+                                       : 0.0;
+}
+
+}  // namespace
+
+bool BenchPulleys::motor_is_free(const BenchInputs& inputs) const {
+    return std::holds_alternative<MotorTorque>(inputs.motor) || effects_.motor_backlash.half_gap_rad > 0.0;
+}
+
+bool BenchPulleys::load_is_free(const BenchInputs& inputs) const {
+    return !std::holds_alternative<LoadAngle>(inputs.load) || effects_.load_backlash.half_gap_rad > 0.0 ||
+           effects_.environment_coupling.compliance_rad_per_Nm > 0.0;
+}
+
+PulleyAngles BenchPulleys::start(const BenchInputs& inputs) const {
+    return {motor_is_free(inputs) ? motor_.angle_rad : std::get<MotorAngle>(inputs.motor).angle_rad,
+            load_is_free(inputs) ? load_.angle_rad : std::get<LoadAngle>(inputs.load).angle_rad};
+}
+
+// Inside a gap only inertia holds a load pulley whose cables slide.
+double BenchPulleys::load_inertia_kg_m2(const BenchInputs& inputs) const {
+    constexpr double least_kg_m2 = 1e-5;
+    return load_is_free(inputs) ? std::max(least_kg_m2, effects_.inertia.load_kg_m2)
+                                : effects_.inertia.load_kg_m2;
+}
+
+// What a pulley's bearing and inertia take at this angle (E27, E35).
+Torque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
+                            double inertia_kg_m2, double angle_rad, double time_step_s) {
+    const double turned_rad = angle_rad - pulley.angle_rad;
+    const double speed = turned_rad / time_step_s;
+    Bristle sign;  // of the motion, and how it goes with the angle
+    switch (bearing) {
+        case Bearing::finds_its_angle:
+            sign = Presliding{bearing_presliding_rad, 0.0}.after(pulley.bristle, turned_rad);
+            break;
+        case Bearing::is_turned:
+            sign.bend = std::tanh(speed / bearing_speed_rad_per_s);
+            sign.bend_per_m = (1.0 - sign.bend * sign.bend) / (bearing_speed_rad_per_s * time_step_s);
+            break;
+    }
+    return {friction.coulomb_Nm * sign.bend + friction.viscous_Nm_s * speed +
+                inertia_kg_m2 * (speed - pulley.speed_rad_per_s) / time_step_s,
+            friction.coulomb_Nm * sign.bend_per_m + friction.viscous_Nm_s / time_step_s +
+                inertia_kg_m2 / (time_step_s * time_step_s)};
+}
+
+// A pulley whose angle is prescribed cannot creep, and its encoder knows little of the first tenth of a
+// milliradian.
+BenchPulleys::Bearing BenchPulleys::bearing_of(bool free) {
+    return free ? Bearing::finds_its_angle : Bearing::is_turned;
+}
+
+Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) const {
+    const Torque lost = losses(motor_, bearing_of(motor_is_free(inputs)), effects_.motor_friction,
+                               effects_.inertia.motor_kg_m2, angle_rad, inputs.time_step_s);
+    Torque balance = {lost.value_Nm + effects_.motor_cogging.torque_Nm(angle_rad),
+                      lost.per_rad + effects_.motor_cogging.slope_Nm_per_rad(angle_rad)};
+    if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
+        balance.value_Nm -= torque->torque_Nm;
+    } else if (motor_is_free(inputs)) {
+        const double across = beyond_gap_rad(std::get<MotorAngle>(inputs.motor).angle_rad - angle_rad,
+                                             effects_.motor_backlash.half_gap_rad);
+        balance.value_Nm -= contact_Nm_per_rad * across;
+        balance.per_rad += across == 0.0 ? 0.0 : contact_Nm_per_rad;
+    }
+    return balance;
+}
+
+// What holds the load pulley takes (E17, E29, E34).
+Torque BenchPulleys::held_by(const BenchInputs& inputs, double angle_rad) const {
+    if (const auto* torque = std::get_if<LoadTorque>(&inputs.load)) return {torque->torque_Nm, 0.0};
+    if (const auto* spring = std::get_if<LoadSpring>(&inputs.load)) {
+        return {spring->stiffness_Nm_per_rad * (angle_rad - spring->wall_angle_rad),
+                spring->stiffness_Nm_per_rad};
+    }
+    const double held_rad = std::get<LoadAngle>(inputs.load).angle_rad;
+    const EnvironmentCoupling& coupling = effects_.environment_coupling;
+    const double stiffness = 1.0 / (coupling.compliance_rad_per_Nm + 1.0 / contact_Nm_per_rad);
+    const double across = beyond_gap_rad(angle_rad - held_rad, effects_.load_backlash.half_gap_rad);
+    const double damping = coupling.damping_Nm_s_per_rad / inputs.time_step_s;
+    const double spread_rad = (angle_rad - load_.angle_rad) - (held_rad - load_.encoder_rad);
+    return {stiffness * across + damping * spread_rad, (across == 0.0 ? 0.0 : stiffness) + damping};
+}
+
+Torque BenchPulleys::load_balance(const BenchInputs& inputs, double angle_rad) const {
+    const Torque lost = losses(load_, bearing_of(load_is_free(inputs)), effects_.load_friction,
+                               load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s);
+    if (!load_is_free(inputs)) return {-lost.value_Nm, -lost.per_rad};
+    const Torque taken = held_by(inputs, angle_rad);
+    return {-lost.value_Nm - taken.value_Nm, -lost.per_rad - taken.per_rad};
+}
+
+void BenchPulleys::turn(Pulley& pulley, double angle_rad, double time_step_s) {
+    const double turned_rad = angle_rad - pulley.angle_rad;
+    pulley.bristle = Presliding{bearing_presliding_rad, 0.0}.after(pulley.bristle, turned_rad).bend;
+    pulley.speed_rad_per_s = turned_rad / time_step_s;
+    pulley.angle_rad = angle_rad;
+}
+
+// The motor stands on the side of the gap that its torque leans on; without torque it stays.
+double BenchPulleys::motor_stands_rad(double torque_Nm, double angle_rad) const {
+    constexpr double leaning_Nm = 1e-3;
+    const double gap_rad = effects_.motor_backlash.half_gap_rad;
+    if (std::abs(torque_Nm) < leaning_Nm)
+        return angle_rad + std::clamp(motor_.encoder_rad - angle_rad, -gap_rad, gap_rad);
+    return angle_rad + gap_rad * std::clamp(torque_Nm / leaning_Nm, -1.0, 1.0);
+}
+
+void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles, double motor_pull_N,
+                          double load_pull_N) {
+    if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
+        motor_.torque_Nm = torque->torque_Nm;
+        motor_.encoder_rad = motor_stands_rad(torque->torque_Nm, angles.motor_rad);
+    } else {
+        motor_.torque_Nm = pulleys_.motor_radius_m * motor_pull_N +
+                           losses(motor_, bearing_of(motor_is_free(inputs)), effects_.motor_friction,
+                                  effects_.inertia.motor_kg_m2, angles.motor_rad, inputs.time_step_s)
+                               .value_Nm +
+                           effects_.motor_cogging.torque_Nm(angles.motor_rad);
+        motor_.encoder_rad = std::get<MotorAngle>(inputs.motor).angle_rad;
+    }
+    const auto* held = std::get_if<LoadAngle>(&inputs.load);
+    load_.torque_Nm = load_is_free(inputs) ? held_by(inputs, angles.load_rad).value_Nm
+                                           : pulleys_.load_radius_m * load_pull_N +
+                                                 load_balance(inputs, angles.load_rad).value_Nm;
+    load_.encoder_rad = held != nullptr ? held->angle_rad : angles.load_rad;
+    turn(motor_, angles.motor_rad, inputs.time_step_s);
+    turn(load_, angles.load_rad, inputs.time_step_s);
+}
+
+}  // namespace capstan

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "capstan/effects/bench_effects.h"
+#include "capstan/solver/pull_pull.h"
+
+namespace capstan {
+
+/// What moves a bench in one step. A torque at both pulleys moves nothing definite; a single cable's load
+/// end is held at a LoadAngle.
+struct BenchInputs {
+    MotorInput motor;
+    LoadInput load;
+    double time_step_s = 0.0;
+    double session_time_s = 0.0;  ///< since the session began: what drifts goes on from run to run
+};
+
+/// A torque and how it goes with the angle.
+struct Torque {
+    double value_Nm = 0.0;
+    double per_rad = 0.0;
+};
+
+struct PulleyAngles {
+    double motor_rad = 0.0;
+    double load_rad = 0.0;
+};
+
+/// The two pulleys of one bench, what turns and holds them, and what they lose: bearings, cogging, inertia,
+/// lost motion, the hand or lock at the load (E17, E27 to E29, E34, E35).
+class BenchPulleys {
+  public:
+    BenchPulleys(const Pulleys& pulleys, const BenchEffects& effects)
+        : pulleys_(pulleys), effects_(effects) {}
+
+    /// At rest a single cable pulls.
+    void rest(double motor_torque_Nm, double load_torque_Nm) {
+        motor_.torque_Nm = motor_torque_Nm;
+        load_.torque_Nm = load_torque_Nm;
+    }
+
+    /// Whether the pulley finds its angle in equilibrium; else it is where the input says.
+    bool motor_is_free(const BenchInputs& inputs) const;
+    bool load_is_free(const BenchInputs& inputs) const;
+    /// Where a step begins its search.
+    PulleyAngles start(const BenchInputs& inputs) const;
+    PulleyAngles angles() const { return {motor_.angle_rad, load_.angle_rad}; }
+
+    /// What the motor must give beyond the cables' pull, less what it gives.
+    Torque motor_balance(const BenchInputs& inputs, double angle_rad) const;
+    /// What the load pulley passes on of the cables' pull: all but its losses, less what is taken.
+    Torque load_balance(const BenchInputs& inputs, double angle_rad) const;
+
+    /// Remembers a step's outcome and reads the instruments. Pulls: of cable A less that of cable B [N].
+    void settle(const BenchInputs& inputs, const PulleyAngles& angles, double motor_pull_N,
+                double load_pull_N);
+
+    /// What the encoders and torque cells of an ideal bench would read.
+    double motor_angle_rad() const { return motor_.encoder_rad; }
+    double load_angle_rad() const { return load_.encoder_rad; }
+    double motor_torque_Nm() const { return motor_.torque_Nm; }
+    double load_torque_Nm() const { return load_.torque_Nm; }
+
+  private:
+    struct Pulley {
+        double angle_rad = 0.0;
+        double speed_rad_per_s = 0.0;
+        double bristle = 0.0;
+        double torque_Nm = 0.0;    // of the motor, on the load
+        double encoder_rad = 0.0;  // beyond the backlash
+    };
+    /// How its Coulomb friction finds its sign: by bristles, which hold at rest, or by speed.
+    enum class Bearing { finds_its_angle, is_turned };
+    static Bearing bearing_of(bool free);
+    static Torque losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
+                         double inertia_kg_m2, double angle_rad, double time_step_s);
+    static void turn(Pulley& pulley, double angle_rad, double time_step_s);
+    double load_inertia_kg_m2(const BenchInputs& inputs) const;
+    Torque held_by(const BenchInputs& inputs, double angle_rad) const;
+    double motor_stands_rad(double torque_Nm, double angle_rad) const;
+
+    Pulleys pulleys_;
+    BenchEffects effects_;
+    Pulley motor_;
+    Pulley load_;
+};
+
+}  // namespace capstan
