@@ -110,97 +110,104 @@ void CauseFitter::write_residuals(std::size_t run, const TwinRun& twin,
     }
 }
 
-Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>& causes,
-                                       const Eigen::MatrixXd& coordinates,
-                                       std::optional<std::size_t> left_out) const {
-    const auto data = static_cast<Eigen::Index>(data_rows_);
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(data + coordinates.rows(), coordinates.cols());
-    const int runs = static_cast<int>(recording_.runs.size());
-    const int columns = static_cast<int>(coordinates.cols());
-    const int groups = (columns + bench_lanes - 1) / bench_lanes;
-    parallel_for_each_index(runs * groups, threads_, [&](int task) {
-        const auto run = static_cast<std::size_t>(task % runs);
-        const int first = task / runs * bench_lanes;
+Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypotheses,
+                                            std::optional<std::size_t> left_out) const {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data_rows_),
+                                                static_cast<Eigen::Index>(hypotheses.size()));
+    const std::size_t runs = recording_.runs.size();
+    const std::size_t groups = (hypotheses.size() + bench_lanes - 1) / bench_lanes;
+    parallel_for_each_index(static_cast<int>(runs * groups), threads_, [&](int task) {
+        const std::size_t run = static_cast<std::size_t>(task) % runs;
+        const std::size_t first = static_cast<std::size_t>(task) / runs * bench_lanes;
         if (run == left_out) return;
         std::vector<BenchNumbers> benches;
-        for (int column = first; column < std::min(columns, first + bench_lanes); ++column)
-            benches.push_back(numbers(causes, coordinates.col(column)));
+        for (const Hypothesis& hypothesis :
+             hypotheses.subspan(first, std::min<std::size_t>(bench_lanes, hypotheses.size() - first)))
+            benches.push_back(numbers(hypothesis.causes, hypothesis.coordinates));
         const std::vector<TwinRun> twins = twin_.run_each(run, benches);
         for (std::size_t lane = 0; lane < twins.size(); ++lane)
-            write_residuals(run, twins[lane], all.col(first + static_cast<Eigen::Index>(lane)));
+            write_residuals(run, twins[lane], all.col(static_cast<Eigen::Index>(first + lane)));
     });
-    // Priors. Of several causes the most generous speaks for each nominal number.
+    return all;
+}
+
+Eigen::VectorXd CauseFitter::prior_residuals(const std::vector<const CandidateCause*>& causes,
+                                             const Eigen::VectorXd& coordinates) const {
+    // Of several causes the most generous speaks for each nominal number.
     double spread[nominal_coordinates] = {nominal_log_std, nominal_log_std, nominal_log_std};
     for (const CandidateCause* cause : causes) {
         spread[0] = std::max(spread[0], cause->friction_std);
         spread[1] = std::max(spread[1], cause->stiffness_std);
         spread[2] = std::max(spread[2], cause->pretension_std);
     }
-    for (Eigen::Index column = 0; column < coordinates.cols(); ++column) {
-        Eigen::Index row = 0;
-        for (const double std : spread) {
-            all(data + row, column) = prior_weight_ * coordinates(row, column) / std;
+    Eigen::VectorXd priors(coordinates.size());
+    Eigen::Index row = 0;
+    for (const double std : spread) {
+        priors[row] = prior_weight_ * coordinates[row] / std;
+        ++row;
+    }
+    for (const CandidateCause* cause : causes) {
+        for (const OpenNumber& number : cause->numbers) {
+            priors[row] = prior_weight_ * (coordinates[row] - number.prior_mean()) / number.prior_std();
             ++row;
         }
-        for (const CandidateCause* cause : causes) {
-            for (const OpenNumber& number : cause->numbers) {
-                all(data + row, column) =
-                    prior_weight_ * (coordinates(row, column) - number.prior_mean()) / number.prior_std();
-                ++row;
-            }
-        }
     }
+    return priors;
+}
+
+Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>& causes,
+                                       const Eigen::MatrixXd& coordinates,
+                                       std::optional<std::size_t> left_out) const {
+    std::vector<Hypothesis> hypotheses;
+    for (Eigen::Index column = 0; column < coordinates.cols(); ++column)
+        hypotheses.push_back({causes, coordinates.col(column)});
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(data_rows_) + coordinates.rows(), coordinates.cols());
+    all.topRows(static_cast<Eigen::Index>(data_rows_)) = data_residuals(hypotheses, left_out);
+    for (Eigen::Index column = 0; column < coordinates.cols(); ++column)
+        all.col(column).tail(coordinates.rows()) = prior_residuals(causes, coordinates.col(column));
     return all;
 }
 
 // The nominal numbers can take over much of what a cause does, and a search that lets them go there first
 // ends there. So the last cause's size is found roughly with everything else held.
-Eigen::VectorXd CauseFitter::roughly_sized(const std::vector<const CandidateCause*>& causes,
-                                           const Eigen::VectorXd& start, std::optional<std::size_t> left_out,
+Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOptions& options,
                                            int& evaluations) const {
-    const std::vector<OpenNumber>& numbers = causes.back()->numbers;
-    const std::vector<double> factors = {0.1, 0.3, 1.0, 2.0, 4.0, 8.0};
-    Eigen::MatrixXd tried = start.replicate(1, static_cast<Eigen::Index>(factors.size()));
+    const std::vector<OpenNumber>& numbers = start.causes.back()->numbers;
+    const std::vector<double> factors = {0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 4.0, 8.0};
+    Eigen::MatrixXd tried = start.coordinates.replicate(1, static_cast<Eigen::Index>(factors.size()));
     bool has_size = false;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
         const bool size =
             numbers[k].kind == OpenNumber::Kind::size || numbers[k].kind == OpenNumber::Kind::signed_size;
         has_size |= size;
-        const auto row = start.size() - static_cast<Eigen::Index>(numbers.size() - k);
+        const auto row = start.coordinates.size() - static_cast<Eigen::Index>(numbers.size() - k);
         for (std::size_t f = 0; size && f < factors.size(); ++f)
             tried(row, static_cast<Eigen::Index>(f)) *= factors[f];
     }
-    if (!has_size) return start;
+    if (!has_size) return start.coordinates;
     Eigen::Index best = 0;
-    residuals(causes, tried, left_out).colwise().squaredNorm().minCoeff(&best);
+    residuals(start.causes, tried, options.left_out).colwise().squaredNorm().minCoeff(&best);
     evaluations += static_cast<int>(factors.size());
     return tried.col(best);
 }
 
-CauseFit CauseFitter::fit(const std::vector<const CandidateCause*>& causes,
-                          const Eigen::VectorXd& nominal_start, const std::vector<Eigen::VectorXd>& starts,
-                          std::optional<std::size_t> left_out) const {
+CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) const {
     CauseFit fit;
-    fit.causes = causes;
-    Eigen::MatrixXd grid(nominal_start.size() + starts.front().size(),
-                         static_cast<Eigen::Index>(starts.size()));
-    for (std::size_t k = 0; k < starts.size(); ++k)
-        grid.col(static_cast<Eigen::Index>(k)) << nominal_start, starts[k];
-    Eigen::Index best = 0;
-    if (starts.size() > 1) {
-        residuals(causes, grid, left_out).colwise().squaredNorm().minCoeff(&best);
-        fit.evaluations = static_cast<int>(starts.size());
-    }
-    const Eigen::VectorXd start = left_out ? Eigen::VectorXd(grid.col(best))
-                                           : roughly_sized(causes, grid.col(best), left_out, fit.evaluations);
-    LeastSquaresOptions options;
-    options.differences = Differences::forward;
-    options.parameter_tolerance = 1e-3;
-    options.most_iterations = 20;
-    options.jacobian_at_end = false;
+    fit.causes = start.causes;
+    const Eigen::VectorXd from =
+        options.any_size ? roughly_sized(start, options, fit.evaluations) : start.coordinates;
+    LeastSquaresOptions search;
+    search.differences = Differences::forward;
+    search.parameter_tolerance = 1e-3;
+    search.most_iterations = 20;
+    search.jacobian_at_end = false;
+    search.dampings_at_once = bench_lanes;
+    search.hopeless_sum_of_squares = options.hopeless_sum_of_squares;
     const LeastSquaresFit found = fit_least_squares(
-        [&](const Eigen::MatrixXd& coordinates) { return residuals(causes, coordinates, left_out); }, start,
-        options);
+        [&](const Eigen::MatrixXd& coordinates) {
+            return residuals(start.causes, coordinates, options.left_out);
+        },
+        from, search);
     fit.coordinates = found.parameters;
     fit.residuals = found.residuals;
     fit.sum_of_squares = found.sum_of_squares;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "capstan/gap/candidate_cause.h"
@@ -20,6 +22,12 @@ struct ResidualSeries {
     std::size_t rows = 0;
 };
 
+/// Causes with their numbers, to be looked at together.
+struct Hypothesis {
+    std::vector<const CandidateCause*> causes;
+    Eigen::VectorXd coordinates;  // friction, stiffness, pretension logarithms, then each cause's numbers
+};
+
 /// The best that one or several causes together can do.
 struct CauseFit {
     std::vector<const CandidateCause*> causes;
@@ -28,6 +36,8 @@ struct CauseFit {
     double sum_of_squares = 0.0;
     int evaluations = 0;
     bool converged = false;
+
+    Hypothesis hypothesis() const { return {causes, coordinates}; }
 };
 
 /// Fits causes to a recording: nominal numbers float within their uncertainty for every one of them.
@@ -39,16 +49,26 @@ class CauseFitter {
     const std::vector<ResidualSeries>& series() const { return series_; }
     std::size_t data_rows() const { return data_rows_; }
 
-    /// The residuals of a run that is left out are zero.
-    CauseFit fit(const std::vector<const CandidateCause*>& causes, const Eigen::VectorXd& nominal_start,
-                 const std::vector<Eigen::VectorXd>& starts, std::optional<std::size_t> left_out = {}) const;
+    struct FitOptions {
+        std::optional<std::size_t> left_out;  ///< run whose residuals count as zero
+        /// The last cause's sizes are unknown: looked for over decades before the search.
+        bool any_size = true;
+        double hopeless_sum_of_squares = std::numeric_limits<double>::infinity();
+    };
+    CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
     /// The bench with these causes at these coordinates.
     static BenchNumbers numbers(const std::vector<const CandidateCause*>& causes,
                                 const Eigen::VectorXd& coordinates);
+    /// Residuals of the data, a column a hypothesis.
+    Eigen::MatrixXd data_residuals(std::span<const Hypothesis> hypotheses,
+                                   std::optional<std::size_t> left_out = {}) const;
     /// Residuals and priors for one set of coordinates a column.
     Eigen::MatrixXd residuals(const std::vector<const CandidateCause*>& causes,
                               const Eigen::MatrixXd& coordinates,
                               std::optional<std::size_t> left_out = {}) const;
+    /// Of the coordinates alone.
+    Eigen::VectorXd prior_residuals(const std::vector<const CandidateCause*>& causes,
+                                    const Eigen::VectorXd& coordinates) const;
 
     const EffectsTwin& twin() const { return twin_; }
     /// Independent instants in the recording: residuals of one instant hang together with those of the next.
@@ -56,9 +76,7 @@ class CauseFitter {
 
   private:
     void write_residuals(std::size_t run, const TwinRun& twin, Eigen::Ref<Eigen::VectorXd> all) const;
-    Eigen::VectorXd roughly_sized(const std::vector<const CandidateCause*>& causes,
-                                  const Eigen::VectorXd& start, std::optional<std::size_t> left_out,
-                                  int& evaluations) const;
+    Eigen::VectorXd roughly_sized(const Hypothesis& start, const FitOptions& options, int& evaluations) const;
 
     const Recording& recording_;
     EffectsTwin twin_;

@@ -1,11 +1,12 @@
 #include "capstan/gap/diagnosis.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "capstan/gap/cause_fit.h"
+#include "capstan/gap/screening.h"
 
 namespace capstan::gap {
 
@@ -13,42 +14,14 @@ namespace {
 
 // How many causes the quick look leaves for a full fit.
 constexpr std::size_t most_fitted = 8;
-constexpr std::size_t most_pairs = 3;
-// Mean square residuals below this are as good as one: the floor is not known better.
-constexpr double as_good_as_noise = 1.06;
-// What goes on below that still tells two causes apart, but counts for less.
-constexpr double below_noise_weight = 0.2;
-// A cause nobody has thought of is granted to leave this share of the gap.
-constexpr double share_left_by_unknown = 0.12;
-// Only what a single cause leaves above this is looked at for a second.
-constexpr double worth_a_second_cause = 1.15;
-// A second cause must raise the evidence by this much, and explain this share of the gap.
-constexpr double second_cause_evidence = 12.0;
-constexpr double second_cause_share = 0.05;
-
-struct Screened {
-    const CandidateCause* cause = nullptr;
-    Eigen::VectorXd start;
-    double sum_of_squares = 0.0;
-};
-
-struct Scored {
-    CauseFit fit;
-    double evidence = 0.0;
-};
-
-// Least squares of `target` on the columns of `directions`: what is left. The last direction may be a
-// cause's, which cannot be there less than not at all: against it, it explains nothing.
-double left_after(const Eigen::VectorXd& target, const Eigen::MatrixXd& directions, bool last_is_a_cause) {
-    const Eigen::MatrixXd normal = directions.transpose() * directions;
-    const Eigen::VectorXd weights =
-        (normal + 1e-9 * normal.trace() * Eigen::MatrixXd::Identity(normal.rows(), normal.cols()))
-            .ldlt()
-            .solve(-directions.transpose() * target);
-    if (last_is_a_cause && weights[weights.size() - 1] < 0.0)
-        return left_after(target, directions.leftCols(directions.cols() - 1), false);
-    return (target + directions * weights).squaredNorm();
-}
+// How many of the best single causes are looked at with a second, and with how many others.
+constexpr std::size_t most_first_causes = 2;
+constexpr std::size_t most_second_causes = 3;
+// A search that promises a misfit this many times the best so far is given up.
+constexpr double hopeless_factor = 2.5;
+// The quick look does with fewer segments and samples.
+constexpr int screening_segments = 24;
+constexpr int screening_stride_factor = 2;
 
 // Residual energy of the nominal model beyond noise, in units of noise.
 struct GapEnergy {
@@ -79,120 +52,50 @@ class Diagnoser {
         : recording_(recording),
           options_(options),
           fitter_(recording, {options.segments, options.stride}, options.threads),
+          screener_(recording, {screening_segments, screening_stride_factor * options.stride},
+                    options.threads),
+          evidence_(fitter_.independent_samples()),
           causes_(candidate_causes(recording)) {}
 
     Diagnosis run() {
-        fit_nominal();
-        const std::vector<Screened> screened = screen({}, nominal_);
-        std::vector<Scored> singles = {none_};
-        fit_best(screened, {}, singles);
+        tell("nominal model", 0.0);
+        nominal_ = {{}, Eigen::VectorXd::Zero(nominal_coordinates)};
+        nominal_misfit_ = fitter_.residuals(nominal_.causes, nominal_.coordinates).squaredNorm() /
+                          static_cast<double>(fitter_.data_rows());
+        std::vector<ScoredFit> singles = {
+            scored(fitter_.fit({{&causes_.front()}, nominal_.coordinates}, {}))};
+        tell("looking at every cause", 0.02);
+        fit_best(screen(screener_, causes_, nominal_), singles);
         sort_by_evidence(singles);
-        std::vector<Scored> pairs = pairs_with(singles.front());
-        return verdict(singles, pairs);
+        return verdict(singles, pairs_with(singles));
     }
 
   private:
     void tell(const std::string& doing, double done) { options_.on_progress(doing, done); }
 
-    double data_sum(const CauseFit& fit) const {
-        return fit.residuals.head(static_cast<Eigen::Index>(fitter_.data_rows())).squaredNorm();
-    }
-    double misfit(const CauseFit& fit) const {
-        return fit.sum_of_squares / static_cast<double>(fitter_.data_rows());
-    }
-
-    double evidence_of(double mean_square, std::size_t open_numbers) const {
-        const double samples = fitter_.independent_samples();
-        return -0.5 * samples *
-                   (std::log(std::max(mean_square, as_good_as_noise)) +
-                    below_noise_weight * std::log(mean_square)) -
-               0.5 * static_cast<double>(open_numbers) * std::log(samples);
-    }
-
-    std::size_t open_numbers(const CauseFit& fit) const {
-        std::size_t count = 0;
-        for (const CandidateCause* cause : fit.causes) {
-            count += cause->numbers.size();
-            for (const double std : {cause->friction_std, cause->stiffness_std, cause->pretension_std})
-                count += std > nominal_log_std ? 1 : 0;
-        }
-        return count;
-    }
-
-    Scored scored(CauseFit fit) {
+    ScoredFit scored(CauseFit fit) {
         evaluations_ += fit.evaluations;
-        const double evidence = evidence_of(misfit(fit), open_numbers(fit));
-        return {std::move(fit), evidence};
+        const double misfit = fit.sum_of_squares / static_cast<double>(fitter_.data_rows());
+        const double evidence = evidence_.of(misfit, open_numbers(fit));
+        return {std::move(fit), misfit, evidence};
     }
 
-    void fit_nominal() {
-        tell("nominal model", 0.0);
-        nominal_.causes = {&causes_.front()};
-        nominal_.coordinates = Eigen::VectorXd::Zero(nominal_coordinates);
-        nominal_.residuals = fitter_.residuals(nominal_.causes, nominal_.coordinates).col(0);
-        nominal_.sum_of_squares = nominal_.residuals.squaredNorm();
-        none_ = scored(fitter_.fit({&causes_.front()}, Eigen::VectorXd::Zero(nominal_coordinates),
-                                   {Eigen::VectorXd(0)}));
+    static double least_sum(const std::vector<ScoredFit>& fits) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const ScoredFit& each : fits) least = std::min(least, each.fit.sum_of_squares);
+        return least;
     }
 
-    // What each cause could explain on top of a fit, by the direction in which it moves the residuals, the
-    // fit's own numbers free to follow.
-    std::vector<Screened> screen(const std::vector<const CandidateCause*>& present, const CauseFit& fit) {
-        // The nominal numbers and those of the causes already there, with their priors.
-        constexpr double step = 0.02;
-        const Eigen::Index known = fit.coordinates.size();
-        const Eigen::Index rows = static_cast<Eigen::Index>(fitter_.data_rows()) + known;
-        const Eigen::VectorXd here = fit.residuals.head(rows);
-        Eigen::MatrixXd moved = fit.coordinates.replicate(1, known);
-        moved.diagonal().array() += step;
-        Eigen::MatrixXd directions(rows, known + 1);
-        directions.leftCols(known) =
-            (fitter_.residuals(fit.causes, moved).topRows(rows).colwise() - here) / step;
-        evaluations_ += static_cast<int>(known);
-
-        std::vector<Screened> all;
-        for (std::size_t index = 1; index < causes_.size(); ++index) {
-            tell("looking for " + causes_[index].effect, progress(index));
-            const CandidateCause* cause = &causes_[index];
-            if (std::find(present.begin(), present.end(), cause) != present.end()) continue;
-            std::vector<const CandidateCause*> together = present;
-            together.push_back(cause);
-            Screened best{cause, {}, here.squaredNorm()};
-            const std::vector<Eigen::VectorXd> starts = start_grid(*cause);
-            Eigen::MatrixXd grid(known + starts.front().size(), static_cast<Eigen::Index>(starts.size()));
-            for (std::size_t k = 0; k < starts.size(); ++k)
-                grid.col(static_cast<Eigen::Index>(k)) << fit.coordinates, starts[k];
-            best.start = starts.front();
-            if (starts.front().size() ==
-                0) {  // a nominal number that may go far: its direction is there already
-                best.sum_of_squares = left_after(here, directions.leftCols(known), false);
-                all.push_back(best);
-                continue;
-            }
-            const Eigen::MatrixXd there = fitter_.residuals(together, grid).topRows(rows);
-            evaluations_ += static_cast<int>(starts.size());
-            for (std::size_t k = 0; k < starts.size(); ++k) {
-                directions.col(known) = there.col(static_cast<Eigen::Index>(k)) - here;
-                const double left = std::min(
-                    left_after(here, directions, true),
-                    left_after(there.col(static_cast<Eigen::Index>(k)), directions.leftCols(known), false));
-                if (left < best.sum_of_squares) best = {cause, starts[k], left};
-            }
-            all.push_back(best);
-        }
-        std::stable_sort(all.begin(), all.end(), [](const Screened& a, const Screened& b) {
-            return a.sum_of_squares < b.sum_of_squares;
-        });
-        return all;
-    }
-
-    double progress(std::size_t index) const {
-        return 0.3 * static_cast<double>(index) / static_cast<double>(causes_.size());
+    static Hypothesis with(Hypothesis present, const Screened& added) {
+        present.causes.push_back(added.cause);
+        const Eigen::Index known = present.coordinates.size();
+        present.coordinates.conservativeResize(known + added.start.size());
+        present.coordinates.tail(added.start.size()) = added.start;
+        return present;
     }
 
     // Full fits of the most promising.
-    void fit_best(const std::vector<Screened>& screened, const std::vector<const CandidateCause*>& present,
-                  std::vector<Scored>& fits) {
+    void fit_best(const std::vector<Screened>& screened, std::vector<ScoredFit>& fits) {
         std::size_t fitted = 0;
         for (const Screened& each : screened) {
             // A wrong nominal number is always worth a fit: the quick look lets every cause have it on top.
@@ -200,82 +103,77 @@ class Diagnoser {
             if (fitted == most_fitted && !nominal_number) continue;
             if (!nominal_number) ++fitted;
             tell("fitting " + each.cause->effect + " " + each.cause->variant,
-                 0.3 + 0.4 * static_cast<double>(fitted) / most_fitted);
-            std::vector<const CandidateCause*> together = present;
-            together.push_back(each.cause);
-            fits.push_back(scored(fitter_.fit(together, nominal_.coordinates, {each.start})));
+                 0.2 + 0.4 * static_cast<double>(fits.size()) / (most_fitted + nominal_coordinates));
+            CauseFitter::FitOptions options;
+            options.hopeless_sum_of_squares = hopeless_factor * least_sum(fits);
+            fits.push_back(scored(fitter_.fit(with(nominal_, each), options)));
         }
     }
 
-    static void sort_by_evidence(std::vector<Scored>& fits) {
+    static void sort_by_evidence(std::vector<ScoredFit>& fits) {
         std::stable_sort(fits.begin(), fits.end(),
-                         [](const Scored& a, const Scored& b) { return a.evidence > b.evidence; });
+                         [](const ScoredFit& a, const ScoredFit& b) { return a.evidence > b.evidence; });
     }
 
-    // The best single cause with each of the most promising others.
-    std::vector<Scored> pairs_with(const Scored& best) {
-        std::vector<Scored> pairs;
-        const CandidateCause* first = best.fit.causes.front();
-        if (first == &causes_.front() || misfit(best.fit) < worth_a_second_cause) return pairs;
-        const std::vector<Screened> screened = screen({first}, best.fit);
-        for (const Screened& each : screened) {
-            if (pairs.size() == most_pairs) break;
-            if (each.cause->effect == first->effect) continue;
-            tell("fitting " + first->effect + " with " + each.cause->effect,
-                 0.7 + 0.06 * static_cast<double>(pairs.size()));
-            pairs.push_back(scored(fitter_.fit({first, each.cause}, best.fit.coordinates, {each.start})));
+    // The best single causes, each with the most promising others.
+    std::vector<ScoredFit> pairs_with(const std::vector<ScoredFit>& singles) {
+        std::vector<ScoredFit> pairs;
+        std::vector<std::string> firsts;
+        if (singles.front().misfit < worth_a_second_cause) return pairs;
+        for (const ScoredFit& single : singles) {
+            const std::string& first = single.fit.causes.front()->effect;
+            if (first == "none" || firsts.size() == most_first_causes ||
+                std::find(firsts.begin(), firsts.end(), first) != firsts.end())
+                continue;
+            firsts.push_back(first);
+            const Hypothesis present = single.fit.hypothesis();
+            std::size_t seconds = 0;
+            for (const Screened& each : screen(screener_, causes_, present)) {
+                if (seconds == most_second_causes) break;
+                if (each.cause->effect == first) continue;
+                ++seconds;
+                tell("fitting " + first + " with " + each.cause->effect,
+                     0.6 + 0.05 * static_cast<double>(pairs.size()));
+                CauseFitter::FitOptions options;
+                options.hopeless_sum_of_squares =
+                    std::min(single.fit.sum_of_squares, hopeless_factor * least_sum(pairs));
+                pairs.push_back(scored(fitter_.fit(with(present, each), options)));
+            }
         }
         sort_by_evidence(pairs);
         return pairs;
     }
 
-    Diagnosis verdict(const std::vector<Scored>& singles, const std::vector<Scored>& pairs) {
-        Diagnosis diagnosis;
-        const Scored& best = singles.front();
-        const double nominal_misfit = misfit(nominal_);
+    Diagnosis verdict(const std::vector<ScoredFit>& singles, const std::vector<ScoredFit>& pairs) {
         const bool two =
-            !pairs.empty() && pairs.front().evidence > best.evidence + second_cause_evidence &&
-            misfit(best.fit) - misfit(pairs.front().fit) > second_cause_share * (nominal_misfit - 1.0);
-        const Scored& leading = two ? pairs.front() : best;
-        const double left = 1.0 + share_left_by_unknown * std::max(0.0, nominal_misfit - 1.0);
-        const double unknown = evidence_of(left, 4);
-        rank(diagnosis, singles, leading, unknown, two);
+            !pairs.empty() && evidence_.second_is_earned(singles.front(), pairs.front(), nominal_misfit_);
+        const ScoredFit& leading = two ? pairs.front() : singles.front();
+        Diagnosis diagnosis;
+        diagnosis.ranked = evidence_.rank(causes_, singles, leading, nominal_misfit_);
+        diagnosis.independent_samples = fitter_.independent_samples();
+        for (const std::vector<ScoredFit>* fits : {&pairs, &singles}) {
+            for (const ScoredFit& each : *fits) {
+                CandidateScore score{{}, {}, open_numbers(each.fit), each.misfit, each.evidence};
+                for (const CandidateCause* cause : each.fit.causes) {
+                    score.effects.push_back(cause->effect);
+                    score.variants.push_back(cause->variant);
+                }
+                diagnosis.candidates.push_back(score);
+            }
+        }
         describe(diagnosis, leading);
         diagnosis.evaluations = evaluations_;
         return diagnosis;
     }
 
-    void rank(Diagnosis& diagnosis, const std::vector<Scored>& singles, const Scored& leading, double unknown,
-              bool two) const {
-        std::map<std::string, double> evidence = {{"unknown", unknown}};
-        const auto raise = [&](const std::string& effect, double value) {
-            const auto [known, added] = evidence.emplace(effect, value);
-            if (!added) known->second = std::max(known->second, value);
-        };
-        for (const Scored& each : singles) raise(each.fit.causes.front()->effect, each.evidence);
-        if (two) {
-            for (const CandidateCause* cause : leading.fit.causes) raise(cause->effect, leading.evidence);
-        }
-        for (const CandidateCause& cause : causes_) raise(cause.effect, leading.evidence - 60.0);
-        double most = unknown;
-        for (const auto& [effect, value] : evidence) most = std::max(most, value);
-        double sum = 0.0;
-        for (const auto& [effect, value] : evidence) sum += std::exp(value - most);
-        for (const auto& [effect, value] : evidence)
-            diagnosis.ranked.push_back({effect, std::exp(value - most) / sum});
-        std::stable_sort(
-            diagnosis.ranked.begin(), diagnosis.ranked.end(),
-            [](const RankedEffect& a, const RankedEffect& b) { return a.probability > b.probability; });
-    }
-
-    void describe(Diagnosis& diagnosis, const Scored& leading) {
+    void describe(Diagnosis& diagnosis, const ScoredFit& leading) {
         const CauseFit& fit = leading.fit;
         const BenchNumbers numbers = CauseFitter::numbers(fit.causes, fit.coordinates);
         diagnosis.friction_ratio = numbers.friction_ratio;
         diagnosis.stiffness_ratio = numbers.stiffness_ratio;
         diagnosis.pretension_ratio = numbers.pretension_ratio;
-        diagnosis.misfit_before = misfit(nominal_);
-        diagnosis.misfit_after = misfit(fit);
+        diagnosis.misfit_before = nominal_misfit_;
+        diagnosis.misfit_after = leading.misfit;
         Eigen::Index next = nominal_coordinates;
         for (const CandidateCause* cause : fit.causes) {
             if (cause->effect == "none") continue;
@@ -307,9 +205,11 @@ class Diagnoser {
         std::vector<Sum> sums(recording_.channels.size());
         double worst = -1.0;
         for (std::size_t run = 0; run < recording_.runs.size(); ++run) {
-            const TwinRun before = twin.run(run, {});
-            const TwinRun after = twin.run(run, numbers);
-            const TwinRun held_out = twin.run(run, numbers_without(run, leading));
+            const std::vector<TwinRun> twins =
+                twin.run_each(run, std::vector<BenchNumbers>{{}, numbers, numbers_without(run, leading)});
+            const TwinRun& before = twins[0];
+            const TwinRun& after = twins[1];
+            const TwinRun& held_out = twins[2];
             for (std::size_t channel = 0; channel < sums.size(); ++channel) {
                 if (before.values[channel].empty()) continue;
                 Sum here;
@@ -351,10 +251,10 @@ class Diagnoser {
     BenchNumbers numbers_without(std::size_t run, const CauseFit& leading) {
         tell("holding out run " + std::to_string(recording_.runs[run].number), 0.95);
         if (recording_.runs.size() < 2) return CauseFitter::numbers(leading.causes, leading.coordinates);
-        const Eigen::VectorXd own =
-            leading.coordinates.tail(leading.coordinates.size() - nominal_coordinates);
-        const CauseFit fit =
-            fitter_.fit(leading.causes, leading.coordinates.head(nominal_coordinates), {own}, run);
+        CauseFitter::FitOptions options;
+        options.left_out = run;
+        options.any_size = false;
+        const CauseFit fit = fitter_.fit(leading.hypothesis(), options);
         evaluations_ += fit.evaluations;
         return CauseFitter::numbers(fit.causes, fit.coordinates);
     }
@@ -362,9 +262,11 @@ class Diagnoser {
     const Recording& recording_;
     DiagnosisOptions options_;
     CauseFitter fitter_;
+    CauseFitter screener_;
+    Evidence evidence_;
     std::vector<CandidateCause> causes_;
-    Scored none_;
-    CauseFit nominal_;  // nothing fitted: where searches start, for the nominal fit may have gone astray
+    Hypothesis nominal_;  // nothing fitted: where searches start, for the nominal fit may have gone astray
+    double nominal_misfit_ = 0.0;
     int evaluations_ = 0;
 };
 

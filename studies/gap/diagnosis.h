@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capstan/gap/candidate_cause.h"
+#include "capstan/gap/evidence.h"
 #include "capstan/gap/recording.h"
 
 namespace capstan::gap {
@@ -17,12 +18,6 @@ struct DiagnosisOptions {
     /// Told what is going on, and how much of the work is done.
     std::function<void(const std::string& doing, double share_done)> on_progress = [](const std::string&,
                                                                                       double) {};
-};
-
-/// An effect, `none` or `unknown`, and how probable it is.
-struct RankedEffect {
-    std::string effect;
-    double probability = 0.0;
 };
 
 struct FittedNumber {
@@ -58,6 +53,15 @@ struct GapShare {
     double share = 0.0;
 };
 
+/// How one cause, or two together, did.
+struct CandidateScore {
+    std::vector<std::string> effects;
+    std::vector<std::string> variants;
+    std::size_t open_numbers = 0;
+    double misfit = 0.0;
+    double evidence = 0.0;
+};
+
 struct Diagnosis {
     std::vector<RankedEffect> ranked;  ///< best first; sums to 1
     std::vector<FittedCause> causes;   ///< none, one, or two that act together
@@ -73,7 +77,9 @@ struct Diagnosis {
     std::vector<GapShare> map;
     double misfit_before = 0.0;  ///< mean square residual in units of noise and floor; 1: nothing to explain
     double misfit_after = 0.0;
-    int evaluations = 0;  ///< simulations of the whole recording
+    double independent_samples = 0.0;
+    std::vector<CandidateScore> candidates;  ///< that were fitted, best first
+    int evaluations = 0;                     ///< simulations of the whole recording
 };
 
 /// Which unmodelled effect, if any, is behind the difference between a recording and its bench's model.

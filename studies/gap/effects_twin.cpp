@@ -60,7 +60,8 @@ TwinRun EffectsTwin::run(std::size_t run_index, const BenchNumbers& numbers) con
     return run_each(run_index, std::span(&numbers, 1)).front();
 }
 
-std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index, std::span<const BenchNumbers> numbers) const {
+std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
+                                           std::span<const BenchNumbers> numbers) const {
     const RecordedRun& run = recording_.runs[run_index];
     std::vector<BenchDescription> descriptions;
     std::vector<BenchEffects> effects;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <vector>
 
 namespace capstan::gap {
 
@@ -33,9 +34,12 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     constexpr double ease = 0.2;
     constexpr double tighten = 5.0;
     constexpr double flat = 1e-12;  // keeps a parameter that changes nothing from making the matrix singular
+    constexpr int iterations_of_hope = 2;
 
     const int per_jacobian =
         static_cast<int>(start.size()) * (options.differences == Differences::central ? 2 : 1);
+    // One damping after the other, the next is a little tighter; side by side they span more.
+    const double spread = options.dampings_at_once == 1 ? tighten : tighten * tighten;
     LeastSquaresFit fit;
     fit.parameters = start;
     fit.residuals = residuals(start);
@@ -48,25 +52,40 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
         const Eigen::MatrixXd normal = fit.jacobian.transpose() * fit.jacobian;
         const Eigen::VectorXd gradient = fit.jacobian.transpose() * fit.residuals;
         const double floor = flat * (1.0 + normal.diagonal().maxCoeff());
-        while (true) {
+        const auto step_with = [&](double with) -> Eigen::VectorXd {
             Eigen::MatrixXd damped = normal;
-            damped.diagonal().array() += damping * normal.diagonal().array() + floor;
-            const Eigen::VectorXd step = -damped.ldlt().solve(gradient);
-            const Eigen::VectorXd tried = fit.parameters + step;
-            const Eigen::VectorXd there = residuals(tried);
-            ++fit.evaluations;
-            const double sum = there.squaredNorm();
-            const bool better = std::isfinite(sum) && sum < fit.sum_of_squares;
-            const bool small = step.cwiseAbs().maxCoeff() <= options.parameter_tolerance;
+            damped.diagonal().array() += with * normal.diagonal().array() + floor;
+            return -damped.ldlt().solve(gradient);
+        };
+        const double promised = fit.sum_of_squares + gradient.dot(step_with(0.0));
+        if (iteration >= iterations_of_hope && promised > options.hopeless_sum_of_squares) return fit;
+        while (true) {
+            std::vector<double> dampings;
+            Eigen::MatrixXd tried = fit.parameters.replicate(1, options.dampings_at_once);
+            for (int k = 0; k < options.dampings_at_once; ++k) {
+                dampings.push_back(damping * std::pow(spread, k));
+                tried.col(k) += step_with(dampings.back());
+            }
+            const Eigen::MatrixXd there = residuals(tried);
+            fit.evaluations += options.dampings_at_once;
+            Eigen::VectorXd sums = there.colwise().squaredNorm();
+            for (double& sum : sums)
+                if (!std::isfinite(sum)) sum = std::numeric_limits<double>::infinity();
+            Eigen::Index best = 0;
+            const double sum = sums.minCoeff(&best);
+            const bool better = sum < fit.sum_of_squares;
+            // The boldest step says how far it still is.
+            const bool small =
+                (tried.col(0) - fit.parameters).cwiseAbs().maxCoeff() <= options.parameter_tolerance;
             if (better) {
-                fit.parameters = tried;
-                fit.residuals = there;
+                fit.parameters = tried.col(best);
+                fit.residuals = there.col(best);
                 fit.sum_of_squares = sum;
-                damping = std::max(least_damping, damping * ease);
+                damping = std::max(least_damping, dampings[static_cast<std::size_t>(best)] * ease);
             }
             fit.converged = small;
             if (better || small) break;
-            damping *= tighten;
+            damping = dampings.back() * tighten;
             if (damping > most_damping) return fit;
         }
     }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 
 namespace capstan::gap {
 
@@ -29,6 +30,10 @@ struct LeastSquaresOptions {
     double parameter_tolerance = 1e-4;
     int most_iterations = 40;
     bool jacobian_at_end = true;  ///< made once more at the fit, for its covariance
+    /// Dampings that are tried side by side after each Jacobian.
+    int dampings_at_once = 1;
+    /// A search whose linear model promises no less than this is given up after two iterations.
+    double hopeless_sum_of_squares = std::numeric_limits<double>::infinity();
 };
 
 /// Levenberg-Marquardt with the Jacobian by differences, from `start`.
