@@ -186,6 +186,16 @@ void BenchCables::store() {
     store_cables(group_, motor_tension_N_, load_tension_N_);
 }
 
+double BenchCables::sliding_share(int bench) const {
+    constexpr double built_up = 0.95;
+    int sliding = 0;
+    for (int c = 0; c < group_.cables; ++c) {
+        for (const LaneValues& bend : arrays_[c].before_bend)
+            sliding += std::abs(bend.of[bench]) > built_up ? 1 : 0;
+    }
+    return static_cast<double>(sliding) / (group_.nodes * group_.cables);
+}
+
 double BenchCables::tension_at_N(int cable, int bench, double position_m) const {
     const int segments = group_.nodes - 1;
     const double place = std::clamp(position_m / group_.segment_m - 0.5, 0.0, segments - 1.0);

@@ -43,6 +43,8 @@ class BenchCables {
     /// At the pulley, beyond the friction of the last half segment.
     double motor_tension_N(int cable, int bench) const { return motor_tension_N_[cable].of[bench]; }
     double load_tension_N(int cable, int bench) const { return load_tension_N_[cable].of[bench]; }
+    /// Share of a bench's nodes whose friction is fully built up: 1 in mass motion.
+    double sliding_share(int bench) const;
     /// Between the segments' middles, where a segment's tension stands.
     double tension_at_N(int cable, int bench, double position_m) const;
 

@@ -25,10 +25,10 @@ using nlohmann::ordered_json;
 constexpr std::string_view judged_channel = "load_torque";
 
 const ChannelGap* find_channel(const Diagnosis& diagnosis, std::string_view name) {
-    for (const ChannelGap& channel : diagnosis.channels) {
+    for (const ChannelGap& channel : diagnosis.gap.channels) {
         if (channel.channel == name) return &channel;
     }
-    return diagnosis.channels.empty() ? nullptr : &diagnosis.channels.front();
+    return diagnosis.gap.channels.empty() ? nullptr : &diagnosis.gap.channels.front();
 }
 
 std::string numbers_in_words(const FittedCause& cause) {
@@ -57,6 +57,11 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
     return fmt::format("The cause is {} with probability {:.2f}.", first.effect, first.probability);
 }
 
+std::string closed_in_words(const ChannelGap& channel) {
+    if (std::isnan(channel.closed)) return "no gap";
+    return fmt::format("{:.2f} ({:.2f} to {:.2f})", channel.closed, channel.closed_low, channel.closed_high);
+}
+
 std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis) {
     std::string text = fmt::format("{}: {}\n", recording.name, verdict_sentence(diagnosis));
     if (!diagnosis.component.empty() && diagnosis.component != "none")
@@ -66,24 +71,24 @@ std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis
                             cause.variant, numbers_in_words(cause));
     text += fmt::format("  nominal   friction x {:.3f}, stiffness x {:.3f}, pretension x {:.3f}\n",
                         diagnosis.friction_ratio, diagnosis.stiffness_ratio, diagnosis.pretension_ratio);
-    text += fmt::format("  largest   in run {}, channel {}\n\n  probability of each\n", diagnosis.worst_run,
-                        diagnosis.worst_channel);
+    text += fmt::format("  largest   in run {}, channel {}\n\n  probability of each\n",
+                        diagnosis.gap.worst_run, diagnosis.gap.worst_channel);
     for (const gap::RankedEffect& each : diagnosis.ranked) {
         if (each.probability < 0.005) break;
         text += fmt::format("    {:<28} {:.2f}\n", each.effect, each.probability);
     }
-    text += fmt::format("\n  {:<14} {:>5} {:>10} {:>10} {:>10} {:>10}\n", "RMS of gap", "unit", "noise",
-                        "before", "after", "held out");
-    for (const ChannelGap& channel : diagnosis.channels)
-        text += fmt::format("  {:<14} {:>5} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g}\n", channel.channel,
-                            channel.unit, channel.noise, channel.before_rms, channel.after_rms,
-                            channel.held_out_rms);
-    text += "\n  share of the gap's energy beyond noise:";
-    for (const gap::GapShare& share : diagnosis.map) {
-        if (share.share >= 0.01)
-            text += fmt::format(" {} {} {:.0f}%;", share.by, share.name, 1e2 * share.share);
-    }
-    return text + "\n";
+    text += fmt::format("\n  {:<14} {:>5} {:>9} {:>9} {:>9} {:>9} {:>10}  {}\n", "RMS of gap", "unit",
+                        "noise", "before", "after", "held out", "runner-up", "share closed, held out");
+    for (const ChannelGap& channel : diagnosis.gap.channels)
+        text +=
+            fmt::format("  {:<14} {:>5} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3g}  {}\n", channel.channel,
+                        channel.unit, channel.noise, channel.before_rms, channel.after_rms,
+                        channel.held_out_rms, channel.runner_up_rms, closed_in_words(channel));
+    return text + "\n" + wrapped(gap::gap_sentence(diagnosis.gap.map), 100, "  ", "  ") + "\n";
+}
+
+ordered_json number_or_null(double value) {
+    return std::isnan(value) ? ordered_json(nullptr) : ordered_json(value);
 }
 
 ordered_json optional_text(const std::string& text) {
@@ -98,8 +103,8 @@ ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis
         {"component", optional_text(diagnosis.component)},
         {"end", optional_text(diagnosis.end)},
         {"s_m", diagnosis.position_m ? ordered_json(*diagnosis.position_m) : ordered_json(nullptr)},
-        {"worst_run", diagnosis.worst_run},
-        {"worst_channel", diagnosis.worst_channel}};
+        {"worst_run", diagnosis.gap.worst_run},
+        {"worst_channel", diagnosis.gap.worst_channel}};
     if (const ChannelGap* channel = find_channel(diagnosis, judged_channel)) {
         json["channel"] = channel->channel;
         json["rms_before"] = channel->before_rms;
@@ -120,17 +125,35 @@ ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis
                               {"stiffness", diagnosis.stiffness_ratio},
                               {"pretension", diagnosis.pretension_ratio}};
     json["misfit"] = {{"before", diagnosis.misfit_before}, {"after", diagnosis.misfit_after}};
+    json["independent_samples"] = diagnosis.independent_samples;
+    json["candidates"] = ordered_json::array();
+    for (const gap::CandidateScore& each : diagnosis.candidates)
+        json["candidates"].push_back({{"effects", each.effects},
+                                      {"variants", each.variants},
+                                      {"open_numbers", each.open_numbers},
+                                      {"misfit", each.misfit},
+                                      {"evidence", each.evidence}});
     json["channels"] = ordered_json::array();
-    for (const ChannelGap& channel : diagnosis.channels)
+    for (const ChannelGap& channel : diagnosis.gap.channels)
         json["channels"].push_back({{"channel", channel.channel},
                                     {"unit", channel.unit},
                                     {"noise", channel.noise},
                                     {"rms_before", channel.before_rms},
                                     {"rms_after", channel.after_rms},
-                                    {"rms_held_out", channel.held_out_rms}});
+                                    {"rms_held_out", channel.held_out_rms},
+                                    {"rms_runner_up", channel.runner_up_rms},
+                                    {"closed_share", number_or_null(channel.closed)},
+                                    {"closed_low", number_or_null(channel.closed_low)},
+                                    {"closed_high", number_or_null(channel.closed_high)}});
     json["gap_map"] = ordered_json::array();
-    for (const gap::GapShare& share : diagnosis.map)
-        json["gap_map"].push_back({{"by", share.by}, {"name", share.name}, {"share", share.share}});
+    for (const gap::GapShare& share : diagnosis.gap.map)
+        json["gap_map"].push_back({{"by", share.by},
+                                   {"name", share.name},
+                                   {"share", share.share},
+                                   {"low", share.low},
+                                   {"high", share.high},
+                                   {"share_of_samples", share.of_samples}});
+    json["gap_in_words"] = gap::gap_sentence(diagnosis.gap.map);
     return json;
 }
 

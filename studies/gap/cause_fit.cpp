@@ -111,7 +111,7 @@ void CauseFitter::write_residuals(std::size_t run, const TwinRun& twin,
 }
 
 Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypotheses,
-                                            std::optional<std::size_t> left_out) const {
+                                            std::optional<LeftOut> left_out) const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data_rows_),
                                                 static_cast<Eigen::Index>(hypotheses.size()));
     const std::size_t runs = recording_.runs.size();
@@ -119,7 +119,7 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
     parallel_for_each_index(static_cast<int>(runs * groups), threads_, [&](int task) {
         const std::size_t run = static_cast<std::size_t>(task) % runs;
         const std::size_t first = static_cast<std::size_t>(task) / runs * bench_lanes;
-        if (run == left_out) return;
+        if (left_out && left_out->run == run && left_out->whole_run()) return;
         std::vector<BenchNumbers> benches;
         for (const Hypothesis& hypothesis :
              hypotheses.subspan(first, std::min<std::size_t>(bench_lanes, hypotheses.size() - first)))
@@ -128,6 +128,13 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
         for (std::size_t lane = 0; lane < twins.size(); ++lane)
             write_residuals(run, twins[lane], all.col(static_cast<Eigen::Index>(first + lane)));
     });
+    for (const ResidualSeries& series : series_) {
+        if (!left_out || left_out->run != series.run) continue;
+        const auto [from, to] = left_out->rows(series.rows);
+        all.middleRows(static_cast<Eigen::Index>(series.first_row + from),
+                       static_cast<Eigen::Index>(to - from))
+            .setZero();
+    }
     return all;
 }
 
@@ -157,7 +164,7 @@ Eigen::VectorXd CauseFitter::prior_residuals(const std::vector<const CandidateCa
 
 Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>& causes,
                                        const Eigen::MatrixXd& coordinates,
-                                       std::optional<std::size_t> left_out) const {
+                                       std::optional<LeftOut> left_out) const {
     std::vector<Hypothesis> hypotheses;
     for (Eigen::Index column = 0; column < coordinates.cols(); ++column)
         hypotheses.push_back({causes, coordinates.col(column)});

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "capstan/gap/candidate_cause.h"
@@ -28,6 +29,20 @@ struct Hypothesis {
     Eigen::VectorXd coordinates;  // friction, stiffness, pretension logarithms, then each cause's numbers
 };
 
+/// Part of a recording that a fit does not see: of a run, from one share of its samples to another.
+struct LeftOut {
+    std::size_t run = 0;
+    double from = 0.0;
+    double to = 1.0;
+
+    bool whole_run() const { return from == 0.0 && to == 1.0; }
+    /// First and one past the last of this many.
+    std::pair<std::size_t, std::size_t> rows(std::size_t count) const {
+        return {static_cast<std::size_t>(from * static_cast<double>(count)),
+                static_cast<std::size_t>(to * static_cast<double>(count))};
+    }
+};
+
 /// The best that one or several causes together can do.
 struct CauseFit {
     std::vector<const CandidateCause*> causes;
@@ -50,7 +65,7 @@ class CauseFitter {
     std::size_t data_rows() const { return data_rows_; }
 
     struct FitOptions {
-        std::optional<std::size_t> left_out;  ///< run whose residuals count as zero
+        std::optional<LeftOut> left_out;  ///< residuals there count as zero
         /// The last cause's sizes are unknown: looked for over decades before the search.
         bool any_size = true;
         double hopeless_sum_of_squares = std::numeric_limits<double>::infinity();
@@ -61,11 +76,10 @@ class CauseFitter {
                                 const Eigen::VectorXd& coordinates);
     /// Residuals of the data, a column a hypothesis.
     Eigen::MatrixXd data_residuals(std::span<const Hypothesis> hypotheses,
-                                   std::optional<std::size_t> left_out = {}) const;
+                                   std::optional<LeftOut> left_out = {}) const;
     /// Residuals and priors for one set of coordinates a column.
     Eigen::MatrixXd residuals(const std::vector<const CandidateCause*>& causes,
-                              const Eigen::MatrixXd& coordinates,
-                              std::optional<std::size_t> left_out = {}) const;
+                              const Eigen::MatrixXd& coordinates, std::optional<LeftOut> left_out = {}) const;
     /// Of the coordinates alone.
     Eigen::VectorXd prior_residuals(const std::vector<const CandidateCause*>& causes,
                                     const Eigen::VectorXd& coordinates) const;

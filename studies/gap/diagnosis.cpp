@@ -23,29 +23,6 @@ constexpr double hopeless_factor = 2.5;
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
 
-// Residual energy of the nominal model beyond noise, in units of noise.
-struct GapEnergy {
-    int run = 0;
-    std::string channel;
-    double energy = 0.0;
-};
-
-std::vector<GapShare> gap_map(const std::vector<GapEnergy>& energies) {
-    double sum = 0.0;
-    std::map<int, double> by_run;
-    std::map<std::string, double> by_channel;
-    for (const GapEnergy& each : energies) {
-        sum += each.energy;
-        by_run[each.run] += each.energy;
-        by_channel[each.channel] += each.energy;
-    }
-    std::vector<GapShare> map;
-    if (sum == 0.0) return map;
-    for (const auto& [run, energy] : by_run) map.push_back({"run", std::to_string(run), energy / sum});
-    for (const auto& [channel, energy] : by_channel) map.push_back({"channel", channel, energy / sum});
-    return map;
-}
-
 class Diagnoser {
   public:
     Diagnoser(const Recording& recording, const DiagnosisOptions& options)
@@ -161,12 +138,23 @@ class Diagnoser {
                 diagnosis.candidates.push_back(score);
             }
         }
-        describe(diagnosis, leading);
+        describe(diagnosis, leading, runner_up_of(leading, singles));
         diagnosis.evaluations = evaluations_;
         return diagnosis;
     }
 
-    void describe(Diagnosis& diagnosis, const ScoredFit& leading) {
+    // The best cause that the verdict does not name.
+    static const ScoredFit& runner_up_of(const ScoredFit& leading, const std::vector<ScoredFit>& singles) {
+        for (const ScoredFit& each : singles) {
+            const auto named = [&](const CandidateCause* cause) {
+                return cause->effect == each.fit.causes.front()->effect;
+            };
+            if (std::none_of(leading.fit.causes.begin(), leading.fit.causes.end(), named)) return each;
+        }
+        return leading;
+    }
+
+    void describe(Diagnosis& diagnosis, const ScoredFit& leading, const ScoredFit& runner_up) {
         const CauseFit& fit = leading.fit;
         const BenchNumbers numbers = CauseFitter::numbers(fit.causes, fit.coordinates);
         diagnosis.friction_ratio = numbers.friction_ratio;
@@ -189,74 +177,24 @@ class Diagnoser {
             diagnosis.end = diagnosis.causes.front().end;
             diagnosis.position_m = diagnosis.causes.front().position_m;
         }
-        measure_gap(diagnosis, numbers, fit);
+        diagnosis.gap = measure_gap(
+            recording_, fitter_,
+            {numbers, CauseFitter::numbers(runner_up.fit.causes, runner_up.fit.coordinates), held_out(fit)});
     }
 
-    // Before and after with every sample, nominal numbers before as the sidecar says.
-    void measure_gap(Diagnosis& diagnosis, const BenchNumbers& numbers, const CauseFit& leading) {
-        std::vector<GapEnergy> energies;
-        const EffectsTwin twin(recording_, {options_.segments, 1});
-        struct Sum {
-            double before = 0.0;
-            double after = 0.0;
-            double held_out = 0.0;
-            double samples = 0.0;
-        };
-        std::vector<Sum> sums(recording_.channels.size());
-        double worst = -1.0;
-        for (std::size_t run = 0; run < recording_.runs.size(); ++run) {
-            const std::vector<TwinRun> twins =
-                twin.run_each(run, std::vector<BenchNumbers>{{}, numbers, numbers_without(run, leading)});
-            const TwinRun& before = twins[0];
-            const TwinRun& after = twins[1];
-            const TwinRun& held_out = twins[2];
-            for (std::size_t channel = 0; channel < sums.size(); ++channel) {
-                if (before.values[channel].empty()) continue;
-                Sum here;
-                for (std::size_t sample = 0; sample < before.values[channel].size(); ++sample) {
-                    const double measured = recording_.runs[run].values[channel][sample];
-                    here.before += std::pow(measured - before.values[channel][sample], 2);
-                    here.after += std::pow(measured - after.values[channel][sample], 2);
-                    here.held_out += std::pow(measured - held_out.values[channel][sample], 2);
-                    here.samples += 1.0;
-                }
-                const double noise = sample_noise(recording_.channels[channel]);
-                const double ratio = std::sqrt(here.before / here.samples) / (noise > 0.0 ? noise : 1.0);
-                if (ratio > worst) {
-                    worst = ratio;
-                    diagnosis.worst_run = recording_.runs[run].number;
-                    diagnosis.worst_channel = recording_.channels[channel].name;
-                }
-                sums[channel].before += here.before;
-                sums[channel].after += here.after;
-                sums[channel].held_out += here.held_out;
-                energies.push_back(
-                    {recording_.runs[run].number, recording_.channels[channel].name,
-                     std::max(0.0, here.before / (noise > 0.0 ? noise * noise : 1.0) - here.samples)});
-                sums[channel].samples += here.samples;
-            }
+    // The bench as fitted without each part of the recording in turn.
+    std::vector<HeldOut> held_out(const CauseFit& leading) {
+        std::vector<HeldOut> parts;
+        for (const LeftOut& part : left_out_in_turn(recording_)) {
+            tell("holding out run " + std::to_string(recording_.runs[part.run].number), 0.95);
+            CauseFitter::FitOptions options;
+            options.left_out = part;
+            options.any_size = false;
+            const CauseFit fit = fitter_.fit(leading.hypothesis(), options);
+            evaluations_ += fit.evaluations;
+            parts.push_back({part, CauseFitter::numbers(fit.causes, fit.coordinates)});
         }
-        for (std::size_t channel = 0; channel < sums.size(); ++channel) {
-            if (sums[channel].samples == 0.0) continue;
-            const Channel& described = recording_.channels[channel];
-            diagnosis.channels.push_back({described.name, described.unit, sample_noise(described),
-                                          std::sqrt(sums[channel].before / sums[channel].samples),
-                                          std::sqrt(sums[channel].after / sums[channel].samples),
-                                          std::sqrt(sums[channel].held_out / sums[channel].samples)});
-        }
-        diagnosis.map = gap_map(energies);
-    }
-
-    // The bench as fitted without one run; with one run only there is nothing to fit to.
-    BenchNumbers numbers_without(std::size_t run, const CauseFit& leading) {
-        tell("holding out run " + std::to_string(recording_.runs[run].number), 0.95);
-        if (recording_.runs.size() < 2) return CauseFitter::numbers(leading.causes, leading.coordinates);
-        CauseFitter::FitOptions options;
-        options.left_out = run;
-        options.any_size = false;
-        const CauseFit fit = fitter_.fit(leading.hypothesis(), options);
-        evaluations_ += fit.evaluations;
-        return CauseFitter::numbers(fit.causes, fit.coordinates);
+        return parts;
     }
 
     const Recording& recording_;

@@ -7,6 +7,7 @@
 
 #include "capstan/gap/candidate_cause.h"
 #include "capstan/gap/evidence.h"
+#include "capstan/gap/gap_measure.h"
 #include "capstan/gap/recording.h"
 
 namespace capstan::gap {
@@ -36,23 +37,6 @@ struct FittedCause {
     std::optional<double> position_m;
 };
 
-/// RMS of measured minus model in one channel, over all samples of all runs that do not drive it.
-struct ChannelGap {
-    std::string channel;
-    std::string unit;
-    double noise = 0.0;  ///< of one sample
-    double before_rms = 0.0;
-    double after_rms = 0.0;
-    double held_out_rms = 0.0;  ///< each run with numbers fitted to the others
-};
-
-/// Share of the explainable residual energy (beyond noise, in units of noise) in one part of the recording.
-struct GapShare {
-    std::string by;  ///< "run", "channel"
-    std::string name;
-    double share = 0.0;
-};
-
 /// How one cause, or two together, did.
 struct CandidateScore {
     std::vector<std::string> effects;
@@ -71,10 +55,7 @@ struct Diagnosis {
     std::string component;
     std::string end;
     std::optional<double> position_m;
-    int worst_run = 0;
-    std::string worst_channel;
-    std::vector<ChannelGap> channels;
-    std::vector<GapShare> map;
+    GapMeasure gap;
     double misfit_before = 0.0;  ///< mean square residual in units of noise and floor; 1: nothing to explain
     double misfit_after = 0.0;
     double independent_samples = 0.0;

@@ -82,6 +82,8 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
         const auto reports = benches.advance(inputs_at(run_index, sample));
         for (std::size_t bench = 0; bench < twins.size(); ++bench) {
             if (!reports[bench].converged) ++twins[bench].unsolved_steps;
+            if (options_.tells_sliding_share)
+                twins[bench].sliding_share.push_back(benches.cables().sliding_share(static_cast<int>(bench)));
             for (const Reader& reader : readers) {
                 const double value = reader.read(benches, static_cast<int>(bench));
                 twins[bench].values[reader.channel].push_back(

@@ -28,6 +28,7 @@ struct BenchNumbers {
 struct EffectsTwinOptions {
     int segments = 50;  ///< E18 has no stiction rule that would need more
     int stride = 1;     ///< every how manieth sample a step goes to
+    bool tells_sliding_share = false;
 };
 
 /// A recorded bench of known geometry with effects (BenchSimulation), moved by the recording's driven
@@ -41,6 +42,7 @@ class EffectsTwin {
     /// The samples of a run that are predicted: 0, stride, 2 stride...
     int samples(std::size_t run) const;
     int stride() const { return options_.stride; }
+    const EffectsTwinOptions& options() const { return options_; }
 
     /// channels x predicted samples; empty for driven channels.
     TwinRun run(std::size_t run, const BenchNumbers& numbers) const;

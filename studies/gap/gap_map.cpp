@@ -1,0 +1,170 @@
+#include "capstan/gap/gap_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "capstan/gap/sample_conditions.h"
+
+namespace capstan::gap {
+
+namespace {
+
+constexpr int bootstrap_draws = 400;
+constexpr double block_s = 1.0;
+// A part of a recording is named if the gap is this much denser there than on average, and holds this share.
+constexpr double worth_naming_density = 1.3;
+constexpr double worth_naming_share = 0.4;
+
+struct Part {
+    std::string by;
+    std::string name;
+};
+
+// Explainable energy and samples that a block of time adds to each part.
+struct Block {
+    std::size_t run = 0;
+    std::vector<double> energy;   // parts
+    std::vector<double> samples;  // parts
+};
+
+class Tally {
+  public:
+    Tally(const Recording& recording, const std::vector<RunResiduals>& runs)
+        : recording_(recording), sortings_(sample_sortings(recording, runs)) {
+        for (const RecordedRun& run : recording.runs) parts_.push_back({"run", std::to_string(run.number)});
+        for (const Channel& channel : recording.channels) parts_.push_back({"channel", channel.name});
+        for (const TensionSensor& sensor : recording.tension_sensors)
+            parts_.push_back({"place", fmt::format("{:.2f} m on cable {}", sensor.position_m,
+                                                   sensor.cable == CableName::a ? "A" : "B")});
+        for (const SampleSorting& sorting : sortings_) {
+            for (const std::string& part : sorting.parts) parts_.push_back({sorting.by, part});
+        }
+        for (const RunResiduals& run : runs) count(run);
+    }
+
+    const std::vector<Part>& parts() const { return parts_; }
+    const std::vector<Block>& blocks() const { return blocks_; }
+
+  private:
+    void count(const RunResiduals& run) {
+        const int samples = recording_.runs[run.run].samples();
+        const int block = std::max(1, static_cast<int>(block_s * recording_.sample_rate_Hz));
+        for (int first = run.first_sample; first < samples; first += block) {
+            blocks_.push_back(
+                {run.run, std::vector<double>(parts_.size(), 0.0), std::vector<double>(parts_.size(), 0.0)});
+            for (int sample = first; sample < std::min(samples, first + block); ++sample)
+                count(run, static_cast<std::size_t>(sample), blocks_.back());
+        }
+    }
+
+    void count(const RunResiduals& run, std::size_t sample, Block& block) {
+        for (std::size_t channel = 0; channel < run.residual.size(); ++channel) {
+            if (run.residual[channel].empty()) continue;
+            const double residual = run.residual[channel][sample];
+            const auto add = [&](std::size_t part) {
+                block.energy[part] += residual * residual - 1.0;
+                block.samples[part] += 1.0;
+            };
+            std::size_t next = 0;
+            add(run.run);
+            next += recording_.runs.size();
+            add(next + channel);
+            next += recording_.channels.size();
+            for (const TensionSensor& sensor : recording_.tension_sensors) {
+                if (recording_.channels[channel].name == sensor.channel) add(next);
+                ++next;
+            }
+            for (const SampleSorting& sorting : sortings_) {
+                const int part = sorting.part_of[run.run][sample];
+                if (part >= 0) add(next + static_cast<std::size_t>(part));
+                next += sorting.parts.size();
+            }
+        }
+    }
+
+    const Recording& recording_;
+    std::vector<SampleSorting> sortings_;
+    std::vector<Part> parts_;
+    std::vector<Block> blocks_;
+};
+
+// Of each part among all parts of its kind; empty if there is no energy.
+std::vector<double> shares_of(const std::vector<Part>& parts, const std::vector<double>& sums) {
+    std::vector<double> shares(parts.size(), 0.0);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        double all = 0.0;
+        for (std::size_t other = 0; other < parts.size(); ++other) {
+            if (parts[other].by == parts[part].by) all += std::max(0.0, sums[other]);
+        }
+        if (all > 0.0) shares[part] = std::max(0.0, sums[part]) / all;
+    }
+    return shares;
+}
+
+}  // namespace
+
+std::vector<GapShare> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs) {
+    const Tally tally(recording, runs);
+    const std::vector<Part>& parts = tally.parts();
+    std::vector<double> energy(parts.size(), 0.0);
+    std::vector<double> samples(parts.size(), 0.0);
+    double sum = 0.0;
+    for (const Block& block : tally.blocks()) {
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            energy[part] += block.energy[part];
+            samples[part] += block.samples[part];
+            if (parts[part].by == "run") sum += block.energy[part];
+        }
+    }
+    if (!(sum > 0.0)) return {};
+
+    std::mt19937_64 random(20221);  // its numbers are the same everywhere
+    std::vector<std::vector<double>> drawn(parts.size());
+    for (int draw = 0; draw < bootstrap_draws; ++draw) {
+        std::vector<double> sums(parts.size(), 0.0);
+        for (std::size_t block = 0; block < tally.blocks().size(); ++block) {
+            const Block& any = tally.blocks()[random() % tally.blocks().size()];
+            for (std::size_t part = 0; part < parts.size(); ++part) sums[part] += any.energy[part];
+        }
+        const std::vector<double> shares = shares_of(parts, sums);
+        for (std::size_t part = 0; part < parts.size(); ++part) drawn[part].push_back(shares[part]);
+    }
+
+    const std::vector<double> shares = shares_of(parts, energy);
+    const std::vector<double> of_samples = shares_of(parts, samples);
+    std::vector<GapShare> map;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        if (samples[part] == 0.0) continue;
+        std::sort(drawn[part].begin(), drawn[part].end());
+        map.push_back({parts[part].by, parts[part].name, shares[part], drawn[part][bootstrap_draws / 40],
+                       drawn[part][bootstrap_draws - 1 - bootstrap_draws / 40], of_samples[part]});
+    }
+    return map;
+}
+
+std::string gap_sentence(const std::vector<GapShare>& map) {
+    if (map.empty()) return "Nothing is left beyond noise and the model's own floor.";
+    std::string sentence;
+    for (const char* by : {"channel", "run", "regime", "direction", "speed", "tension", "since reversal",
+                           "session", "place"}) {
+        const GapShare* most = nullptr;
+        int parts = 0;
+        for (const GapShare& share : map) {
+            if (share.by != by) continue;
+            ++parts;
+            if (most == nullptr || share.share > most->share) most = &share;
+        }
+        if (most == nullptr || parts < 2 || most->share < worth_naming_share ||
+            most->share < worth_naming_density * most->of_samples)
+            continue;
+        sentence += fmt::format("{}{} {}: {:.0f}% ({:.0f} to {:.0f}%)", sentence.empty() ? "" : "; ", by,
+                                most->name, 1e2 * most->share, 1e2 * most->low, 1e2 * most->high);
+    }
+    return sentence.empty() ? "The gap is spread evenly over the recording."
+                            : "Where the gap is densest: " + sentence + ".";
+}
+
+}  // namespace capstan::gap

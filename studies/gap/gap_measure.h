@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/gap/cause_fit.h"
+#include "capstan/gap/gap_map.h"
+
+namespace capstan::gap {
+
+/// RMS of measured minus model in one channel, over all samples of all runs that do not drive it.
+struct ChannelGap {
+    std::string channel;
+    std::string unit;
+    double noise = 0.0;  ///< of one sample
+    double before_rms = 0.0;
+    double after_rms = 0.0;
+    double held_out_rms = 0.0;   ///< each run (or half of the only run) with numbers fitted to the others
+    double runner_up_rms = 0.0;  ///< with the best other cause instead
+    /// Share of the closable gap (mean square beyond noise) that is closed on held-out data, with its 95%
+    /// interval from a bootstrap over blocks of a second. No number where there is no gap to close.
+    double closed = 0.0;
+    double closed_low = 0.0;
+    double closed_high = 0.0;
+};
+
+/// Part of a recording that a fit does not see.
+struct HeldOut {
+    LeftOut left_out;
+    BenchNumbers numbers;  ///< as fitted without it
+};
+
+/// The models that a recording is measured against.
+struct GapModels {
+    BenchNumbers leading;
+    BenchNumbers runner_up;
+    std::vector<HeldOut> held_out;
+};
+
+struct GapMeasure {
+    std::vector<ChannelGap> channels;
+    std::vector<GapShare> map;  ///< of the nominal model
+    int worst_run = 0;          ///< where the gap is largest against noise
+    std::string worst_channel;
+    std::vector<TwinRun> nominal;  ///< runs, at every sample
+    std::vector<TwinRun> leading;
+};
+
+/// `fitter`: whose scales the map counts in.
+GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, const GapModels& models);
+
+/// What a fit leaves out in turn: each run, or each half of an only run.
+std::vector<LeftOut> left_out_in_turn(const Recording& recording);
+
+}  // namespace capstan::gap
