@@ -9,6 +9,7 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/page_diagnosis.h"
 #include "capstan/cli/wrapped_text.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/recording_reader.h"
@@ -175,6 +176,10 @@ ExitCode run(const Invocation& invocation) {
     }
     const Diagnosis diagnosis = gap::diagnose(recording, options);
     if (on_a_terminal && invocation.text("progress") == "auto") fmt::print(stderr, "\r\033[K");
+    deliver_page(invocation, [&] {
+        return reports::experiment_page_html(
+            diagnosis_page(recording, diagnosis, verdict_sentence(diagnosis)));
+    });
     deliver(invocation, invocation.has("json") ? json_text(in_json(recording, diagnosis))
                                                : in_words(recording, diagnosis));
     return ExitCode::success;
@@ -192,8 +197,9 @@ Command diagnose_command() {
         "where only noise is left and `unknown` where the best known cause leaves much of the gap. For recordings of "
         "pull_pull and single_cable benches.",
         {log_argument},
-        {jobs_option, output_option, json_option, progress_option, help_option},
-        {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json"},
+        {jobs_option, output_option, json_option, page_option, progress_option, help_option},
+        {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
+         "capstan diagnose bench.csv --html bench.html"},
         run};
 }
 

@@ -1,0 +1,180 @@
+#include "capstan/cli/page_diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/cli/program.h"
+
+namespace capstan::cli {
+
+namespace {
+
+using gap::Diagnosis;
+using gap::Recording;
+using reports::NumberTable;
+using reports::Table;
+
+// Of all curves together: each takes about 60 bytes a sample, and the page stays below 3 MB.
+constexpr std::size_t drawn_samples = 6000;
+constexpr std::size_t shown_causes = 8;
+
+constexpr const char* measured_name = "measured";
+constexpr const char* nominal_name = "model without the cause";
+constexpr const char* corrected_name = "model with the cause";
+
+Table ranking_table(const Diagnosis& diagnosis) {
+    Table table{"ranking", "Probability of each cause", {"effect", "probability"}, {}};
+    for (const gap::RankedEffect& each : diagnosis.ranked) {
+        if (table.rows.size() < shown_causes) table.rows.push_back({each.effect, each.probability});
+    }
+    return table;
+}
+
+Table map_table(const Diagnosis& diagnosis) {
+    Table table{"gap_map",
+                "Share of the gap's energy by part of the recording",
+                {"part", "share", "low", "high", "share_of_samples"},
+                {}};
+    for (const gap::GapShare& share : diagnosis.gap.map)
+        table.rows.push_back(
+            {share.by + ": " + share.name, share.share, share.low, share.high, share.of_samples});
+    return table;
+}
+
+struct Curves {
+    Table run{"run", "Runs of the recording", {"run", "protocol", "samples"}, {}};
+    Table channel{
+        "channel", "Measured and modelled channels", {"run", "channel", "time_s", "series", "value"}, {}};
+    Table residual{
+        "channel_residual", "Measured less modelled", {"run", "channel", "time_s", "series", "value"}, {}};
+    Table loop{"loop",
+               "Load torque over motor torque",
+               {"run", "time_s", "series", "motor_torque_Nm", "load_torque_Nm"},
+               {}};
+};
+
+void add_channel(Curves& curves, const Recording& recording, const Diagnosis& diagnosis, std::size_t run,
+                 std::size_t channel, std::size_t limit) {
+    const gap::RecordedRun& recorded = recording.runs[run];
+    const std::vector<double>& measured = recorded.values[channel];
+    const std::vector<double>& nominal = diagnosis.gap.nominal[run].values[channel];
+    const std::vector<double>& corrected = diagnosis.gap.leading[run].values[channel];
+    const std::string name =
+        fmt::format("{} [{}]", recording.channels[channel].name, recording.channels[channel].unit);
+    const auto number = std::int64_t{recorded.number};
+    const std::size_t every = reports::drawn_every(measured.size(), limit);
+    for (std::size_t k = 0; k < measured.size(); k += every) {
+        const double time_s = recorded.time_s[k];
+        curves.channel.rows.push_back({number, name, time_s, measured_name, measured[k]});
+        curves.channel.rows.push_back({number, name, time_s, nominal_name, nominal[k]});
+        curves.channel.rows.push_back({number, name, time_s, corrected_name, corrected[k]});
+        curves.residual.rows.push_back({number, name, time_s, nominal_name, measured[k] - nominal[k]});
+        curves.residual.rows.push_back({number, name, time_s, corrected_name, measured[k] - corrected[k]});
+    }
+}
+
+// Where the load's torque is predicted; the motor's as measured or, where it is predicted, as modelled.
+void add_loop(Curves& curves, const Recording& recording, const Diagnosis& diagnosis, std::size_t run,
+              std::size_t limit) {
+    const auto motor = recording.channel("motor_torque");
+    const auto load = recording.channel("load_torque");
+    const gap::RecordedRun& recorded = recording.runs[run];
+    if (!motor || !load || recorded.drives("load_torque")) return;
+    const auto number = std::int64_t{recorded.number};
+    const std::size_t every = reports::drawn_every(recorded.time_s.size(), limit);
+    for (const auto& [series, model] : {std::pair{measured_name, static_cast<const gap::TwinRun*>(nullptr)},
+                                        {nominal_name, &diagnosis.gap.nominal[run]},
+                                        {corrected_name, &diagnosis.gap.leading[run]}}) {
+        const auto values = [&, model = model](int channel) -> const std::vector<double>& {
+            const auto at = static_cast<std::size_t>(channel);
+            return model == nullptr || model->values[at].empty() ? recorded.values[at] : model->values[at];
+        };
+        for (std::size_t k = 0; k < recorded.time_s.size(); k += every)
+            curves.loop.rows.push_back(
+                {number, recorded.time_s[k], series, values(*motor)[k], values(*load)[k]});
+    }
+}
+
+Curves curves_of(const Recording& recording, const Diagnosis& diagnosis) {
+    Curves curves;
+    std::size_t modelled = 0;
+    for (const gap::TwinRun& run : diagnosis.gap.nominal) {
+        modelled += static_cast<std::size_t>(std::count_if(
+            run.values.begin(), run.values.end(), [](const auto& values) { return !values.empty(); }));
+    }
+    const std::size_t limit = drawn_samples / std::max<std::size_t>(1, modelled);
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        curves.run.rows.push_back({std::int64_t{recording.runs[run].number}, recording.runs[run].protocol,
+                                   std::int64_t{recording.runs[run].samples()}});
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            if (!diagnosis.gap.nominal[run].values[channel].empty())
+                add_channel(curves, recording, diagnosis, run, channel, limit);
+        }
+        add_loop(curves, recording, diagnosis, run, limit);
+    }
+    return curves;
+}
+
+NumberTable shrinkage_table(const Diagnosis& diagnosis) {
+    NumberTable table{
+        "RMS of measured less modelled, over whole runs",
+        {"Channel", "Unit", "Noise", "Before", "After", "Held out", "Runner-up", "Share closed, held out"},
+        {}};
+    for (const gap::ChannelGap& channel : diagnosis.gap.channels) {
+        const auto number = [](double value) { return fmt::format("{:.3g}", value); };
+        table.rows.push_back(
+            {channel.channel, channel.unit, number(channel.noise), number(channel.before_rms),
+             number(channel.after_rms), number(channel.held_out_rms), number(channel.runner_up_rms),
+             std::isnan(channel.closed) ? "no gap"
+                                        : fmt::format("{:.2f} ({:.2f} to {:.2f})", channel.closed,
+                                                      channel.closed_low, channel.closed_high)});
+    }
+    return table;
+}
+
+NumberTable fitted_table(const Diagnosis& diagnosis) {
+    NumberTable table{"What was fitted", {"Of", "Number", "Value", "Unit"}, {}};
+    for (const gap::FittedCause& cause : diagnosis.causes) {
+        for (const gap::FittedNumber& number : cause.numbers)
+            table.rows.push_back({cause.effect + (cause.variant.empty() ? "" : ", " + cause.variant),
+                                  number.name, fmt::format("{:.4g}", number.value), number.unit});
+    }
+    const auto add = [&](const char* name, double ratio) {
+        table.rows.push_back({"nominal model", name, fmt::format("{:.4f}", ratio), "of stated"});
+    };
+    add("friction", diagnosis.friction_ratio);
+    add("stiffness", diagnosis.stiffness_ratio);
+    add("pretension", diagnosis.pretension_ratio);
+    return table;
+}
+
+}  // namespace
+
+reports::ExperimentPage diagnosis_page(const Recording& recording, const Diagnosis& diagnosis,
+                                       const std::string& verdict) {
+    Curves curves = curves_of(recording, diagnosis);
+    reports::ExperimentPage page;
+    page.id = "diagnosis";
+    page.kind = "Why a bench disagrees with its model";
+    page.title = recording.name;
+    page.verdict = verdict;
+    page.sections = {
+        {"verdict",
+         "The cause",
+         "Every cause that is known is fitted with the nominal numbers free within their "
+         "uncertainty; what it leaves is weighed against how many numbers it needed.",
+         {fitted_table(diagnosis), shrinkage_table(diagnosis)},
+         "Held out: each run predicted with numbers fitted to the others. Runner-up: the best cause that the verdict "
+         "does not name. Share closed: of the mean square beyond noise, with its 95% interval."},
+        {"where", "Where it lies", gap::gap_sentence(diagnosis.gap.map), {}, ""},
+        {"runs", "Measured, nominal, corrected", "Long runs are thinned evenly for drawing.", {}, ""},
+        {"loops", "Loops", "", {}, ""}};
+    page.tables = {ranking_table(diagnosis),  map_table(diagnosis),       std::move(curves.run),
+                   std::move(curves.channel), std::move(curves.residual), std::move(curves.loop)};
+    page.program_version = program_version();
+    return page;
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "capstan/gap/diagnosis.h"
+#include "capstan/gap/recording.h"
+#include "capstan/reports/experiment_page.h"
+
+namespace capstan::cli {
+
+/// A diagnosis as a page: the verdict and its probabilities, where the gap is, measured, nominal and
+/// corrected channels, residuals before and after, loops. `verdict`: the sentence at its head.
+reports::ExperimentPage diagnosis_page(const gap::Recording& recording, const gap::Diagnosis& diagnosis,
+                                       const std::string& verdict);
+
+}  // namespace capstan::cli
