@@ -108,6 +108,21 @@ std::vector<Effect> friction_places() {
     };
 }
 
+Effect load_pulley_friction(const std::string& variant, bool holds_at_rest) {
+    return {"pulley_friction",
+            variant,
+            "end friction",
+            "load_pulley",
+            "load",
+            "E27",
+            "friction of the load pulley's bearing",
+            {{"coulomb", "N m", 0.0, 10.0, 0.05}, {"viscous", "N m s", 0.0, 10.0, 1e-2}},
+            {0.0, 0.0},
+            [holds_at_rest](BenchEffects& effects, Values p) {
+                effects.load_friction = {p[0], p[1], holds_at_rest};
+            }};
+}
+
 std::vector<Effect> ends() {
     return {
         {"pulley_friction",
@@ -122,18 +137,8 @@ std::vector<Effect> ends() {
          [](BenchEffects& effects, Values p) {
              effects.motor_friction = {p[0], p[1]};
          }},
-        {"pulley_friction",
-         "load",
-         "end friction",
-         "load_pulley",
-         "load",
-         "E27",
-         "friction of the load pulley's bearing",
-         {{"coulomb", "N m", 0.0, 10.0, 0.05}, {"viscous", "N m s", 0.0, 10.0, 1e-2}},
-         {0.0, 0.0},
-         [](BenchEffects& effects, Values p) {
-             effects.load_friction = {p[0], p[1]};
-         }},
+        load_pulley_friction("load", false),
+        load_pulley_friction("load, also at rest", true),
         {"motor_cogging",
          "",
          "actuator",

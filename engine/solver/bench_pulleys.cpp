@@ -66,13 +66,14 @@ Torque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const PulleyF
 
 // A pulley whose angle is prescribed cannot creep, and its encoder knows little of the first tenth of a
 // milliradian.
-BenchPulleys::Bearing BenchPulleys::bearing_of(bool free) {
-    return free ? Bearing::finds_its_angle : Bearing::is_turned;
+BenchPulleys::Bearing BenchPulleys::bearing_of(bool free, const PulleyFriction& friction) {
+    return free || friction.holds_at_rest ? Bearing::finds_its_angle : Bearing::is_turned;
 }
 
 Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) const {
-    const Torque lost = losses(motor_, bearing_of(motor_is_free(inputs)), effects_.motor_friction,
-                               effects_.inertia.motor_kg_m2, angle_rad, inputs.time_step_s);
+    const Torque lost =
+        losses(motor_, bearing_of(motor_is_free(inputs), effects_.motor_friction), effects_.motor_friction,
+               effects_.inertia.motor_kg_m2, angle_rad, inputs.time_step_s);
     Torque balance = {lost.value_Nm + effects_.motor_cogging.torque_Nm(angle_rad),
                       lost.per_rad + effects_.motor_cogging.slope_Nm_per_rad(angle_rad)};
     if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
@@ -103,8 +104,9 @@ Torque BenchPulleys::held_by(const BenchInputs& inputs, double angle_rad) const 
 }
 
 Torque BenchPulleys::load_balance(const BenchInputs& inputs, double angle_rad) const {
-    const Torque lost = losses(load_, bearing_of(load_is_free(inputs)), effects_.load_friction,
-                               load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s);
+    const Torque lost =
+        losses(load_, bearing_of(load_is_free(inputs), effects_.load_friction), effects_.load_friction,
+               load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s);
     if (!load_is_free(inputs)) return {-lost.value_Nm, -lost.per_rad};
     const Torque taken = held_by(inputs, angle_rad);
     return {-lost.value_Nm - taken.value_Nm, -lost.per_rad - taken.per_rad};
@@ -133,8 +135,9 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
         motor_.encoder_rad = motor_stands_rad(torque->torque_Nm, angles.motor_rad);
     } else {
         motor_.torque_Nm = pulleys_.motor_radius_m * motor_pull_N +
-                           losses(motor_, bearing_of(motor_is_free(inputs)), effects_.motor_friction,
-                                  effects_.inertia.motor_kg_m2, angles.motor_rad, inputs.time_step_s)
+                           losses(motor_, bearing_of(motor_is_free(inputs), effects_.motor_friction),
+                                  effects_.motor_friction, effects_.inertia.motor_kg_m2, angles.motor_rad,
+                                  inputs.time_step_s)
                                .value_Nm +
                            effects_.motor_cogging.torque_Nm(angles.motor_rad);
         motor_.encoder_rad = std::get<MotorAngle>(inputs.motor).angle_rad;

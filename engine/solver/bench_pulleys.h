@@ -70,7 +70,7 @@ class BenchPulleys {
     };
     /// How its Coulomb friction finds its sign: by bristles, which hold at rest, or by speed.
     enum class Bearing { finds_its_angle, is_turned };
-    static Bearing bearing_of(bool free);
+    static Bearing bearing_of(bool free, const PulleyFriction& friction);
     static Torque losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
                          double inertia_kg_m2, double angle_rad, double time_step_s);
     static void turn(Pulley& pulley, double angle_rad, double time_step_s);

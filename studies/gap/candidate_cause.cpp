@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "capstan/effects/effect_catalogue.h"
 
@@ -28,6 +29,7 @@ CandidateCause plain(const std::string& effect, const std::string& family, const
 
 OpenNumber::Kind kind_of(const EffectParameter& parameter, double absent) {
     if (parameter.name == "middle") return OpenNumber::Kind::place;
+    if (parameter.name == "periods_per_turn") return OpenNumber::Kind::periods;
     if (parameter.typical == absent || (absent != 0.0 && absent != 1.0)) return OpenNumber::Kind::shape;
     return parameter.low < absent ? OpenNumber::Kind::signed_size : OpenNumber::Kind::size;
 }
@@ -73,7 +75,9 @@ CandidateCause cause_of(const Effect& effect, double length_m) {
 }
 
 // Faults of one channel's sensor; sizes in parts of what the channel spans.
-std::vector<CandidateCause> sensor_causes(const std::string& channel, double span, double time_step_s) {
+// `lattice`: the step on which all its values lie, where that shows.
+std::vector<CandidateCause> sensor_causes(const std::string& channel, double span, double time_step_s,
+                                          const std::optional<double>& lattice) {
     using Setter = void (*)(SensorFaults&, double);
     struct Fault {
         const char* name;
@@ -92,7 +96,7 @@ std::vector<CandidateCause> sensor_causes(const std::string& channel, double spa
          [](SensorFaults& f, double v) { f.lag_s = v; }},
         {"time_misalignment", "s", OpenNumber::Kind::signed_size, 3.0 * time_step_s, 0.0,
          [](SensorFaults& f, double v) { f.delay_s = v; }},
-        {"sensor_quantization", "", OpenNumber::Kind::size, 0.05 * span, 0.0,
+        {"sensor_quantization", "", OpenNumber::Kind::step, 0.05 * span, 0.0,
          [](SensorFaults& f, double v) { f.step = v; }},
         {"sensor_hysteresis", "", OpenNumber::Kind::size, 0.03 * span, 0.0,
          [](SensorFaults& f, double v) { f.hysteresis = v; }},
@@ -102,6 +106,9 @@ std::vector<CandidateCause> sensor_causes(const std::string& channel, double spa
         CandidateCause cause = plain(fault.name, "sensor", "sensor:" + channel);
         cause.variant = channel;
         cause.numbers = {{"size", fault.unit, fault.kind, fault.typical, fault.absent, -1e3, 1e3}};
+        if (fault.kind == OpenNumber::Kind::step && lattice) {
+            cause.numbers.front().low = cause.numbers.front().high = *lattice;
+        }
         cause.apply = [channel, set = fault.set](BenchNumbers& numbers, Values values) {
             set(numbers.sensor_faults[channel], values[0]);
         };
@@ -126,10 +133,36 @@ double span_of(const Recording& recording, std::size_t channel) {
 
 }  // namespace
 
+std::optional<double> unstated_step(const Recording& recording, std::size_t channel) {
+    constexpr double tolerance = 0.02;  // of a step, for what the file rounds
+    constexpr std::size_t samples_per_value = 10;
+    std::vector<double> values;
+    for (const RecordedRun& run : recording.runs)
+        values.insert(values.end(), run.values[channel].begin(), run.values[channel].end());
+    const std::size_t samples = values.size();
+    std::sort(values.begin(), values.end());
+    const double rounding = 1e-9 * (values.back() - values.front());
+    values.erase(
+        std::unique(values.begin(), values.end(), [&](double a, double b) { return b - a <= rounding; }),
+        values.end());
+    if (values.size() < 3 || values.size() * samples_per_value > samples) return {};
+    double step = values.back() - values.front();
+    for (std::size_t k = 1; k < values.size(); ++k) step = std::min(step, values[k] - values[k - 1]);
+    step = (values.back() - values.front()) / std::round((values.back() - values.front()) / step);
+    const Channel& described = recording.channels[channel];
+    if (step < 1.5 * std::max(described.step.value_or(0.0), described.noise_std.value_or(0.0))) return {};
+    for (const double value : values) {
+        const double off = (value - values.front()) / step;
+        if (std::abs(off - std::round(off)) > tolerance) return {};
+    }
+    return step;
+}
+
 double OpenNumber::value(double coordinate) const {
     double value = 0.0;
     switch (kind) {
         case Kind::size:
+        case Kind::step:
             value = absent + std::max(0.0, coordinate) * (typical - absent);
             break;
         case Kind::signed_size:
@@ -137,6 +170,9 @@ double OpenNumber::value(double coordinate) const {
             break;
         case Kind::shape:
             value = typical * std::exp(coordinate);
+            break;
+        case Kind::periods:
+            value = std::round(coordinate);
             break;
         case Kind::place:
             value = typical * coordinate;
@@ -153,9 +189,11 @@ double OpenNumber::prior_std() const {
     switch (kind) {
         case Kind::size:
         case Kind::signed_size:
+        case Kind::step:
             return 30.0;
+        case Kind::periods:
+            return 1e3;
         case Kind::shape:
-            return 1.0;
         case Kind::place:
             return 1.0;
     }
@@ -170,6 +208,18 @@ std::vector<double> OpenNumber::starts() const {
             return {-1.0, 1.0};
         case Kind::shape:
             return {0.0};
+        case Kind::periods: {
+            constexpr int most_periods = 36;
+            std::vector<double> starts;
+            for (int periods = 1; periods <= most_periods; ++periods) starts.push_back(periods);
+            return starts;
+        }
+        case Kind::step: {
+            if (low == high) return {1.0};
+            std::vector<double> starts;
+            for (double size = 0.1; size < 10.0; size *= 1.05) starts.push_back(size);
+            return starts;
+        }
         case Kind::place:
             return {0.1, 0.3, 0.5, 0.7, 0.9};
     }
@@ -202,7 +252,8 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
         const std::string& name = recording.channels[channel].name;
         if (!ever_predicted(recording, name) || name == "load_angle") continue;
         for (CandidateCause& cause :
-             sensor_causes(name, span_of(recording, channel), 1.0 / recording.sample_rate_Hz))
+             sensor_causes(name, span_of(recording, channel), 1.0 / recording.sample_rate_Hz,
+                           unstated_step(recording, channel)))
             causes.push_back(std::move(cause));
     }
     return causes;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct OpenNumber {
         size,  ///< how much of it there is: 0 is none; coordinate in units of a typical case, not below 0
         signed_size,  ///< the same, either way
         shape,        ///< how it looks once it is there: the coordinate is a logarithm
+        periods,      ///< how often in a turn: a whole number, and the coordinate itself
+        step,         ///< a size that fits only when it is met closely
         place,        ///< where along the cable: coordinate in parts of its length
     };
     std::string name;
@@ -27,6 +30,7 @@ struct OpenNumber {
     double high = 0.0;
 
     double value(double coordinate) const;
+    bool is_size() const { return kind == Kind::size || kind == Kind::signed_size || kind == Kind::step; }
     double prior_mean() const;
     double prior_std() const;
     /// Coordinates from which it pays to start.
@@ -51,6 +55,10 @@ struct CandidateCause {
 
 /// The nominal numbers of a well-kept laboratory are right to about this.
 inline constexpr double nominal_log_std = 0.015;
+
+/// The step on which all values of a channel lie, if it is coarser than the noise and step that the sidecar
+/// states; none if the values lie anywhere.
+std::optional<double> unstated_step(const Recording& recording, std::size_t channel);
 
 /// Every cause that this recording could show: none, wrong parameters, the catalogue's effects, faults of
 /// each predicted channel.

@@ -70,6 +70,8 @@ CauseFitter::CauseFitter(const Recording& recording, const EffectsTwinOptions& o
             data_rows_ += rows;
         }
     }
+    for (std::size_t channel = 0; channel < recording.channels.size(); ++channel)
+        lattice_.push_back(unstated_step(recording, channel));
     // Priors weigh against independent samples, not against all of them.
     prior_weight_ = std::sqrt(static_cast<double>(data_rows_) / independent_samples());
 }
@@ -95,38 +97,99 @@ BenchNumbers CauseFitter::numbers(const std::vector<const CandidateCause*>& caus
     return bench;
 }
 
+// A coarse reading says in which step's reach the value was, no more: within it nothing is left.
 void CauseFitter::write_residuals(std::size_t run, const TwinRun& twin,
+                                  const std::map<std::string, SensorFaults>& faults,
                                   Eigen::Ref<Eigen::VectorXd> all) const {
     for (const ResidualSeries& series : series_) {
         if (series.run != run) continue;
         const std::vector<double>& measured = recording_.runs[run].values[series.channel];
         const std::vector<double>& predicted = twin.values[series.channel];
+        const auto faulty = faults.find(recording_.channels[series.channel].name);
+        const bool coarse = lattice_[series.channel] && faulty != faults.end() && faulty->second.step > 0.0;
+        const double reach = coarse ? 0.5 * *lattice_[series.channel] : 0.0;
         for (std::size_t row = 0; row < series.rows; ++row) {
             const std::size_t sample = static_cast<std::size_t>(series.first_sample) + row;
+            const double off =
+                measured[sample * static_cast<std::size_t>(twin_.stride())] - predicted[sample];
             all[static_cast<Eigen::Index>(series.first_row + row)] =
-                (measured[sample * static_cast<std::size_t>(twin_.stride())] - predicted[sample]) /
-                series.scale;
+                std::copysign(std::max(0.0, std::abs(off) - reach), off) / series.scale;
         }
     }
 }
+
+namespace {
+
+// Hypotheses that differ in sensor faults only: one bench is moved for all of them.
+struct SameBench {
+    Hypothesis mechanical;
+    std::vector<std::size_t> hypotheses;
+};
+
+Hypothesis without_sensors(const Hypothesis& hypothesis) {
+    Hypothesis mechanical{{}, hypothesis.coordinates.head(nominal_coordinates)};
+    Eigen::Index next = nominal_coordinates;
+    for (const CandidateCause* cause : hypothesis.causes) {
+        const auto count = static_cast<Eigen::Index>(cause->numbers.size());
+        if (cause->family != "sensor" && count > 0) {
+            mechanical.causes.push_back(cause);
+            const Eigen::Index known = mechanical.coordinates.size();
+            mechanical.coordinates.conservativeResize(known + count);
+            mechanical.coordinates.tail(count) = hypothesis.coordinates.segment(next, count);
+        }
+        next += count;
+    }
+    return mechanical;
+}
+
+std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses) {
+    std::vector<SameBench> benches;
+    for (std::size_t k = 0; k < hypotheses.size(); ++k) {
+        const Hypothesis mechanical = without_sensors(hypotheses[k]);
+        const auto same = std::find_if(benches.begin(), benches.end(), [&](const SameBench& bench) {
+            return bench.mechanical.causes == mechanical.causes &&
+                   bench.mechanical.coordinates == mechanical.coordinates;
+        });
+        if (same != benches.end()) {
+            same->hypotheses.push_back(k);
+        } else {
+            benches.push_back({mechanical, {k}});
+        }
+    }
+    return benches;
+}
+
+}  // namespace
 
 Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypotheses,
                                             std::optional<LeftOut> left_out) const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data_rows_),
                                                 static_cast<Eigen::Index>(hypotheses.size()));
+    const std::vector<SameBench> benches = by_bench(hypotheses);
     const std::size_t runs = recording_.runs.size();
-    const std::size_t groups = (hypotheses.size() + bench_lanes - 1) / bench_lanes;
+    const std::size_t groups = (benches.size() + bench_lanes - 1) / bench_lanes;
     parallel_for_each_index(static_cast<int>(runs * groups), threads_, [&](int task) {
         const std::size_t run = static_cast<std::size_t>(task) % runs;
-        const std::size_t first = static_cast<std::size_t>(task) / runs * bench_lanes;
+        const auto group = std::span(benches).subspan(
+            static_cast<std::size_t>(task) / runs * bench_lanes,
+            std::min<std::size_t>(bench_lanes,
+                                  benches.size() - static_cast<std::size_t>(task) / runs * bench_lanes));
         if (left_out && left_out->run == run && left_out->whole_run()) return;
-        std::vector<BenchNumbers> benches;
-        for (const Hypothesis& hypothesis :
-             hypotheses.subspan(first, std::min<std::size_t>(bench_lanes, hypotheses.size() - first)))
-            benches.push_back(numbers(hypothesis.causes, hypothesis.coordinates));
-        const std::vector<TwinRun> twins = twin_.run_each(run, benches);
-        for (std::size_t lane = 0; lane < twins.size(); ++lane)
-            write_residuals(run, twins[lane], all.col(static_cast<Eigen::Index>(first + lane)));
+        std::vector<BenchNumbers> moved;
+        for (const SameBench& bench : group)
+            moved.push_back(numbers(bench.mechanical.causes, bench.mechanical.coordinates));
+        const std::vector<TwinRun> twins = twin_.run_each(run, moved);
+        for (std::size_t lane = 0; lane < twins.size(); ++lane) {
+            for (const std::size_t k : group[lane].hypotheses) {
+                const auto faults = numbers(hypotheses[k].causes, hypotheses[k].coordinates).sensor_faults;
+                auto smooth = faults;
+                for (auto& [channel, fault] : smooth) {
+                    if (lattice_[static_cast<std::size_t>(*recording_.channel(channel))]) fault.step = 0.0;
+                }
+                write_residuals(run, faults.empty() ? twins[lane] : twin_.with_faults(twins[lane], smooth),
+                                faults, all.col(static_cast<Eigen::Index>(k)));
+            }
+        }
     });
     for (const ResidualSeries& series : series_) {
         if (!left_out || left_out->run != series.run) continue;
@@ -136,6 +199,16 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
             .setZero();
     }
     return all;
+}
+
+double CauseFitter::misfit(const CauseFit& fit) const {
+    return fit.residuals.head(static_cast<Eigen::Index>(data_rows_)).squaredNorm() /
+           static_cast<double>(data_rows_);
+}
+
+double CauseFitter::nominal_price(const CauseFit& fit) const {
+    return 0.5 * prior_residuals(fit.causes, fit.coordinates).head(nominal_coordinates).squaredNorm() /
+           (prior_weight_ * prior_weight_);
 }
 
 Eigen::VectorXd CauseFitter::prior_residuals(const std::vector<const CandidateCause*>& causes,
@@ -180,15 +253,19 @@ Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>&
 Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOptions& options,
                                            int& evaluations) const {
     const std::vector<OpenNumber>& numbers = start.causes.back()->numbers;
-    const std::vector<double> factors = {0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 4.0, 8.0};
+    const bool is_a_step = std::any_of(numbers.begin(), numbers.end(), [](const OpenNumber& number) {
+        return number.kind == OpenNumber::Kind::step;
+    });
+    const std::vector<double> factors =
+        is_a_step ? std::vector<double>{0.96, 0.97, 0.98, 0.99, 1.0, 1.01, 1.02, 1.03, 1.04}
+                  : std::vector<double>{0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 4.0, 8.0};
     Eigen::MatrixXd tried = start.coordinates.replicate(1, static_cast<Eigen::Index>(factors.size()));
     bool has_size = false;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-        const bool size =
-            numbers[k].kind == OpenNumber::Kind::size || numbers[k].kind == OpenNumber::Kind::signed_size;
-        has_size |= size;
+        if (!numbers[k].is_size()) continue;
+        has_size = true;
         const auto row = start.coordinates.size() - static_cast<Eigen::Index>(numbers.size() - k);
-        for (std::size_t f = 0; size && f < factors.size(); ++f)
+        for (std::size_t f = 0; f < factors.size(); ++f)
             tried(row, static_cast<Eigen::Index>(f)) *= factors[f];
     }
     if (!has_size) return start.coordinates;
@@ -221,22 +298,6 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     fit.evaluations += found.evaluations;
     fit.converged = found.converged;
     return fit;
-}
-
-std::vector<Eigen::VectorXd> start_grid(const CandidateCause& cause) {
-    std::vector<Eigen::VectorXd> grid = {Eigen::VectorXd(0)};
-    for (const OpenNumber& number : cause.numbers) {
-        std::vector<Eigen::VectorXd> longer;
-        for (const Eigen::VectorXd& begun : grid) {
-            for (const double start : number.starts()) {
-                Eigen::VectorXd next(begun.size() + 1);
-                next << begun, start;
-                longer.push_back(next);
-            }
-        }
-        grid = longer;
-    }
-    return grid;
 }
 
 }  // namespace capstan::gap

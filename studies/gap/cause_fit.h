@@ -80,6 +80,10 @@ class CauseFitter {
     /// Residuals and priors for one set of coordinates a column.
     Eigen::MatrixXd residuals(const std::vector<const CandidateCause*>& causes,
                               const Eigen::MatrixXd& coordinates, std::optional<LeftOut> left_out = {}) const;
+    /// How far the nominal numbers had to go: half the sum of squares in units of their uncertainty.
+    double nominal_price(const CauseFit& fit) const;
+    /// Mean square of the residuals of the data.
+    double misfit(const CauseFit& fit) const;
     /// Of the coordinates alone.
     Eigen::VectorXd prior_residuals(const std::vector<const CandidateCause*>& causes,
                                     const Eigen::VectorXd& coordinates) const;
@@ -89,20 +93,20 @@ class CauseFitter {
     double independent_samples() const;
 
   private:
-    void write_residuals(std::size_t run, const TwinRun& twin, Eigen::Ref<Eigen::VectorXd> all) const;
+    void write_residuals(std::size_t run, const TwinRun& twin,
+                         const std::map<std::string, SensorFaults>& faults,
+                         Eigen::Ref<Eigen::VectorXd> all) const;
     Eigen::VectorXd roughly_sized(const Hypothesis& start, const FitOptions& options, int& evaluations) const;
 
     const Recording& recording_;
     EffectsTwin twin_;
     int threads_;
     std::vector<ResidualSeries> series_;
+    std::vector<std::optional<double>> lattice_;  // channels: unstated steps on which all their values lie
     std::size_t data_rows_ = 0;
     double prior_weight_ = 1.0;
 };
 
 inline constexpr int nominal_coordinates = 3;
-
-/// Where a search for these causes' numbers may start: all combinations of their numbers' starts.
-std::vector<Eigen::VectorXd> start_grid(const CandidateCause& cause);
 
 }  // namespace capstan::gap

@@ -1,6 +1,7 @@
 #include "capstan/gap/diagnosis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -17,6 +18,7 @@ constexpr std::size_t most_fitted = 8;
 // How many of the best single causes are looked at with a second, and with how many others.
 constexpr std::size_t most_first_causes = 2;
 constexpr std::size_t most_second_causes = 3;
+constexpr int most_exchanges = 2;
 // A search that promises a misfit this many times the best so far is given up.
 constexpr double hopeless_factor = 2.5;
 // The quick look does with fewer segments and samples.
@@ -52,8 +54,8 @@ class Diagnoser {
 
     ScoredFit scored(CauseFit fit) {
         evaluations_ += fit.evaluations;
-        const double misfit = fit.sum_of_squares / static_cast<double>(fitter_.data_rows());
-        const double evidence = evidence_.of(misfit, open_numbers(fit));
+        const double misfit = fitter_.misfit(fit);
+        const double evidence = evidence_.of(misfit, open_numbers(fit), fitter_.nominal_price(fit));
         return {std::move(fit), misfit, evidence};
     }
 
@@ -92,33 +94,60 @@ class Diagnoser {
                          [](const ScoredFit& a, const ScoredFit& b) { return a.evidence > b.evidence; });
     }
 
-    // The best single causes, each with the most promising others.
+    // The best single causes, each with the most promising others; then each of the best two is asked again
+    // whether another would go better with its partner.
     std::vector<ScoredFit> pairs_with(const std::vector<ScoredFit>& singles) {
         std::vector<ScoredFit> pairs;
-        std::vector<std::string> firsts;
         if (singles.front().misfit < worth_a_second_cause) return pairs;
+        std::vector<std::string> firsts;
         for (const ScoredFit& single : singles) {
             const std::string& first = single.fit.causes.front()->effect;
             if (first == "none" || firsts.size() == most_first_causes ||
                 std::find(firsts.begin(), firsts.end(), first) != firsts.end())
                 continue;
             firsts.push_back(first);
-            const Hypothesis present = single.fit.hypothesis();
-            std::size_t seconds = 0;
-            for (const Screened& each : screen(screener_, causes_, present)) {
-                if (seconds == most_second_causes) break;
-                if (each.cause->effect == first) continue;
-                ++seconds;
-                tell("fitting " + first + " with " + each.cause->effect,
-                     0.6 + 0.05 * static_cast<double>(pairs.size()));
-                CauseFitter::FitOptions options;
-                options.hopeless_sum_of_squares =
-                    std::min(single.fit.sum_of_squares, hopeless_factor * least_sum(pairs));
-                pairs.push_back(scored(fitter_.fit(with(present, each), options)));
-            }
+            add_pairs(single.fit.hypothesis(), pairs);
         }
         sort_by_evidence(pairs);
+        for (int round = 0; round < most_exchanges && !pairs.empty(); ++round) {
+            if (pairs.front().misfit < worth_a_second_cause) break;
+            const CauseFit best = pairs.front().fit;
+            for (std::size_t kept = 0; kept < best.causes.size(); ++kept) add_pairs(only(best, kept), pairs);
+            sort_by_evidence(pairs);
+            if (pairs.front().fit.causes == best.causes) break;
+        }
         return pairs;
+    }
+
+    // One of a pair's causes as it is there.
+    static Hypothesis only(const CauseFit& pair, std::size_t kept) {
+        Eigen::Index first = nominal_coordinates;
+        for (std::size_t k = 0; k < kept; ++k)
+            first += static_cast<Eigen::Index>(pair.causes[k]->numbers.size());
+        const auto count = static_cast<Eigen::Index>(pair.causes[kept]->numbers.size());
+        Hypothesis one{{pair.causes[kept]}, Eigen::VectorXd(nominal_coordinates + count)};
+        one.coordinates << pair.coordinates.head(nominal_coordinates), pair.coordinates.segment(first, count);
+        return one;
+    }
+
+    void add_pairs(const Hypothesis& present, std::vector<ScoredFit>& pairs) {
+        const CandidateCause* first = present.causes.front();
+        std::size_t seconds = 0;
+        for (const Screened& each : screen(screener_, causes_, present)) {
+            if (seconds == most_second_causes) break;
+            if (each.cause->effect == first->effect) continue;
+            ++seconds;
+            const auto same = [&](const ScoredFit& pair) {
+                return std::is_permutation(pair.fit.causes.begin(), pair.fit.causes.end(),
+                                           std::array{first, each.cause}.begin());
+            };
+            if (std::any_of(pairs.begin(), pairs.end(), same)) continue;
+            tell("fitting " + first->effect + " with " + each.cause->effect,
+                 std::min(0.9, 0.6 + 0.03 * static_cast<double>(pairs.size())));
+            CauseFitter::FitOptions options;
+            options.hopeless_sum_of_squares = hopeless_factor * least_sum(pairs);
+            pairs.push_back(scored(fitter_.fit(with(present, each), options)));
+        }
     }
 
     Diagnosis verdict(const std::vector<ScoredFit>& singles, const std::vector<ScoredFit>& pairs) {

@@ -57,7 +57,7 @@ int EffectsTwin::samples(std::size_t run) const {
 }
 
 TwinRun EffectsTwin::run(std::size_t run_index, const BenchNumbers& numbers) const {
-    return run_each(run_index, std::span(&numbers, 1)).front();
+    return with_faults(run_each(run_index, std::span(&numbers, 1)).front(), numbers.sensor_faults);
 }
 
 std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
@@ -91,15 +91,19 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
             }
         }
     }
-    const double time_step_s = options_.stride / recording_.sample_rate_Hz;
-    for (std::size_t bench = 0; bench < twins.size(); ++bench) {
-        for (const auto& [channel, faults] : numbers[bench].sensor_faults) {
-            std::vector<double>& values =
-                twins[bench].values[static_cast<std::size_t>(*recording_.channel(channel))];
-            if (!values.empty()) values = sensed(std::move(values), faults, time_step_s);
-        }
-    }
     return twins;
+}
+
+TwinRun EffectsTwin::with_faults(const TwinRun& run,
+                                 const std::map<std::string, SensorFaults>& faults) const {
+    TwinRun sensed_run = run;
+    for (const auto& [channel, fault] : faults) {
+        std::vector<double>& values =
+            sensed_run.values[static_cast<std::size_t>(*recording_.channel(channel))];
+        if (!values.empty())
+            values = sensed(std::move(values), fault, options_.stride / recording_.sample_rate_Hz);
+    }
+    return sensed_run;
 }
 
 BenchInputs EffectsTwin::inputs_at(std::size_t run_index, int sample) const {

@@ -46,8 +46,11 @@ class EffectsTwin {
 
     /// channels x predicted samples; empty for driven channels.
     TwinRun run(std::size_t run, const BenchNumbers& numbers) const;
-    /// The same run of up to bench_lanes benches at once; each the same bits as alone.
+    /// The same run of up to bench_lanes benches at once; each the same bits as alone. Without sensor faults.
     std::vector<TwinRun> run_each(std::size_t run, std::span<const BenchNumbers> numbers) const;
+
+    /// What faulty sensors make of a run.
+    TwinRun with_faults(const TwinRun& run, const std::map<std::string, SensorFaults>& faults) const;
 
   private:
     struct Reader {

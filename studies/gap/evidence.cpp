@@ -23,14 +23,14 @@ constexpr double not_fitted = -60.0;
 
 }  // namespace
 
-double Evidence::of(double misfit, std::size_t open_numbers) const {
+double Evidence::of(double misfit, std::size_t open_numbers, double nominal_price) const {
     return -0.5 * samples_ *
                (std::log(std::max(misfit, as_good_as_noise)) + below_noise_weight * std::log(misfit)) -
-           0.5 * static_cast<double>(open_numbers) * std::log(samples_);
+           0.5 * static_cast<double>(open_numbers) * std::log(samples_) - nominal_price;
 }
 
 double Evidence::of_unknown(double nominal_misfit) const {
-    return of(1.0 + share_left_by_unknown * std::max(0.0, nominal_misfit - 1.0), numbers_of_unknown);
+    return of(1.0 + share_left_by_unknown * std::max(0.0, nominal_misfit - 1.0), numbers_of_unknown, 0.0);
 }
 
 bool Evidence::second_is_earned(const ScoredFit& single, const ScoredFit& pair, double nominal_misfit) const {

@@ -16,7 +16,7 @@ struct RankedEffect {
 /// How well one or two causes explain a recording.
 struct ScoredFit {
     CauseFit fit;
-    double misfit = 0.0;    ///< mean square residual with priors, in units of noise and floor
+    double misfit = 0.0;    ///< mean square residual, in units of noise and floor
     double evidence = 0.0;  ///< logarithm, up to a constant
 };
 
@@ -26,8 +26,9 @@ class Evidence {
     /// `independent_samples`: instants that tell something new.
     explicit Evidence(double independent_samples) : samples_(independent_samples) {}
 
-    /// Of a model that leaves a mean square of this, with a price for each open number.
-    double of(double misfit, std::size_t open_numbers) const;
+    /// Of a model that leaves a mean square of this, with a price for each open number and for how far the
+    /// nominal ones had to go.
+    double of(double misfit, std::size_t open_numbers, double nominal_price) const;
     /// Of a cause that nobody has thought of, granted to leave some of a gap that the nominal model leaves.
     double of_unknown(double nominal_misfit) const;
     /// Whether a second cause earns its place: by evidence and by a share of the gap.

@@ -2,38 +2,119 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace capstan::gap {
 
 namespace {
 
-// Least squares of `target` on the columns of `directions`: what is left. The last direction may be a
-// cause's, which cannot be there less than not at all: against it, it explains nothing.
-double left_after(const Eigen::VectorXd& target, const Eigen::MatrixXd& directions, bool last_is_a_cause) {
-    const Eigen::MatrixXd normal = directions.transpose() * directions;
-    const Eigen::VectorXd weights =
-        (normal + 1e-9 * normal.trace() * Eigen::MatrixXd::Identity(normal.rows(), normal.cols()))
-            .ldlt()
-            .solve(-directions.transpose() * target);
-    if (last_is_a_cause && weights[weights.size() - 1] < 0.0)
-        return left_after(target, directions.leftCols(directions.cols() - 1), false);
-    return (target + directions * weights).squaredNorm();
-}
-
-struct Start {
-    const CandidateCause* cause = nullptr;
-    Eigen::VectorXd coordinates;  // of the cause's own numbers
+struct Explained {
+    double left = 0.0;        // sum of squares
+    Eigen::VectorXd weights;  // of the last directions
 };
 
-std::vector<Start> starts_of(const std::vector<CandidateCause>& causes, const Hypothesis& present) {
-    std::vector<Start> starts;
-    for (const CandidateCause& cause : causes) {
-        if (cause.effect == "none" ||
-            std::find(present.causes.begin(), present.causes.end(), &cause) != present.causes.end())
-            continue;
-        for (const Eigen::VectorXd& start : start_grid(cause)) starts.push_back({&cause, start});
+// Least squares of `target` on the columns of `directions`: what is left. The last ones, `at_least_none`,
+// cannot be there less than not at all: against them, they explain nothing.
+Explained explained(const Eigen::VectorXd& target, Eigen::MatrixXd directions,
+                    const std::vector<bool>& at_least_none) {
+    const auto own = static_cast<Eigen::Index>(at_least_none.size());
+    const Eigen::Index known = directions.cols() - own;
+    for (Eigen::Index tries = 0;; ++tries) {
+        const Eigen::MatrixXd normal = directions.transpose() * directions;
+        const Eigen::VectorXd weights =
+            (normal + 1e-9 * normal.trace() * Eigen::MatrixXd::Identity(normal.rows(), normal.cols()))
+                .ldlt()
+                .solve(-directions.transpose() * target);
+        bool against = false;
+        for (Eigen::Index k = 0; tries <= own && k < own; ++k) {
+            if (!at_least_none[static_cast<std::size_t>(k)] || !(weights[known + k] < 0.0)) continue;
+            directions.col(known + k).setZero();
+            against = true;
+        }
+        if (!against) return {(target + directions * weights).squaredNorm(), weights.tail(own)};
     }
-    return starts;
+}
+
+// One cause at one place and of one shape: in which directions its sizes go.
+struct Probe {
+    const CandidateCause* cause = nullptr;
+    Eigen::VectorXd start;                    // of the cause's own numbers
+    std::vector<Eigen::VectorXd> directions;  // each one of its sizes there, the others not
+    std::vector<std::size_t> sizes;           // which of its numbers
+};
+
+// All combinations of the starts of the numbers that are no sizes.
+std::vector<Eigen::VectorXd> shapes_of(const CandidateCause& cause) {
+    std::vector<Eigen::VectorXd> grid = {Eigen::VectorXd(0)};
+    for (const OpenNumber& number : cause.numbers) {
+        std::vector<Eigen::VectorXd> longer;
+        for (const Eigen::VectorXd& begun : grid) {
+            for (const double start : number.is_size() ? std::vector<double>{0.0} : number.starts()) {
+                Eigen::VectorXd next(begun.size() + 1);
+                next << begun, start;
+                longer.push_back(next);
+            }
+        }
+        grid = longer;
+    }
+    return grid;
+}
+
+void add_probes(const CandidateCause& cause, std::vector<Probe>& probes) {
+    std::vector<std::size_t> sizes;
+    for (std::size_t k = 0; k < cause.numbers.size(); ++k) {
+        if (cause.numbers[k].is_size()) sizes.push_back(k);
+    }
+    for (const Eigen::VectorXd& shape : shapes_of(cause)) {
+        if (sizes.size() == 1) {
+            for (const double size : cause.numbers[sizes.front()].starts()) {
+                Eigen::VectorXd start = shape;
+                start[static_cast<Eigen::Index>(sizes.front())] = size;
+                probes.push_back({&cause, start, {start}, sizes});
+            }
+            continue;
+        }
+        Probe probe{&cause, shape, {}, sizes};
+        for (const std::size_t size : sizes) {
+            Eigen::VectorXd alone = shape;
+            alone[static_cast<Eigen::Index>(size)] = 1.0;
+            probe.directions.push_back(alone);
+        }
+        probes.push_back(probe);
+    }
+}
+
+std::vector<Probe> probes_of(const std::vector<CandidateCause>& causes, const Hypothesis& present) {
+    std::vector<Probe> probes;
+    for (const CandidateCause& cause : causes) {
+        if (cause.effect != "none" &&
+            std::find(present.causes.begin(), present.causes.end(), &cause) == present.causes.end())
+            add_probes(cause, probes);
+    }
+    return probes;
+}
+
+Hypothesis with(Hypothesis present, const CandidateCause* cause, const Eigen::VectorXd& numbers) {
+    present.causes.push_back(cause);
+    const Eigen::Index known = present.coordinates.size();
+    present.coordinates.conservativeResize(known + numbers.size());
+    present.coordinates.tail(numbers.size()) = numbers;
+    return present;
+}
+
+// Where a search should start, the sizes as the directions want them.
+Eigen::VectorXd sized(const Probe& probe, const Eigen::VectorXd& weights) {
+    constexpr double least = 0.1;
+    constexpr double most = 10.0;
+    Eigen::VectorXd start = probe.start;
+    for (std::size_t k = 0; k < probe.sizes.size(); ++k) {
+        const auto number = static_cast<Eigen::Index>(probe.sizes[k]);
+        const double weight = weights[static_cast<Eigen::Index>(k)];
+        const double size = std::copysign(std::clamp(std::abs(weight), least, most), weight);
+        start[number] = probe.directions[k][number] * size;
+    }
+    return start;
 }
 
 }  // namespace
@@ -42,20 +123,15 @@ std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<Candid
                              const Hypothesis& present) {
     constexpr double step = 0.02;
     const Eigen::Index known = present.coordinates.size();
-    const std::vector<Start> starts = starts_of(causes, present);
+    const std::vector<Probe> probes = probes_of(causes, present);
     std::vector<Hypothesis> hypotheses = {present};
     for (Eigen::Index k = 0; k < known; ++k) {
         hypotheses.push_back(present);
         hypotheses.back().coordinates[k] += step;
     }
-    for (const Start& start : starts) {
-        Hypothesis hypothesis = present;
-        if (start.coordinates.size() > 0) {
-            hypothesis.causes.push_back(start.cause);
-            hypothesis.coordinates.resize(known + start.coordinates.size());
-            hypothesis.coordinates << present.coordinates, start.coordinates;
-        }
-        hypotheses.push_back(hypothesis);
+    for (const Probe& probe : probes) {
+        for (const Eigen::VectorXd& direction : probe.directions)
+            hypotheses.push_back(with(present, probe.cause, direction));
     }
     const Eigen::MatrixXd data = fitter.data_residuals(hypotheses);
 
@@ -68,26 +144,38 @@ std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<Candid
         return all;
     };
     const Eigen::VectorXd here = with_priors(0);
-    Eigen::MatrixXd directions(rows, known + 1);
+    Eigen::MatrixXd directions(rows, known);
     for (Eigen::Index k = 0; k < known; ++k)
         directions.col(k) = (with_priors(static_cast<std::size_t>(k) + 1) - here) / step;
 
     std::vector<Screened> all;
-    for (std::size_t k = 0; k < starts.size(); ++k) {
-        const auto& [cause, coordinates] = starts[k];
-        double left = 0.0;
-        if (coordinates.size() == 0) {  // a nominal number that may go far: its direction is there already
-            left = left_after(here, directions.leftCols(known), false);
-        } else {
-            const Eigen::VectorXd there = with_priors(static_cast<std::size_t>(known) + 1 + k);
-            directions.col(known) = there - here;
-            left = std::min(left_after(here, directions, true),
-                            left_after(there, directions.leftCols(known), false));
+    std::size_t next = static_cast<std::size_t>(known) + 1;
+    for (const Probe& probe : probes) {
+        Eigen::MatrixXd together(rows, known + static_cast<Eigen::Index>(probe.directions.size()));
+        together.leftCols(known) = directions;
+        std::vector<bool> at_least_none;
+        Eigen::VectorXd there;
+        for (std::size_t k = 0; k < probe.directions.size(); ++k) {
+            there = with_priors(next++);
+            together.col(known + static_cast<Eigen::Index>(k)) = there - here;
+            at_least_none.push_back(probe.cause->numbers[probe.sizes[k]].kind == OpenNumber::Kind::size);
         }
-        if (all.empty() || all.back().cause != cause) {
-            all.push_back({cause, coordinates, left});
-        } else if (left < all.back().sum_of_squares) {
-            all.back() = {cause, coordinates, left};
+        // A step fits only where it is met: there is no direction to it.
+        const bool is_a_step =
+            probe.sizes.size() == 1 && probe.cause->numbers[probe.sizes[0]].kind == OpenNumber::Kind::step;
+        Screened screened{probe.cause, probe.start, std::numeric_limits<double>::infinity()};
+        if (!is_a_step) {
+            const Explained along = explained(here, together, at_least_none);
+            screened = {probe.cause, sized(probe, along.weights), along.left};
+        }
+        if (probe.directions.size() == 1) {
+            const double left = explained(there, directions, {}).left;
+            if (left < screened.sum_of_squares) screened = {probe.cause, probe.start, left};
+        }
+        if (all.empty() || all.back().cause != probe.cause) {
+            all.push_back(screened);
+        } else if (screened.sum_of_squares < all.back().sum_of_squares) {
+            all.back() = screened;
         }
     }
     std::stable_sort(all.begin(), all.end(), [](const Screened& a, const Screened& b) {
