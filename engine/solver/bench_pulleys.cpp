@@ -39,8 +39,8 @@ PulleyAngles BenchPulleys::start(const BenchInputs& inputs) const {
 // Inside a gap only inertia holds a load pulley whose cables slide.
 double BenchPulleys::load_inertia_kg_m2(const BenchInputs& inputs) const {
     constexpr double least_kg_m2 = 1e-5;
-    return load_is_free(inputs) ? std::max(least_kg_m2, effects_.inertia.load_kg_m2)
-                                : effects_.inertia.load_kg_m2;
+    const double sum_kg_m2 = known_.load_kg_m2 + effects_.inertia.load_kg_m2;
+    return load_is_free(inputs) ? std::max(least_kg_m2, sum_kg_m2) : sum_kg_m2;
 }
 
 // What a pulley's bearing and inertia take at this angle (E27, E35).
@@ -71,11 +71,11 @@ BenchPulleys::Bearing BenchPulleys::bearing_of(bool free, const PulleyFriction& 
 }
 
 Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) const {
-    const Torque lost =
-        losses(motor_, bearing_of(motor_is_free(inputs), effects_.motor_friction), effects_.motor_friction,
-               effects_.inertia.motor_kg_m2, angle_rad, inputs.time_step_s);
-    Torque balance = {lost.value_Nm + effects_.motor_cogging.torque_Nm(angle_rad),
-                      lost.per_rad + effects_.motor_cogging.slope_Nm_per_rad(angle_rad)};
+    const Torque lost = losses(motor_, bearing_of(motor_is_free(inputs), effects_.motor_friction),
+                               effects_.motor_friction, known_.motor_kg_m2, angle_rad, inputs.time_step_s);
+    const Torque swing = swing_torque(inputs, angle_rad);
+    Torque balance = {lost.value_Nm + swing.value_Nm + effects_.motor_cogging.torque_Nm(angle_rad),
+                      lost.per_rad + swing.per_rad + effects_.motor_cogging.slope_Nm_per_rad(angle_rad)};
     if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
         balance.value_Nm -= torque->torque_Nm;
     } else if (motor_is_free(inputs)) {
@@ -112,9 +112,35 @@ Torque BenchPulleys::load_balance(const BenchInputs& inputs, double angle_rad) c
     return {-lost.value_Nm - taken.value_Nm, -lost.per_rad - taken.per_rad};
 }
 
+// Slightly damped, so that contact does not ring on.
+BenchPulleys::Swing BenchPulleys::swung(const Pulley& pulley, double angle_rad, double time_step_s) {
+    constexpr double damping = 0.05;
+    constexpr double beta = 0.25 * (1.0 + damping) * (1.0 + damping);
+    constexpr double gamma = 0.5 + damping;
+    const auto [speed, acceleration] = pulley.swing;
+    const double h = time_step_s;
+    const double now =
+        (angle_rad - pulley.angle_rad - h * speed - h * h * (0.5 - beta) * acceleration) / (beta * h * h);
+    return {speed + h * ((1.0 - gamma) * acceleration + gamma * now), now};
+}
+
+// Of the motor's unmodelled inertia, at an angle that it finds for itself or is given.
+Torque BenchPulleys::swing_torque(const BenchInputs& inputs, double angle_rad) const {
+    const double inertia_kg_m2 = effects_.inertia.motor_kg_m2;
+    const double h = inputs.time_step_s;
+    if (!motor_is_free(inputs))
+        return {inertia_kg_m2 * ((angle_rad - motor_.angle_rad) / h - motor_.speed_rad_per_s) / h,
+                inertia_kg_m2 / (h * h)};
+    constexpr double damping = 0.05;
+    constexpr double beta = 0.25 * (1.0 + damping) * (1.0 + damping);
+    return {inertia_kg_m2 * swung(motor_, angle_rad, h).acceleration_rad_per_s2,
+            inertia_kg_m2 / (beta * h * h)};
+}
+
 void BenchPulleys::turn(Pulley& pulley, double angle_rad, double time_step_s) {
     const double turned_rad = angle_rad - pulley.angle_rad;
     pulley.bristle = Presliding{bearing_presliding_rad, 0.0}.after(pulley.bristle, turned_rad).bend;
+    pulley.swing = swung(pulley, angle_rad, time_step_s);
     pulley.speed_rad_per_s = turned_rad / time_step_s;
     pulley.angle_rad = angle_rad;
 }

@@ -29,8 +29,9 @@ struct PulleyAngles {
 /// lost motion, the hand or lock at the load (E17, E27 to E29, E34, E35).
 class BenchPulleys {
   public:
-    BenchPulleys(const Pulleys& pulleys, const BenchEffects& effects)
-        : pulleys_(pulleys), effects_(effects) {}
+    /// `known`: inertia of the nominal bench; the effect's comes on top.
+    BenchPulleys(const Pulleys& pulleys, const BenchEffects& effects, const Inertia& known)
+        : pulleys_(pulleys), effects_(effects), known_(known) {}
 
     /// At rest a single cable pulls.
     void rest(double motor_torque_Nm, double load_torque_Nm) {
@@ -61,9 +62,16 @@ class BenchPulleys {
     double load_torque_Nm() const { return load_.torque_Nm; }
 
   private:
+    /// How an inertia that rings on its cables moves: Newmark's method, which keeps the ringing that a
+    /// backward difference would damp away.
+    struct Swing {
+        double speed_rad_per_s = 0.0;
+        double acceleration_rad_per_s2 = 0.0;
+    };
     struct Pulley {
         double angle_rad = 0.0;
         double speed_rad_per_s = 0.0;
+        Swing swing;
         double bristle = 0.0;
         double torque_Nm = 0.0;    // of the motor, on the load
         double encoder_rad = 0.0;  // beyond the backlash
@@ -74,12 +82,15 @@ class BenchPulleys {
     static Torque losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
                          double inertia_kg_m2, double angle_rad, double time_step_s);
     static void turn(Pulley& pulley, double angle_rad, double time_step_s);
+    static Swing swung(const Pulley& pulley, double angle_rad, double time_step_s);
+    Torque swing_torque(const BenchInputs& inputs, double angle_rad) const;
     double load_inertia_kg_m2(const BenchInputs& inputs) const;
     Torque held_by(const BenchInputs& inputs, double angle_rad) const;
     double motor_stands_rad(double torque_Nm, double angle_rad) const;
 
     Pulleys pulleys_;
     BenchEffects effects_;
+    Inertia known_;
     Pulley motor_;
     Pulley load_;
 };

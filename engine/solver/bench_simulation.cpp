@@ -64,10 +64,8 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
       effects_(effects.begin(), effects.end()),
       cables_(cables_of(descriptions), effects, descriptions.front().has_second_cable) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
-        effects_[bench].inertia.motor_kg_m2 += descriptions[bench].inertia.motor_kg_m2;
-        effects_[bench].inertia.load_kg_m2 += descriptions[bench].inertia.load_kg_m2;
         pretension_N_.push_back(descriptions[bench].cable.pretension_N());
-        pulleys_.emplace_back(radii_, effects_[bench]);
+        pulleys_.emplace_back(radii_, effects_[bench], descriptions[bench].inertia);
         if (cables_.count() == 1)
             pulleys_.back().rest(radii_.motor_radius_m * pretension_N_.back(),
                                  radii_.load_radius_m * pretension_N_.back());

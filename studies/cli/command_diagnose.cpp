@@ -133,6 +133,8 @@ ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis
                                       {"variants", each.variants},
                                       {"open_numbers", each.open_numbers},
                                       {"misfit", each.misfit},
+                                      {"nominal_price", each.nominal_price},
+                                      {"visibility", each.visibility},
                                       {"evidence", each.evidence}});
     json["channels"] = ordered_json::array();
     for (const ChannelGap& channel : diagnosis.gap.channels)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "capstan/parallel/parallel_for.h"
 
@@ -123,6 +124,7 @@ namespace {
 // Hypotheses that differ in sensor faults only: one bench is moved for all of them.
 struct SameBench {
     Hypothesis mechanical;
+    BenchNumbers numbers;
     std::vector<std::size_t> hypotheses;
 };
 
@@ -153,10 +155,30 @@ std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses) {
         if (same != benches.end()) {
             same->hypotheses.push_back(k);
         } else {
-            benches.push_back({mechanical, {k}});
+            benches.push_back(
+                {mechanical, CauseFitter::numbers(mechanical.causes, mechanical.coordinates), {k}});
         }
     }
     return benches;
+}
+
+using BenchGroup = std::vector<SameBench>;
+
+// To be moved at once: those that ring apart from those that do not.
+std::vector<BenchGroup> in_groups(const std::vector<SameBench>& benches) {
+    std::vector<BenchGroup> groups;
+    for (const bool rings : {false, true}) {
+        BenchGroup group;
+        for (const SameBench& bench : benches) {
+            if (bench.numbers.rings() != rings) continue;
+            group.push_back(bench);
+            if (group.size() < bench_lanes) continue;
+            groups.push_back(group);
+            group.clear();
+        }
+        if (!group.empty()) groups.push_back(group);
+    }
+    return groups;
 }
 
 }  // namespace
@@ -165,19 +187,14 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
                                             std::optional<LeftOut> left_out) const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data_rows_),
                                                 static_cast<Eigen::Index>(hypotheses.size()));
-    const std::vector<SameBench> benches = by_bench(hypotheses);
+    const std::vector<BenchGroup> groups = in_groups(by_bench(hypotheses));
     const std::size_t runs = recording_.runs.size();
-    const std::size_t groups = (benches.size() + bench_lanes - 1) / bench_lanes;
-    parallel_for_each_index(static_cast<int>(runs * groups), threads_, [&](int task) {
+    parallel_for_each_index(static_cast<int>(runs * groups.size()), threads_, [&](int task) {
         const std::size_t run = static_cast<std::size_t>(task) % runs;
-        const auto group = std::span(benches).subspan(
-            static_cast<std::size_t>(task) / runs * bench_lanes,
-            std::min<std::size_t>(bench_lanes,
-                                  benches.size() - static_cast<std::size_t>(task) / runs * bench_lanes));
+        const BenchGroup& group = groups[static_cast<std::size_t>(task) / runs];
         if (left_out && left_out->run == run && left_out->whole_run()) return;
         std::vector<BenchNumbers> moved;
-        for (const SameBench& bench : group)
-            moved.push_back(numbers(bench.mechanical.causes, bench.mechanical.coordinates));
+        for (const SameBench& bench : group) moved.push_back(bench.numbers);
         const std::vector<TwinRun> twins = twin_.run_each(run, moved);
         for (std::size_t lane = 0; lane < twins.size(); ++lane) {
             for (const std::size_t k : group[lane].hypotheses) {
@@ -199,6 +216,58 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
             .setZero();
     }
     return all;
+}
+
+std::vector<std::vector<double>> CauseFitter::visibility(std::span<const CauseFit> fits) const {
+    std::vector<Hypothesis> hypotheses;
+    for (const CauseFit& fit : fits) {
+        hypotheses.push_back(fit.hypothesis());
+        for (const CandidateCause* cause : fit.causes) {
+            Hypothesis without{{}, fit.coordinates.head(nominal_coordinates)};
+            if (cause->friction_std > nominal_log_std) without.coordinates[0] = 0.0;
+            if (cause->stiffness_std > nominal_log_std) without.coordinates[1] = 0.0;
+            if (cause->pretension_std > nominal_log_std) without.coordinates[2] = 0.0;
+            Eigen::Index next = nominal_coordinates;
+            for (const CandidateCause* other : fit.causes) {
+                const auto numbers = static_cast<Eigen::Index>(other->numbers.size());
+                if (other != cause) {
+                    without.causes.push_back(other);
+                    const Eigen::Index known = without.coordinates.size();
+                    without.coordinates.conservativeResize(known + numbers);
+                    without.coordinates.tail(numbers) = fit.coordinates.segment(next, numbers);
+                }
+                next += numbers;
+            }
+            hypotheses.push_back(without);
+        }
+    }
+    const Eigen::MatrixXd residuals = data_residuals(hypotheses);
+    std::vector<std::vector<double>> all;
+    Eigen::Index column = 0;
+    for (const CauseFit& fit : fits) {
+        const Eigen::Index whole = column++;
+        std::vector<double> each;
+        for (std::size_t k = 0; k < fit.causes.size(); ++k)
+            each.push_back(clearest_change(residuals.col(column++) - residuals.col(whole)));
+        all.push_back(each);
+    }
+    return all;
+}
+
+double CauseFitter::clearest_change(const Eigen::VectorXd& change) const {
+    std::map<std::size_t, std::pair<double, double>> by_channel;  // sum of squares, rows
+    for (const ResidualSeries& series : series_) {
+        auto& [squares, rows] = by_channel[series.channel];
+        squares +=
+            change
+                .segment(static_cast<Eigen::Index>(series.first_row), static_cast<Eigen::Index>(series.rows))
+                .squaredNorm();
+        rows += static_cast<double>(series.rows);
+    }
+    double clearest = 0.0;
+    for (const auto& [channel, sums] : by_channel)
+        clearest = std::max(clearest, std::sqrt(sums.first / sums.second));
+    return clearest;
 }
 
 double CauseFitter::misfit(const CauseFit& fit) const {

@@ -80,6 +80,9 @@ class CauseFitter {
     /// Residuals and priors for one set of coordinates a column.
     Eigen::MatrixXd residuals(const std::vector<const CandidateCause*>& causes,
                               const Eigen::MatrixXd& coordinates, std::optional<LeftOut> left_out = {}) const;
+    /// What each cause of a fit does to the clearest channel: rms of the change when it alone is left out,
+    /// in units of noise and floor; of a wrong nominal number, against the nominal bench.
+    std::vector<std::vector<double>> visibility(std::span<const CauseFit> fits) const;
     /// How far the nominal numbers had to go: half the sum of squares in units of their uncertainty.
     double nominal_price(const CauseFit& fit) const;
     /// Mean square of the residuals of the data.
@@ -96,6 +99,7 @@ class CauseFitter {
     void write_residuals(std::size_t run, const TwinRun& twin,
                          const std::map<std::string, SensorFaults>& faults,
                          Eigen::Ref<Eigen::VectorXd> all) const;
+    double clearest_change(const Eigen::VectorXd& change) const;
     Eigen::VectorXd roughly_sized(const Hypothesis& start, const FitOptions& options, int& evaluations) const;
 
     const Recording& recording_;

@@ -55,8 +55,10 @@ class Diagnoser {
     ScoredFit scored(CauseFit fit) {
         evaluations_ += fit.evaluations;
         const double misfit = fitter_.misfit(fit);
-        const double evidence = evidence_.of(misfit, open_numbers(fit), fitter_.nominal_price(fit));
-        return {std::move(fit), misfit, evidence};
+        const double price = fitter_.nominal_price(fit);
+        const std::vector<double> visibility = fitter_.visibility({&fit, 1}).front();
+        const double evidence = evidence_.of(misfit, open_numbers(fit), price);
+        return {std::move(fit), misfit, price, visibility, evidence};
     }
 
     static double least_sum(const std::vector<ScoredFit>& fits) {
@@ -159,7 +161,13 @@ class Diagnoser {
         diagnosis.independent_samples = fitter_.independent_samples();
         for (const std::vector<ScoredFit>* fits : {&pairs, &singles}) {
             for (const ScoredFit& each : *fits) {
-                CandidateScore score{{}, {}, open_numbers(each.fit), each.misfit, each.evidence};
+                CandidateScore score{{},
+                                     {},
+                                     open_numbers(each.fit),
+                                     each.misfit,
+                                     each.nominal_price,
+                                     each.visibility,
+                                     each.evidence};
                 for (const CandidateCause* cause : each.fit.causes) {
                     score.effects.push_back(cause->effect);
                     score.variants.push_back(cause->variant);

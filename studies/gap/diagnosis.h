@@ -43,6 +43,8 @@ struct CandidateScore {
     std::vector<std::string> variants;
     std::size_t open_numbers = 0;
     double misfit = 0.0;
+    double nominal_price = 0.0;
+    std::vector<double> visibility;  ///< see ScoredFit
     double evidence = 0.0;
 };
 

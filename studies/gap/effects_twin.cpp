@@ -78,8 +78,12 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
         for (const Reader& reader : readers)
             twin.values[reader.channel].reserve(static_cast<std::size_t>(samples(run_index)));
     }
-    for (int sample = 0; sample < run.samples(); sample += options_.stride) {
-        const auto reports = benches.advance(inputs_at(run_index, sample));
+    const bool rings =
+        std::any_of(numbers.begin(), numbers.end(), [](const BenchNumbers& each) { return each.rings(); });
+    const int step = rings ? 1 : options_.stride;
+    for (int sample = 0; sample < run.samples(); sample += step) {
+        const auto reports = benches.advance(inputs_at(run_index, sample, step));
+        if (sample % options_.stride != 0) continue;
         for (std::size_t bench = 0; bench < twins.size(); ++bench) {
             if (!reports[bench].converged) ++twins[bench].unsolved_steps;
             if (options_.tells_sliding_share)
@@ -106,13 +110,13 @@ TwinRun EffectsTwin::with_faults(const TwinRun& run,
     return sensed_run;
 }
 
-BenchInputs EffectsTwin::inputs_at(std::size_t run_index, int sample) const {
+BenchInputs EffectsTwin::inputs_at(std::size_t run_index, int sample, int step_samples) const {
     const RecordedRun& run = recording_.runs[run_index];
     const auto given = [&](const char* channel) {
         return inputs_[run_index]
             .values[static_cast<std::size_t>(*recording_.channel(channel))][static_cast<std::size_t>(sample)];
     };
-    BenchInputs step{MotorAngle{0.0}, LoadAngle{0.0}, options_.stride / recording_.sample_rate_Hz,
+    BenchInputs step{MotorAngle{0.0}, LoadAngle{0.0}, step_samples / recording_.sample_rate_Hz,
                      run.session_start_s + run.time_s[static_cast<std::size_t>(sample)]};
     if (run.drives("motor_angle")) {
         step.motor = MotorAngle{given("motor_angle")};

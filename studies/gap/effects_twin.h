@@ -23,6 +23,9 @@ struct BenchNumbers {
     double pretension_ratio = 1.0;
     BenchEffects effects;
     std::map<std::string, SensorFaults> sensor_faults;  // by channel
+
+    /// A rotor that rings on its cables, at tens of hertz: it is moved sample by sample whatever the stride.
+    bool rings() const { return effects.inertia.motor_kg_m2 > 0.0; }
 };
 
 struct EffectsTwinOptions {
@@ -46,7 +49,8 @@ class EffectsTwin {
 
     /// channels x predicted samples; empty for driven channels.
     TwinRun run(std::size_t run, const BenchNumbers& numbers) const;
-    /// The same run of up to bench_lanes benches at once; each the same bits as alone. Without sensor faults.
+    /// The same run of up to bench_lanes benches at once; each the same bits as alone, if all of them
+    /// or none ring. Without sensor faults.
     std::vector<TwinRun> run_each(std::size_t run, std::span<const BenchNumbers> numbers) const;
 
     /// What faulty sensors make of a run.
@@ -58,7 +62,7 @@ class EffectsTwin {
         std::function<double(const BenchSimulations&, int bench)> read;
     };
     std::vector<Reader> readers_of(const RecordedRun& run) const;
-    BenchInputs inputs_at(std::size_t run, int sample) const;
+    BenchInputs inputs_at(std::size_t run, int sample, int step_samples) const;
 
     const Recording& recording_;
     EffectsTwinOptions options_;

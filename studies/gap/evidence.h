@@ -16,8 +16,11 @@ struct RankedEffect {
 /// How well one or two causes explain a recording.
 struct ScoredFit {
     CauseFit fit;
-    double misfit = 0.0;    ///< mean square residual, in units of noise and floor
-    double evidence = 0.0;  ///< logarithm, up to a constant
+    double misfit = 0.0;  ///< mean square residual, in units of noise and floor
+    double nominal_price = 0.0;
+    std::vector<double> visibility;  ///< of each cause: how much it changes the clearest channel, rms in
+                                     ///< units of noise and floor
+    double evidence = 0.0;           ///< logarithm, up to a constant
 };
 
 /// Weighs what is left of residuals that hang together in time.
