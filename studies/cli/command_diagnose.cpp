@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
@@ -10,8 +13,11 @@
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/page_diagnosis.h"
+#include "capstan/cli/usage_error.h"
 #include "capstan/cli/wrapped_text.h"
 #include "capstan/gap/diagnosis.h"
+#include "capstan/gap/equivalent_bench.h"
+#include "capstan/gap/estimated_noise.h"
 #include "capstan/gap/recording_reader.h"
 
 namespace capstan::cli {
@@ -160,8 +166,45 @@ ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis
     return json;
 }
 
+std::vector<int> run_numbers(const std::string& listed) {
+    std::vector<int> numbers;
+    std::istringstream words(listed);
+    for (std::string word; std::getline(words, word, ',');) {
+        int number = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (error != std::errc() || end != word.data() + word.size())
+            throw UsageError(fmt::format("'{}' is no run's number; write runs as 1,2,5", word));
+        numbers.push_back(number);
+    }
+    return numbers;
+}
+
+// Its runs with these numbers, in a list as of the command line.
+gap::Recording only_runs(gap::Recording recording, const std::string& listed) {
+    std::vector<gap::RecordedRun> runs;
+    for (const int number : run_numbers(listed)) {
+        const auto run = std::find_if(recording.runs.begin(), recording.runs.end(),
+                                      [&](const gap::RecordedRun& each) { return each.number == number; });
+        if (run == recording.runs.end())
+            throw UsageError(fmt::format("{}: there is no run {}", recording.name, number));
+        runs.push_back(*run);
+    }
+    recording.runs = std::move(runs);
+    return recording;
+}
+
+// A bench of known geometry, or what moves as the recorded one does.
+gap::Recording recorded_bench(const Invocation& invocation) {
+    const gap::Recording whole = gap::with_estimated_noise(gap::read_recording(invocation.argument("LOG")));
+    const gap::Recording diagnosed =
+        invocation.has("runs") ? only_runs(whole, invocation.text("runs")) : whole;
+    const gap::Recording fitted_to =
+        invocation.has("calibrate-on") ? only_runs(whole, invocation.text("calibrate-on")) : diagnosed;
+    return gap::equivalent_bench(diagnosed, fitted_to);
+}
+
 ExitCode run(const Invocation& invocation) {
-    const gap::Recording recording = gap::read_recording(invocation.argument("LOG"));
+    const gap::Recording recording = recorded_bench(invocation);
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.whole("jobs"));
     const bool on_a_terminal = isatty(STDERR_FILENO) != 0;
@@ -189,6 +232,11 @@ ExitCode run(const Invocation& invocation) {
 
 }  // namespace
 
+const Option runs_option{"runs", '\0', OptionKind::text, "LIST", "Diagnose these runs only, as 4,5,6."};
+const Option calibrate_on_option{
+    "calibrate-on", '\0', OptionKind::text, "LIST",
+    "Runs that a drive or band of unknown geometry gets its numbers from. Default: those diagnosed."};
+
 Command diagnose_command() {
     return {
         "diagnose",
@@ -199,7 +247,8 @@ Command diagnose_command() {
         "where only noise is left and `unknown` where the best known cause leaves much of the gap. For recordings of "
         "pull_pull and single_cable benches.",
         {log_argument},
-        {jobs_option, output_option, json_option, page_option, progress_option, help_option},
+        {runs_option, calibrate_on_option, jobs_option, output_option, json_option, page_option,
+         progress_option, help_option},
         {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
          "capstan diagnose bench.csv --html bench.html"},
         run};

@@ -86,9 +86,14 @@ double CauseFitter::independent_samples() const {
 BenchNumbers CauseFitter::numbers(const std::vector<const CandidateCause*>& causes,
                                   const Eigen::VectorXd& coordinates) {
     BenchNumbers bench;
-    bench.friction_ratio = std::exp(coordinates[0]);
-    bench.stiffness_ratio = std::exp(coordinates[1]);
-    bench.pretension_ratio = std::exp(coordinates[2]);
+    // A search that goes astray ends at a bench that can still be built.
+    const auto ratio = [](double logarithm) {
+        constexpr double most_log = 2.5;
+        return std::exp(std::clamp(logarithm, -most_log, most_log));
+    };
+    bench.friction_ratio = ratio(coordinates[0]);
+    bench.stiffness_ratio = ratio(coordinates[1]);
+    bench.pretension_ratio = ratio(coordinates[2]);
     Eigen::Index next = nominal_coordinates;
     for (const CandidateCause* cause : causes) {
         std::vector<double> values;

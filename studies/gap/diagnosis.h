@@ -14,7 +14,7 @@ namespace capstan::gap {
 
 struct DiagnosisOptions {
     int segments = 40;  ///< of a cable while causes are sought
-    int stride = 2;     ///< every how manieth sample a step goes to meanwhile
+    int stride = 1;     ///< every how manieth sample a step goes to meanwhile
     int threads = 0;    ///< 0: as many as the machine has
     /// Told what is going on, and how much of the work is done.
     std::function<void(const std::string& doing, double share_done)> on_progress = [](const std::string&,

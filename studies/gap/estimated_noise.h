@@ -1,0 +1,11 @@
+#pragma once
+
+#include "capstan/gap/recording.h"
+
+namespace capstan::gap {
+
+/// The recording with the noise of every channel stated: where the sidecar does not, from the median second
+/// difference of its samples, which a slow motion hardly touches.
+Recording with_estimated_noise(Recording recording);
+
+}  // namespace capstan::gap
