@@ -138,7 +138,7 @@ std::vector<Effect> ends() {
              effects.motor_friction = {p[0], p[1]};
          }},
         load_pulley_friction("load", false),
-        load_pulley_friction("load, also at rest", true),
+        load_pulley_friction("load holding", true),
         {"motor_cogging",
          "",
          "actuator",

@@ -38,7 +38,7 @@ Diagnosis diagnosed(const Recording& recording) {
 }
 
 const ChannelGap& channel_of(const Diagnosis& diagnosis, const std::string& name) {
-    for (const ChannelGap& channel : diagnosis.channels) {
+    for (const ChannelGap& channel : diagnosis.gap.channels) {
         if (channel.channel == name) return channel;
     }
     throw std::out_of_range(name);
@@ -86,7 +86,7 @@ TEST(Diagnosis, OfOneFaultySensorNamesItsChannel) {
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
     EXPECT_EQ(diagnosis.ranked.front().effect, "sensor_lag");
     EXPECT_EQ(diagnosis.component, "sensor:load_torque");
-    EXPECT_EQ(diagnosis.worst_channel, "load_torque");
+    EXPECT_EQ(diagnosis.gap.worst_channel, "load_torque");
 }
 
 TEST(Diagnosis, AWrongFrictionCoefficientIsNoMissingEffect) {
