@@ -253,6 +253,9 @@ std::vector<std::string> problems_of(const StudyPlan& plan) {
     check_noise(plan, problems);
     check_sensors(plan, plan.transmission.cable.segments + 1, problems);
     check_estimation(plan, problems);
+    for (std::string& problem : problems_of(plan.placement, plan.transmission.cable.segments + 1)) {
+        problems.push_back(std::move(problem));
+    }
     if (problems.empty()) check_instants(plan, problems);
     return problems;
 }
