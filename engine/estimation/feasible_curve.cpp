@@ -74,8 +74,7 @@ void add_log_likelihoods(std::span<const double> per_sensor, std::span<const int
 void maximum_likelihood(const FeasibleCurve& curve, std::span<const double> log_likelihood,
                         std::span<double> tension_N) {
     const int last = curve.points() - 1;
-    const int best = static_cast<int>(std::max_element(log_likelihood.begin(), log_likelihood.end()) -
-                                      log_likelihood.begin());
+    const int best = most_likely_point(log_likelihood);
     double offset = 0.0;  // in grid steps from `best`
     if (best > 0 && best < last) {
         const double left = log_likelihood[best - 1] - log_likelihood[best];

@@ -55,6 +55,14 @@ class CurveLikelihood {
 void add_log_likelihoods(std::span<const double> per_sensor,  // sensors x points, all nodes
                          std::span<const int> sensors, std::span<double> result);
 
+/// The same for one sensor more: its reading's log likelihood added to that of the others. All are points
+/// long, a multiple of 8.
+void add_log_likelihood(std::span<const double> before, std::span<const double> sensor,
+                        std::span<double> result);
+
+/// The first point at which the log likelihood is largest; points are a multiple of 8.
+int most_likely_point(std::span<const double> log_likelihood);
+
 /// Mean of the curve under weights exp(log_likelihood), flat prior. `log_likelihood` is overwritten.
 void posterior_mean(const FeasibleCurve& curve, std::span<double> log_likelihood,
                     std::span<double> tension_N);

@@ -54,6 +54,7 @@ SensorSubsets::SensorSubsets(std::vector<int> nodes, int most_sensors)
         direct_.assign(std::size_t{1} << usable, -1);
         for (int subset = 0; subset < count(); ++subset) direct_[places_[subset]] = subset;
     }
+    for (const std::uint64_t places : places_) sensors_.push_back(bits_in(places));
     without_last_.assign(count(), 0);
     last_place_.assign(count(), -1);
     for (int subset = 1; subset < count(); ++subset) {
@@ -71,10 +72,6 @@ void SensorSubsets::descend(int subset, int first_place) {
     }
 }
 
-int SensorSubsets::sensors(int subset) const {
-    return std::popcount(places_[subset]);
-}
-
 std::vector<int> SensorSubsets::nodes_of(int subset) const {
     std::vector<int> nodes;
     for (std::uint64_t rest = places_[subset]; rest != 0; rest &= rest - 1) {
@@ -85,7 +82,7 @@ std::vector<int> SensorSubsets::nodes_of(int subset) const {
 
 // Sets of one size stand in colexicographic order, so the rank of {p1 < p2 < ...} is the sum of C(p_j, j).
 int SensorSubsets::rank(std::uint64_t places) const {
-    double rank = first_of_size_[std::popcount(places)];
+    double rank = first_of_size_[bits_in(places)];
     for (int j = 1; places != 0; places &= places - 1, ++j) rank += binomial_[std::countr_zero(places)][j];
     return static_cast<int>(rank);
 }

@@ -5,6 +5,14 @@
 
 namespace capstan {
 
+/// Bits set in a mask, in a few instructions also where the processor's own may not be assumed.
+constexpr int bits_in(std::uint64_t mask) {
+    mask -= mask >> 1 & 0x5555555555555555;
+    mask = (mask & 0x3333333333333333) + (mask >> 2 & 0x3333333333333333);
+    mask = (mask + (mask >> 4)) & 0x0f0f0f0f0f0f0f0f;
+    return static_cast<int>(mask * 0x0101010101010101 >> 56);
+}
+
 /// All sets of at most `most_sensors` out of the usable nodes, the empty one first, then by size. Every set
 /// is another set plus one sensor, the last (most distal) of its own: walked that way a sum over a set is the
 /// sum over the smaller set plus one term, in the order of the sensors, so it has the same bits as if it had
@@ -24,7 +32,7 @@ class SensorSubsets {
     int most_sensors() const { return most_sensors_; }
 
     std::uint64_t places(int subset) const { return places_[subset]; }
-    int sensors(int subset) const;
+    int sensors(int subset) const { return sensors_[subset]; }
     std::vector<int> nodes_of(int subset) const;  ///< from 0, rising
     /// The set without its last sensor, and that sensor's place. Not for the empty set.
     int without_last(int subset) const { return without_last_[subset]; }
@@ -46,6 +54,7 @@ class SensorSubsets {
     std::vector<int> first_of_size_;             // sizes
     std::vector<std::vector<double>> binomial_;  // places + 1 x sizes + 1
     std::vector<std::uint64_t> places_;          // subsets
+    std::vector<int> sensors_;                   // subsets
     std::vector<int> without_last_;              // subsets
     std::vector<int> last_place_;                // subsets
     std::vector<int> depth_first_;

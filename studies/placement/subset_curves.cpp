@@ -11,6 +11,16 @@ SubsetCurves::SubsetCurves(const CandidateList& candidates, const FeasibleCurve&
         if (candidates.methods[m]->knowledge == Knowledge::feasible_curve)
             methods_.push_back(static_cast<int>(m));
     }
+    // Sets that are wanted, and those that they begin with.
+    const SensorSubsets& subsets = candidates.subsets;
+    std::vector<std::uint8_t> needed(subsets.count(), 0);
+    for (int s = subsets.count() - 1; s > 0; --s) {
+        for (const int method : methods_) needed[s] |= candidates.wants(candidates.of(s, method));
+        needed[subsets.without_last(s)] |= needed[s];
+    }
+    for (const int s : subsets.depth_first()) {
+        if (needed[s]) walk_.push_back(s);
+    }
     const std::size_t points = curve.points();
     per_sensor_.resize(candidates.subsets.usable_nodes().size() * points);
     stack_.resize((candidates.subsets.most_sensors() + 1) * points, 0.0);
@@ -27,20 +37,25 @@ void SubsetCurves::score(std::span<const double> reading_N, std::span<double> er
         likelihood_.log_likelihood(nodes[p], reading_N[nodes[p]],
                                    std::span<double>(per_sensor_).subspan(p * points, points));
     }
+    const auto row = [&](std::vector<double>& rows, int index) {
+        return std::span<double>(rows).subspan(index * points, points);
+    };
     FusionInput input;
     input.curve = &curve_;
     input.log_likelihood = log_likelihood_;
-    for (const int s : subsets.depth_first()) {
+    for (const int s : walk_) {
         const int size = subsets.sensors(s);
-        const double* before = stack_.data() + (size - 1) * points;
-        const double* last = per_sensor_.data() + subsets.last_place(s) * points;
-        double* here = stack_.data() + size * points;
-        for (std::size_t k = 0; k < points; ++k) here[k] = before[k] + last[k];
+        const std::span<double> here = row(stack_, size);
+        add_log_likelihood(row(stack_, size - 1), row(per_sensor_, subsets.last_place(s)), here);
         for (const int method : methods_) {
             const int candidate = candidates_.of(s, method);
             if (!candidates_.wants(candidate)) continue;
-            std::copy_n(here, points, log_likelihood_.data());
-            candidates_.methods[method]->fuse(input, tension_N_);
+            if (candidates_.methods[method]->name == maximum_likelihood_method.name) {
+                maximum_likelihood(curve_, here, tension_N_);  // leaves the likelihood as it is
+            } else {
+                std::copy(here.begin(), here.end(), log_likelihood_.begin());
+                candidates_.methods[method]->fuse(input, tension_N_);
+            }
             measure_.write([&](int node) { return tension_N_[node]; },
                            error_N.data() + static_cast<std::ptrdiff_t>(candidate) * measure_.width);
         }

@@ -26,6 +26,7 @@ class SubsetCurves {
     const CurveLikelihood& likelihood_;
     const ErrorMeasure& measure_;
     std::vector<int> methods_;            // indices of the candidates' methods on the curve
+    std::vector<int> walk_;               // subsets, depth first
     std::vector<double> per_sensor_;      // places x points
     std::vector<double> stack_;           // sizes x points
     std::vector<double> log_likelihood_;  // points: a copy that a method may overwrite

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "capstan/estimation/consensus.h"
+#include "capstan/placement/sensor_subsets.h"
 
 namespace capstan {
 
@@ -45,11 +46,11 @@ void SubsetVotes::read(const SensorEstimates& estimates) {
 }
 
 std::uint64_t SubsetVotes::used(std::uint64_t set) const {
-    const int count = std::popcount(set);
+    const int count = bits_in(set);
     std::uint64_t used = set;
     for (std::uint64_t rest = set & perhaps_resting_; rest != 0; rest &= rest - 1) {
         const int place = std::countr_zero(rest);
-        if (2 * std::popcount(set & resting_[place]) > count) used &= ~(std::uint64_t{1} << place);
+        if (2 * bits_in(set & resting_[place]) > count) used &= ~(std::uint64_t{1} << place);
     }
     return used == 0 ? set : used;
 }
@@ -59,7 +60,7 @@ bool SubsetVotes::alike(std::uint64_t set) const {
 }
 
 std::span<const SubsetVotes::NodeRun> SubsetVotes::agreement(std::uint64_t set, std::uint64_t used) {
-    const int count = std::popcount(set);
+    const int count = bits_in(set);
     const int low = (count - 1) / 2;
     const int high = count / 2;
     for (SegmentRun& run : segments_) {
@@ -67,8 +68,8 @@ std::span<const SubsetVotes::NodeRun> SubsetVotes::agreement(std::uint64_t set, 
         // `high`, and where these differ nobody agrees.
         const std::uint64_t backward = set & run.backward;
         const std::uint64_t forward = set & run.forward;
-        const int first_at_rest = std::popcount(backward);
-        const int first_forward = count - std::popcount(forward);
+        const int first_at_rest = bits_in(backward);
+        const int first_forward = count - bits_in(forward);
         if (high < first_at_rest) {
             run.agreeing = backward;
         } else if (low >= first_forward) {
