@@ -14,6 +14,7 @@ Command study_replay_command();
 Command study_delete_command();
 Command recommend_command();
 Command place_command();
+Command duty_command();
 Command query_command();
 Command report_command();
 Command simulate_command();

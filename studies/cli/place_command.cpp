@@ -10,6 +10,8 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/place_words.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/duty/duty_cycle.h"
+#include "capstan/gap/recording_reader.h"
 #include "capstan/placement/sensor_placement.h"
 
 namespace capstan::cli {
@@ -27,11 +29,30 @@ int noise_index(const StudyPlan& plan, const Invocation& invocation) {
                                  invocation.text("noise"), suggestion(invocation.text("noise"), labels)));
 }
 
+// Duty shares out of a recording, in place of the configuration's.
+void take_duty(const Invocation& invocation, StudyPlan& plan) {
+    duty::DutyOptions options;
+    options.jobs = static_cast<int>(invocation.whole("jobs"));
+    const duty::DutyCycle duty = duty::measure_duty(gap::read_recording(invocation.text("duty")), options);
+    const double elsewhere = duty::use_duty(duty, plan);
+    std::string shares;
+    for (const RegimeInstants& regime : plan.regimes) {
+        shares += fmt::format("{}{} {:.1f} %", shares.empty() ? "" : ", ", name_of(regime.regime),
+                              100.0 * regime.duty_share);
+    }
+    fmt::print(stderr, "duty cycle from {}: {}", invocation.text("duty"), shares);
+    if (elsewhere > 0.0005)
+        fmt::print(stderr, "; {:.1f} % of the moving time is in regimes that the configuration does not have",
+                   100.0 * elsewhere);
+    fmt::print(stderr, "\n");
+}
+
 ExitCode run(const Invocation& invocation) {
     ReadConfig config = read_config(invocation.argument("CONFIG"));
     if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
     if (invocation.has("repetitions"))
         config.plan.repetitions = static_cast<int>(invocation.whole("repetitions"));
+    if (invocation.has("duty")) take_duty(invocation, config.plan);
     require_runnable(config);
     PlacementOptions options;
     options.jobs = static_cast<int>(invocation.whole("jobs"));
@@ -73,6 +94,8 @@ Command place_command() {
           {},
           0,
           1000},
+         {"duty", '\0', OptionKind::text, "LOG",
+          "Take the duty cycle from this recording instead of the configuration's duty_share."},
          {"until-resolved",
           '\0',
           OptionKind::real_number,
