@@ -75,6 +75,15 @@ bool PlacementSearch::survives_loss(const std::vector<double>& objective_N, int 
            after_loss_N(objective_N, candidate) <= limit_N;
 }
 
+double PlacementSearch::least_after_loss_N(const PlacementScope& scope) const {
+    const std::vector<double> objective_N = objectives_N(scope);
+    double least_N = infinity;
+    for (int c = candidates_.of(1, 0); c < candidates_.count(); ++c) {
+        if (allowed_[candidates_.subset(c)]) least_N = std::min(least_N, after_loss_N(objective_N, c));
+    }
+    return least_N;
+}
+
 // The allowed sets of one size, each with the method that suits it best, best first.
 std::vector<PlacementSearch::Ranked> PlacementSearch::ranked_sets(const std::vector<double>& objective_N,
                                                                   int sensors) const {

@@ -21,6 +21,9 @@ class PlacementSearch {
     /// Without what fresh draws say.
     ScopeAnswer answer(const PlacementScope& scope, int runners_up) const;
 
+    /// The smallest error after the loss that is worst, over all layouts that the other constraints allow.
+    double least_after_loss_N(const PlacementScope& scope) const;
+
   private:
     struct Ranked {
         int candidate = -1;

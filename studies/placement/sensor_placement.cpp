@@ -84,6 +84,22 @@ void judge_afresh(const PlacementScope& scope, const std::vector<ScenarioErrors>
     count.optimism_N = count.optimum.fresh.value_N - count.optimum.searched_N;
 }
 
+// Layouts are allowed, yet none survives a loss well enough.
+void refuse_empty(const PlacementSearch& search, const std::vector<PlacementScope>& scopes,
+                  const std::vector<ScopeAnswer>& answers) {
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+        if (!answers[k].counts.empty()) continue;
+        char text[200];
+        std::snprintf(
+            text, sizeof text,
+            "placement.largest_error_after_loss_N: no layout that the other constraints allow stays below "
+            "it (%s%s); the best leaves %.4g N",
+            answers[k].scope.c_str(), answers[k].regime.empty() ? "" : (" " + answers[k].regime).c_str(),
+            search.least_after_loss_N(scopes[k]));
+        throw InvalidInput({text});
+    }
+}
+
 double least_resolved_N(const std::vector<ScopeAnswer>& scopes) {
     double worst_N = 0.0;
     for (const ScopeAnswer& scope : scopes) {
@@ -126,6 +142,7 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
         answer.scopes.clear();
         for (const PlacementScope& scope : scopes)
             answer.scopes.push_back(search.answer(scope, options.runners_up));
+        refuse_empty(search, scopes, answer.scopes);
         if (!options.resolve_to_N) break;
         const double left_N = least_resolved_N(answer.scopes);
         char text[120];

@@ -31,8 +31,9 @@ std::uint64_t next_with_as_many(std::uint64_t places) {
 }  // namespace
 
 double SensorSubsets::how_many(int nodes, int most_sensors) {
+    const std::vector<std::vector<double>> binomial = binomials(nodes, std::min(nodes, most_sensors));
     double sets = 0.0;
-    for (const double binomial : binomials(nodes, std::min(nodes, most_sensors))[nodes]) sets += binomial;
+    for (const double of_a_size : binomial[nodes]) sets += of_a_size;
     return sets;
 }
 
