@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
@@ -12,6 +13,9 @@ namespace {
 
 // A slack node's multiplicative noise has no width; a tenth of a millinewton keeps its likelihood finite.
 constexpr double smallest_deviation_N = 1e-4;
+
+// Where a saturated reading is next to impossible its likelihood is still no zero.
+constexpr double smallest_probability = 1e-300;
 
 }  // namespace
 
@@ -39,7 +43,7 @@ FeasibleCurve::FeasibleCurve(const EstimationProblem& problem, const DistalMotio
 }
 
 CurveLikelihood::CurveLikelihood(const FeasibleCurve& curve, const NoiseLevel& noise)
-    : points_(curve.points()) {
+    : points_(curve.points()), range_N_(noise.range_N) {
     for (int node = 0; node < curve.nodes(); ++node) {
         for (const double tension_N : curve.tension_N(node)) {
             const double deviation_N = std::max(reading_deviation_N(noise, tension_N), smallest_deviation_N);
@@ -55,6 +59,14 @@ void CurveLikelihood::log_likelihood(int sensor, double reading_N, std::span<dou
     const double* precision = precision_per_N_.data() + start;
     const double* scaled = scaled_tension_.data() + start;
     const double* log_deviation = log_deviation_.data() + start;
+    if (reading_N >= range_N_) {
+        for (int k = 0; k < points_; ++k) {
+            const double residual = range_N_ * precision[k] - scaled[k];
+            const double beyond = 0.5 * std::erfc(residual * std::numbers::sqrt2 / 2.0);
+            result[k] = std::log(std::max(beyond, smallest_probability));
+        }
+        return;
+    }
     for (int k = 0; k < points_; ++k) {
         const double residual = reading_N * precision[k] - scaled[k];
         result[k] = -0.5 * residual * residual - log_deviation[k];

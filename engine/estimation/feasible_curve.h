@@ -41,11 +41,13 @@ class CurveLikelihood {
   public:
     CurveLikelihood(const FeasibleCurve& curve, const NoiseLevel& noise);
 
-    /// Log likelihood of reading `reading_N` at node `sensor`, less a constant; E11.
+    /// Log likelihood of reading `reading_N` at node `sensor`, less a constant; E11. A reading at the end of
+    /// the sensor's range only says that the noisy tension is at least that.
     void log_likelihood(int sensor, double reading_N, std::span<double> result) const;  // points
 
   private:
     int points_;
+    double range_N_;
     std::vector<double> precision_per_N_;  // nodes x points: 1 / deviation
     std::vector<double> scaled_tension_;   // nodes x points: tension / deviation
     std::vector<double> log_deviation_;    // nodes x points

@@ -188,6 +188,16 @@ void add_noise_keys(std::vector<StudyKey>& keys) {
          "Standard deviation of each sensor's offset, drawn once per repetition and the same at every "
          "instant."},
         zero_or_more, 0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.bias_N; }));
+    keys.push_back(real(
+        {"noise", "quantisation_N", "N", "Step of the converter, to which readings are rounded; 0: none."},
+        zero_or_more, 0.0,
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.quantisation_N; }));
+    keys.push_back(real(
+        {"noise", "range_N", "N",
+         "The largest tension that the sensor can read; estimators on the feasible curve know that a reading at the "
+         "end of the range may be any larger one."},
+        above_zero, NoiseLevel{}.range_N,
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.range_N; }));
 }
 
 // ---- [layouts], [estimation], [recommendation]
@@ -404,7 +414,8 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
              plan.regimes = {{Regime::mass, {112, 142}, 1.0}};
          }},
         {"noise",
-         "Noise levels: reading = T (1 + multiplicative_ratio e1) + additive_N e2 + bias_N e3, all e standard normal.",
+         "Noise levels: reading = T (1 + multiplicative_ratio e1) + additive_N e2 + bias_N e3, all e standard normal, "
+         "then rounded to quantisation_N and cut off at range_N.",
          [](const StudyPlan& plan) { return static_cast<int>(plan.noise_levels.size()); },
          [](StudyPlan& plan, int count) { plan.noise_levels.assign(count, {}); },
          // The paper's.

@@ -69,4 +69,7 @@ struct PlacementAnswer {
     PlacementTimes times;
 };
 
+/// The smallest count from which no larger one gains `worthwhile_gain_N` per sensor added; 0 without counts.
+int count_where_gain_flattens(const std::vector<CountAnswer>& counts, double worthwhile_gain_N);
+
 }  // namespace capstan

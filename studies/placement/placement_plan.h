@@ -26,9 +26,9 @@ struct PlacementPlan {
     std::vector<int> required_nodes{};
     int minimum_spacing = 1;  ///< segments between neighbouring sensors
     int most_sensors = 64;
-    int most_in_distal_half = 64;    ///< sensors beyond the middle of the cable
+    int most_in_distal_half = 64;      ///< sensors beyond the middle of the cable
     std::vector<double> node_costs{};  // nodes; empty: each sensor costs 1
-    double budget = 1e9;             ///< in the unit of node_costs
+    double budget = 1e9;               ///< in the unit of node_costs
     /// Error after losing whichever one sensor is worst to lose; a layout may not exceed it [N].
     double largest_error_after_loss_N = 1e9;
 };

@@ -4,12 +4,16 @@
 #include <set>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/placement/long_cable_search.h"
 #include "capstan/placement/placement_search.h"
 #include "capstan/placement/repetition_blocks.h"
 
 namespace capstan {
 
 namespace {
+
+// And beyond this many nodes times layouts an exact search takes many minutes.
+constexpr double most_scored_nodes = 1.2e6;
 
 // Beyond this the scores of all candidates do not fit into the memory that a study may take.
 constexpr double most_score_bytes = 600.0 * 1024 * 1024;
@@ -46,22 +50,10 @@ std::optional<SensorSubsets> all_subsets(const PreparedStudy& study, std::size_t
     const std::vector<int> usable = constraints.usable_nodes();
     const int most = constraints.most_sensors();
     if (usable.size() > 63 ||
+        SensorSubsets::how_many(static_cast<int>(usable.size()), most) * study.nodes() > most_scored_nodes ||
         score_bytes(study, static_cast<int>(usable.size()), most, methods) > most_score_bytes)
         return std::nullopt;
     return SensorSubsets(usable, most);
-}
-
-// The smallest count from which no larger one gains `worthwhile_gain_N` per sensor added.
-int count_where_gain_flattens(const std::vector<CountAnswer>& counts, double worthwhile_gain_N) {
-    for (const CountAnswer& here : counts) {
-        const bool flat = std::all_of(counts.begin(), counts.end(), [&](const CountAnswer& more) {
-            const double gain_N = here.optimum.fresh.value_N - more.optimum.fresh.value_N;
-            return more.sensors <= here.sensors ||
-                   gain_N <= worthwhile_gain_N * (more.sensors - here.sensors);
-        });
-        if (flat) return here.sensors;
-    }
-    return counts.empty() ? 0 : counts.back().sensors;
 }
 
 template <class Visit>
@@ -123,7 +115,7 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
              "that is not, as \"posterior_mean\", or \"all\""});
     }
     const std::optional<SensorSubsets> subsets = all_subsets(study, methods.size());
-    if (!subsets) throw InvalidInput({"placement: too many layouts"});
+    if (!subsets) return search_long_cable(plan, options);
 
     CandidateList candidates{*subsets, methods, {}};
     const auto weights = ScoredDraws::weights(study, options.noise_index, options.jobs);
