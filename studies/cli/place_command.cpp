@@ -8,6 +8,7 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/nearest_name.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/page_place.h"
 #include "capstan/cli/place_words.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/duty/duty_cycle.h"
@@ -66,6 +67,7 @@ ExitCode run(const Invocation& invocation) {
                    "wall time: {:.2f} s to score {} candidates, {:.2f} s on fresh draws, {:.2f} s in all\n",
                    answer.times.score_s, answer.candidates, answer.times.fresh_s, answer.times.wall_s);
     }
+    deliver_page(invocation, [&] { return reports::experiment_page_html(place_page(config.plan, answer)); });
     deliver(invocation,
             invocation.has("json") ? json_text(in_json(config.plan, answer)) : in_words(config.plan, answer));
     return ExitCode::success;
@@ -110,10 +112,13 @@ Command place_command() {
          repetitions_option,
          jobs_option,
          output_option,
+         page_option,
          json_option,
          stats_option,
          help_option},
-        {"capstan place configs/paper.toml", "capstan place my.toml --until-resolved 0.005",
+        {"capstan place configs/paper.toml",
+         "capstan place configs/paper.toml --html place.html -o place.txt",
+         "capstan place my.toml --until-resolved 0.005",
          "capstan place my.toml --json | jq .scopes[0].counts"},
         run};
 }

@@ -70,24 +70,27 @@ std::size_t widest(const ScopeAnswer& scope, std::size_t at_least, const auto& t
     return at_least;
 }
 
-std::string scope_table(const ScopeAnswer& scope) {
+std::string scope_table(const ScopeAnswer& scope, SearchKind search) {
     const auto nodes_of = [](const CountAnswer& count) { return nodes_text(count.optimum.nodes); };
     const auto method_of = [](const CountAnswer& count) { return title_of_method(count.optimum.method); };
     const std::size_t nodes_width = widest(scope, 10, nodes_of);
     const std::size_t method_width = widest(scope, 6, method_of);
     std::string text = fmt::format("  {:>2}  {:<{}}  {:<{}}  {:>6} {:>16}  {:>7} {:>7} {:>7}  |", "m",
                                    "best nodes", nodes_width, "method", method_width, "error", "95% interval",
-                                   "luck", "as good", "1 lost");
+                                   "luck", search == SearchKind::exhaustive ? "as good" : "gap", "1 lost");
     for (const Column& column : columns) text += fmt::format(" {:>8}", column.head);
     text += "\n";
     for (const CountAnswer& count : scope.counts) {
         const JudgedLayout& best = count.optimum;
-        text += fmt::format(
-            "{} {:>2}  {:<{}}  {:<{}}  {:>6} {:>16}  {:>7} {:>7} {:>7}  |",
-            count.sensors == scope.recommended_count ? ">" : " ", count.sensors, nodes_of(count), nodes_width,
-            method_of(count), method_width, newtons(best.fresh.value_N),
-            fmt::format("{:.3f} to {:.3f}", best.fresh.low_N, best.fresh.high_N),
-            fmt::format("{:+.4f}", count.optimism_N), indifferent_sets(count), newtons(best.after_loss_N));
+        text +=
+            fmt::format("{} {:>2}  {:<{}}  {:<{}}  {:>6} {:>16}  {:>7} {:>7} {:>7}  |",
+                        count.sensors == scope.recommended_count ? ">" : " ", count.sensors, nodes_of(count),
+                        nodes_width, method_of(count), method_width, newtons(best.fresh.value_N),
+                        fmt::format("{:.3f} to {:.3f}", best.fresh.low_N, best.fresh.high_N),
+                        fmt::format("{:+.4f}", count.optimism_N),
+                        search == SearchKind::exhaustive ? std::to_string(indifferent_sets(count))
+                                                         : newtons(count.at_most_better_N),
+                        newtons(best.after_loss_N));
         for (const Column& column : columns)
             text += fmt::format(" {:>8}", distance_text(count, find(count, column.how)));
         text += "\n";
@@ -169,20 +172,19 @@ std::string in_words(const StudyPlan& plan, const PlacementAnswer& answer) {
         fmt::format("{}: {} of {} layouts and methods, {}, sensor noise {}\n", plan.name,
                     answer.search == SearchKind::exhaustive ? "the exact optimum" : "the best found",
                     answer.candidates, words_of(plan.placement.objective), answer.noise);
-    for (const ScopeAnswer& scope : answer.scopes) text += "\n" + title_of(scope) + "\n" + scope_table(scope);
-    text +=
-        "\n" +
-        wrapped(
-            fmt::format(
-                "m: number of sensors; > where one more no longer gains {:g} N. error: of {} fresh draws that "
-                "the search has not seen; luck: how much better the search's own {} draws made it look. as "
-                "good: other layouts that these draws cannot tell from the best, all comparisons together at "
-                "95%. 1 lost: error without the sensor that is worst to lose. Right of the bar: how much worse "
-                "each choice is than the best of that count, with the method that suits it best; * breaks a "
-                "constraint.",
-                plan.worthwhile_gain_N, answer.repetitions, answer.repetitions),
-            words_width, "", "") +
-        "\n";
+    for (const ScopeAnswer& scope : answer.scopes)
+        text += "\n" + title_of(scope) + "\n" + scope_table(scope, answer.search);
+    const std::string reliability =
+        answer.search == SearchKind::exhaustive
+            ? "as good: other layouts that these draws cannot tell from the best, all comparisons together at 95%."
+            : "gap: no layout of that count is better by more than this, if one sensor more never hurts.";
+    const std::string legend = fmt::format(
+        "m: number of sensors; > where one more no longer gains {:g} N. error: of {} fresh draws that the search has "
+        "not seen; luck: how much better the search's own draws made it look. {} 1 lost: error without the sensor "
+        "that is worst to lose. Right of the bar: how much worse each choice is than the best of that count, with "
+        "the method that suits it best; * breaks a constraint.",
+        plan.worthwhile_gain_N, answer.repetitions, reliability);
+    text += "\n" + wrapped(legend, words_width, "", "") + "\n";
     return text;
 }
 
