@@ -6,6 +6,7 @@
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/estimation/curve_peak.h"
 
 namespace capstan {
 
@@ -85,8 +86,12 @@ void add_log_likelihoods(std::span<const double> per_sensor, std::span<const int
 
 void maximum_likelihood(const FeasibleCurve& curve, std::span<const double> log_likelihood,
                         std::span<double> tension_N) {
+    maximum_likelihood_around(curve, log_likelihood, most_likely_point(log_likelihood), tension_N);
+}
+
+void maximum_likelihood_around(const FeasibleCurve& curve, std::span<const double> log_likelihood, int best,
+                               std::span<double> tension_N) {
     const int last = curve.points() - 1;
-    const int best = most_likely_point(log_likelihood);
     double offset = 0.0;  // in grid steps from `best`
     if (best > 0 && best < last) {
         const double left = log_likelihood[best - 1] - log_likelihood[best];

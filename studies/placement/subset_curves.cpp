@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "capstan/estimation/curve_peak.h"
+
 namespace capstan {
 
 SubsetCurves::SubsetCurves(const CandidateList& candidates, const FeasibleCurve& curve,
@@ -46,12 +48,13 @@ void SubsetCurves::score(std::span<const double> reading_N, std::span<double> er
     for (const int s : walk_) {
         const int size = subsets.sensors(s);
         const std::span<double> here = row(stack_, size);
-        add_log_likelihood(row(stack_, size - 1), row(per_sensor_, subsets.last_place(s)), here);
+        const int peak = add_log_likelihood_and_find_peak(row(stack_, size - 1),
+                                                          row(per_sensor_, subsets.last_place(s)), here);
         for (const int method : methods_) {
             const int candidate = candidates_.of(s, method);
             if (!candidates_.wants(candidate)) continue;
             if (candidates_.methods[method]->name == maximum_likelihood_method.name) {
-                maximum_likelihood(curve_, here, tension_N_);  // leaves the likelihood as it is
+                maximum_likelihood_around(curve_, here, peak, tension_N_);
             } else {
                 std::copy(here.begin(), here.end(), log_likelihood_.begin());
                 candidates_.methods[method]->fuse(input, tension_N_);

@@ -36,12 +36,14 @@ SubsetMeans::SubsetMeans(const CandidateList& candidates, std::span<const double
     const int nodes = static_cast<int>(truth_N_.size());
     truth_N_.resize(padded_nodes(nodes), 0.0);
     if (mean_ >= 0 || mean_r_ >= 0) {
-        equal_ = make_subset_sums(subsets, std::vector<double>(subsets.usable_nodes().size(), 1.0), nodes);
+        equal_ = make_subset_sums(subsets, std::vector<double>(subsets.usable_nodes().size(), 1.0), nodes,
+                                  Averages::keep);
     }
     if (w_mean_ >= 0 || w_mean_r_ >= 0) {
         std::vector<double> factor;
         for (const int node : subsets.usable_nodes()) factor.push_back(weight[node]);
-        weighted_ = make_subset_sums(subsets, std::move(factor), nodes);
+        weighted_ = make_subset_sums(subsets, std::move(factor), nodes,
+                                     measure.width > 1 ? Averages::keep : Averages::leave_out);
     }
 }
 

@@ -23,6 +23,7 @@ void fill(const SensorSubsets& subsets, const double* const* profile_N, const do
     const Tag d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const int stride = sums.stride;
+    const bool keeps_averages = !sums.average_N.empty();
     for (int s = 1; s < subsets.count(); ++s) {
         const int place = subsets.last_place(s);
         const auto factor = hn::Set(d, sums.factor[place]);
@@ -31,7 +32,8 @@ void fill(const SensorSubsets& subsets, const double* const* profile_N, const do
             sums.tension_N.data() + static_cast<std::ptrdiff_t>(subsets.without_last(s)) * stride;
         const double* profile = profile_N[place];
         double* sum = sums.tension_N.data() + static_cast<std::ptrdiff_t>(s) * stride;
-        double* average = sums.average_N.data() + static_cast<std::ptrdiff_t>(s) * stride;
+        double* average =
+            keeps_averages ? sums.average_N.data() + static_cast<std::ptrdiff_t>(s) * stride : nullptr;
         double partial[profile_group];
         for (int first = 0; first < profile_group; first += lanes) {
             auto error = hn::Zero(d);
@@ -40,7 +42,7 @@ void fill(const SensorSubsets& subsets, const double* const* profile_N, const do
                     hn::Add(hn::LoadU(d, before + node), hn::Mul(factor, hn::LoadU(d, profile + node)));
                 const auto mean = hn::Div(here, weight);
                 hn::StoreU(here, d, sum + node);
-                hn::StoreU(mean, d, average + node);
+                if (keeps_averages) hn::StoreU(mean, d, average + node);
                 const auto off = hn::Abs(hn::Sub(mean, hn::LoadU(d, truth_N + node)));
                 error = hn::Add(error, hn::Mul(hn::LoadU(d, share + node), off));
             }
@@ -58,7 +60,8 @@ namespace capstan {
 
 HWY_EXPORT(fill);
 
-SubsetSums make_subset_sums(const SensorSubsets& subsets, std::vector<double> factor, int nodes) {
+SubsetSums make_subset_sums(const SensorSubsets& subsets, std::vector<double> factor, int nodes,
+                            Averages averages) {
     SubsetSums sums;
     sums.stride = padded_nodes(nodes);
     sums.factor = std::move(factor);
@@ -67,7 +70,7 @@ SubsetSums make_subset_sums(const SensorSubsets& subsets, std::vector<double> fa
         sums.weight[s] = sums.weight[subsets.without_last(s)] + sums.factor[subsets.last_place(s)];
     }
     sums.tension_N.assign(static_cast<std::size_t>(subsets.count()) * sums.stride, 0.0);
-    sums.average_N = sums.tension_N;
+    if (averages == Averages::keep) sums.average_N = sums.tension_N;
     sums.mean_abs_N.assign(subsets.count(), 0.0);
     return sums;
 }

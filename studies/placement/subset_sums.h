@@ -13,7 +13,7 @@ struct SubsetSums {
     std::vector<double> factor;      // places: weight of each sensor
     std::vector<double> weight;      // subsets: sum of factors
     std::vector<double> tension_N;   // subsets x stride: sum of factor times profile
-    std::vector<double> average_N;   // subsets x stride: tension_N / weight
+    std::vector<double> average_N;   // subsets x stride: tension_N / weight; empty where nobody asks for it
     std::vector<double> mean_abs_N;  // subsets: of average - truth, weighted by the shares of the nodes
 
     const double* sum_N(int subset) const {
@@ -24,8 +24,11 @@ struct SubsetSums {
     }
 };
 
+enum class Averages { keep, leave_out };
+
 /// Room for all sets; `factor` is one positive number for each place.
-SubsetSums make_subset_sums(const SensorSubsets& subsets, std::vector<double> factor, int nodes);
+SubsetSums make_subset_sums(const SensorSubsets& subsets, std::vector<double> factor, int nodes,
+                            Averages averages);
 
 /// Fills the sums. `profile_N` is one pointer for each place, to `stride` numbers; truth and share are
 /// `stride` long, zero in the padding.
