@@ -110,8 +110,7 @@ Command duty_command() {
          output_option,
          json_option,
          help_option},
-        {"capstan duty bench.csv", "capstan duty bench.csv --parameters fitted.json --json -o duty.json",
-         "capstan place configs/paper.toml --duty bench.csv"},
+        {"capstan duty bench.csv", "capstan duty bench.csv --parameters fitted.json --json -o duty.json"},
         run};
 }
 
