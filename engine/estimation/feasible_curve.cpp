@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/estimation/curve_peak.h"
 
 namespace capstan {
 
@@ -12,6 +14,9 @@ namespace {
 
 // A slack node's multiplicative noise has no width; a tenth of a millinewton keeps its likelihood finite.
 constexpr double smallest_deviation_N = 1e-4;
+
+// Where a saturated reading is next to impossible its likelihood is still no zero.
+constexpr double smallest_probability = 1e-300;
 
 }  // namespace
 
@@ -39,7 +44,7 @@ FeasibleCurve::FeasibleCurve(const EstimationProblem& problem, const DistalMotio
 }
 
 CurveLikelihood::CurveLikelihood(const FeasibleCurve& curve, const NoiseLevel& noise)
-    : points_(curve.points()) {
+    : points_(curve.points()), range_N_(noise.range_N) {
     for (int node = 0; node < curve.nodes(); ++node) {
         for (const double tension_N : curve.tension_N(node)) {
             const double deviation_N = std::max(reading_deviation_N(noise, tension_N), smallest_deviation_N);
@@ -55,6 +60,14 @@ void CurveLikelihood::log_likelihood(int sensor, double reading_N, std::span<dou
     const double* precision = precision_per_N_.data() + start;
     const double* scaled = scaled_tension_.data() + start;
     const double* log_deviation = log_deviation_.data() + start;
+    if (reading_N >= range_N_) {
+        for (int k = 0; k < points_; ++k) {
+            const double residual = range_N_ * precision[k] - scaled[k];
+            const double beyond = 0.5 * std::erfc(residual * std::numbers::sqrt2 / 2.0);
+            result[k] = std::log(std::max(beyond, smallest_probability));
+        }
+        return;
+    }
     for (int k = 0; k < points_; ++k) {
         const double residual = reading_N * precision[k] - scaled[k];
         result[k] = -0.5 * residual * residual - log_deviation[k];
@@ -73,9 +86,12 @@ void add_log_likelihoods(std::span<const double> per_sensor, std::span<const int
 
 void maximum_likelihood(const FeasibleCurve& curve, std::span<const double> log_likelihood,
                         std::span<double> tension_N) {
+    maximum_likelihood_around(curve, log_likelihood, most_likely_point(log_likelihood), tension_N);
+}
+
+void maximum_likelihood_around(const FeasibleCurve& curve, std::span<const double> log_likelihood, int best,
+                               std::span<double> tension_N) {
     const int last = curve.points() - 1;
-    const int best = static_cast<int>(std::max_element(log_likelihood.begin(), log_likelihood.end()) -
-                                      log_likelihood.begin());
     double offset = 0.0;  // in grid steps from `best`
     if (best > 0 && best < last) {
         const double left = log_likelihood[best - 1] - log_likelihood[best];

@@ -41,11 +41,13 @@ class CurveLikelihood {
   public:
     CurveLikelihood(const FeasibleCurve& curve, const NoiseLevel& noise);
 
-    /// Log likelihood of reading `reading_N` at node `sensor`, less a constant; E11.
+    /// Log likelihood of reading `reading_N` at node `sensor`, less a constant; E11. A reading at the end of
+    /// the sensor's range only says that the noisy tension is at least that.
     void log_likelihood(int sensor, double reading_N, std::span<double> result) const;  // points
 
   private:
     int points_;
+    double range_N_;
     std::vector<double> precision_per_N_;  // nodes x points: 1 / deviation
     std::vector<double> scaled_tension_;   // nodes x points: tension / deviation
     std::vector<double> log_deviation_;    // nodes x points
@@ -54,6 +56,14 @@ class CurveLikelihood {
 /// The sum of log likelihoods of several sensors' readings, each already evaluated along the curve.
 void add_log_likelihoods(std::span<const double> per_sensor,  // sensors x points, all nodes
                          std::span<const int> sensors, std::span<double> result);
+
+/// The same for one sensor more: its reading's log likelihood added to that of the others. All are points
+/// long, a multiple of 8.
+void add_log_likelihood(std::span<const double> before, std::span<const double> sensor,
+                        std::span<double> result);
+
+/// The first point at which the log likelihood is largest; points are a multiple of 8.
+int most_likely_point(std::span<const double> log_likelihood);
 
 /// Mean of the curve under weights exp(log_likelihood), flat prior. `log_likelihood` is overwritten.
 void posterior_mean(const FeasibleCurve& curve, std::span<double> log_likelihood,

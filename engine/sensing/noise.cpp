@@ -1,5 +1,6 @@
 #include "capstan/sensing/noise.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "capstan/sensing/random_stream.h"
@@ -8,8 +9,9 @@ namespace capstan {
 
 double reading_deviation_N(const NoiseLevel& noise, double tension_N) {
     const double multiplicative_N = noise.multiplicative_ratio * tension_N;
+    // Rounding errs evenly over a step, which has a variance of a twelfth of its square.
     return std::sqrt(multiplicative_N * multiplicative_N + noise.additive_N * noise.additive_N +
-                     noise.bias_N * noise.bias_N);
+                     noise.bias_N * noise.bias_N + noise.quantisation_N * noise.quantisation_N / 12.0);
 }
 
 ReadingDraws draw_readings(const DrawAddress& address, int nodes, const NoiseLevel& for_noise) {
@@ -38,6 +40,10 @@ void read_tensions(const NoiseLevel& noise, const ReadingDraws& draws, std::span
     for (std::size_t node = 0; node < tension_N.size(); ++node) {
         reading_N[node] = tension_N[node] * (1.0 + noise.multiplicative_ratio * draws.multiplicative[node]) +
                           noise.additive_N * draws.additive[node] + noise.bias_N * draws.bias[node];
+        if (noise.quantisation_N > 0.0) {
+            reading_N[node] = noise.quantisation_N * std::round(reading_N[node] / noise.quantisation_N);
+        }
+        reading_N[node] = std::min(reading_N[node], noise.range_N);
     }
 }
 

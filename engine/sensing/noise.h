@@ -6,15 +6,19 @@
 
 namespace capstan {
 
-/// How a tension sensor errs (E9): reading = T (1 + multiplicative_ratio e1) + additive_N e2 + bias_N e3, all
-/// e standard normal; e3 belongs to the sensor and is the same at every instant of a repetition.
+/// How a tension sensor errs (E9), as its data sheet says: reading = T (1 + multiplicative_ratio e1) +
+/// additive_N e2 + bias_N e3, all e standard normal; e3 belongs to the sensor and is the same at every
+/// instant of a repetition. The reading is then rounded to whole steps of the converter and ends at the
+/// range.
 struct NoiseLevel {
     double multiplicative_ratio = 0.0;
     double additive_N = 0.0;
     double bias_N = 0.0;
+    double quantisation_N = 0.0;  ///< step of the converter; 0: none
+    double range_N = 1e9;         ///< the largest reading; by default more than any tension
 };
 
-/// Standard deviation [N] of a reading where the true tension is `tension_N`.
+/// Standard deviation [N] of a reading where the true tension is `tension_N`, well inside the range.
 double reading_deviation_N(const NoiseLevel& noise, double tension_N);
 
 /// Which draw of a study: everything of a random address but the node.

@@ -13,6 +13,8 @@ Command study_show_command();
 Command study_replay_command();
 Command study_delete_command();
 Command recommend_command();
+Command place_command();
+Command duty_command();
 Command query_command();
 Command report_command();
 Command simulate_command();

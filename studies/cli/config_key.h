@@ -58,7 +58,8 @@ struct ConfigKey {
     std::string unit;
     Limits limits{};
     std::vector<std::string> names{};
-    bool takes_all = false;  ///< the text "all" stands for the whole list
+    bool takes_all = false;     ///< the text "all" stands for the whole list
+    bool may_be_empty = false;  ///< of real_numbers; other lists may
     Presence presence = Presence::optional;
     ConfigValue default_value{};
     std::string help{};

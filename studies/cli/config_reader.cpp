@@ -299,7 +299,8 @@ class Reading {
     std::optional<ConfigValue> reals_of(const Key& key, const toml::node& node, const std::string& path) {
         const toml::array* array = node.as_array();
         if (array == nullptr) return wrong_type(node, path, "a list in [ ]");
-        if (array->empty()) return refuse(node, path, "is empty; give it at least one number");
+        if (array->empty() && !key.may_be_empty)
+            return refuse(node, path, "is empty; give it at least one number");
         std::vector<double> values;
         bool good = true;
         for (const toml::node& element : *array) {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "capstan/estimation/consensus.h"
-#include "capstan/placement/cell_statistics.h"
 #include "capstan/parallel/parallel_for.h"
+#include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/repetition_blocks.h"
 
 namespace capstan {
@@ -95,7 +95,7 @@ void solve_block(const PreparedStudy& study, const StudyPoint& point, int first,
     for (int r = first; r < end; ++r) {
         const ReadingDraws draws =
             draw_readings({study.plan.seed, static_cast<std::uint32_t>(point.scenario_index),
-                           static_cast<std::uint32_t>(r)},
+                           point.first_draw + static_cast<std::uint32_t>(r)},
                           solved.nodes, noise);
         const std::span<double> readings(solved.reading_N.data() + solved.at(r, 0), solved.nodes);
         read_tensions(noise, draws, scenario.truth.tension_N, readings);
@@ -110,13 +110,18 @@ void solve_block(const PreparedStudy& study, const StudyPoint& point, int first,
 
 SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& point, int jobs,
                               double& processor_time_s) {
+    return solve_readings(study, point, study.plan.repetitions, jobs, processor_time_s);
+}
+
+SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& point, int repetitions, int jobs,
+                              double& processor_time_s) {
     SolvedReadings solved;
     solved.nodes = study.nodes();
-    const std::size_t size = static_cast<std::size_t>(study.plan.repetitions) * solved.nodes;
+    const std::size_t size = static_cast<std::size_t>(repetitions) * solved.nodes;
     solved.reading_N.resize(size);
     solved.branch.resize(size);
     solved.verifying.resize(size);
-    const RepetitionBlocks blocks{study.plan.repetitions};
+    const RepetitionBlocks blocks{repetitions};
     std::vector<double> block_time_s(blocks.count());
     parallel_for_each_index(blocks.count(), jobs, [&](int block) {
         const double start_s = thread_processor_time_s();

@@ -25,13 +25,21 @@ struct SolvedReadings {
 struct StudyPoint {
     int scenario_index = 0;
     int noise_index = 0;
+    std::uint32_t first_draw = 0;  ///< random address of repetition 0; a study's own is 0
 };
+
+/// Draws that no study uses: repetitions are numbered below 2^31. What was chosen on a study's own draws is
+/// judged on these.
+inline constexpr std::uint32_t fresh_draws = std::uint32_t{1} << 31;
 
 /// Draws, reads and solves repetitions first to end - 1 into their slots.
 void solve_block(const PreparedStudy& study, const StudyPoint& point, int first, int end,
                  SolvedReadings& solved);
 
-/// All repetitions. Adds the processor time used to `processor_time_s`.
+/// Repetitions 0 to `repetitions` - 1. Adds the processor time used to `processor_time_s`.
+SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& point, int repetitions, int jobs,
+                              double& processor_time_s);
+/// All repetitions of the study.
 SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& point, int jobs,
                               double& processor_time_s);
 

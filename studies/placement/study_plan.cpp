@@ -132,12 +132,16 @@ void check_noise(const StudyPlan& plan, Problems& problems) {
     std::set<std::string> labels;
     for (const NamedNoise& noise : plan.noise_levels) {
         const NoiseLevel& level = noise.level;
-        for (const double value : {level.multiplicative_ratio, level.additive_N, level.bias_N}) {
+        for (const double value :
+             {level.multiplicative_ratio, level.additive_N, level.bias_N, level.quantisation_N}) {
             if (!usable(value) || value < 0.0) {
                 problems.push_back("noise \"" + noise.label + "\": " + number(value) +
                                    " is no size of a noise; "
                                    "every part must be 0 or more");
             }
+        }
+        if (!(level.range_N > 0.0)) {
+            problems.push_back("noise \"" + noise.label + "\": range_N must be above 0: the largest reading");
         }
         if (!labels.insert(noise.label).second) {
             problems.push_back("noise: the label \"" + noise.label + "\" is used twice");
@@ -253,6 +257,9 @@ std::vector<std::string> problems_of(const StudyPlan& plan) {
     check_noise(plan, problems);
     check_sensors(plan, plan.transmission.cable.segments + 1, problems);
     check_estimation(plan, problems);
+    for (std::string& problem : problems_of(plan.placement, plan.transmission.cable.segments + 1)) {
+        problems.push_back(std::move(problem));
+    }
     if (problems.empty()) check_instants(plan, problems);
     return problems;
 }

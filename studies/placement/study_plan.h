@@ -6,6 +6,7 @@
 
 #include "capstan/cable/cable.h"
 #include "capstan/estimation/single_sensor.h"
+#include "capstan/placement/placement_plan.h"
 #include "capstan/sensing/layout.h"
 #include "capstan/sensing/noise.h"
 #include "capstan/solver/model_rules.h"
@@ -90,6 +91,8 @@ struct StudyPlan {
 
     double worthwhile_gain_N = 0.02;  ///< one more sensor must lower the error by this to be recommended
     bool compare_with_paper = false;  ///< the plan holds what the paper's table needs
+
+    PlacementPlan placement;  ///< for the search over all layouts
 };
 
 /// Everything wrong with the plan, each with what to try; empty when it can run. Simulates the motion to see

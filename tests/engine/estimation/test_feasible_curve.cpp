@@ -92,5 +92,50 @@ TEST(FeasibleCurve, RefusesAPriorThatItCannotSample) {
     }
 }
 
+// At the end of its range a sensor says "at least that": certain far below the true tension, a coin's toss where
+// the tension is the range itself, and never less likely for more tension.
+TEST(CurveLikelihood, ASaturatedReadingSaysAtLeastThat) {
+    const Instant instant = paper_instant(112);
+    const FeasibleCurve curve = curve_of(instant, 128);
+    const int node = 10;
+    const auto along_N = curve.tension_N(node);
+    const double range_N = along_N[64];
+    const CurveLikelihood likelihood(curve, {.additive_N = 0.2, .range_N = range_N});
+    std::vector<double> log_likelihood(128);
+    likelihood.log_likelihood(node, range_N, log_likelihood);
+    EXPECT_NEAR(std::exp(log_likelihood[64]), 0.5, 1e-12);
+    for (int a = 0; a < 128; ++a) {
+        for (int b = 0; b < 128; ++b) {
+            if (along_N[a] >= along_N[b]) continue;
+            EXPECT_LE(log_likelihood[a], log_likelihood[b]);
+        }
+    }
+}
+
+TEST(CurveLikelihood, OneSensorMoreAddsItsOwn) {
+    const Instant instant = paper_instant(6);
+    const FeasibleCurve curve = curve_of(instant, 64);
+    const CurveLikelihood likelihood(curve, {.multiplicative_ratio = 0.1});
+    std::vector<double> all(static_cast<std::size_t>(curve.nodes()) * 64);
+    for (int node = 0; node < curve.nodes(); ++node) {
+        likelihood.log_likelihood(node, 9.0 + 0.1 * node, std::span<double>(all).subspan(node * 64, 64));
+    }
+    std::vector<double> pair(64);
+    std::vector<double> triple(64);
+    std::vector<double> grown(64);
+    add_log_likelihoods(all, std::vector<int>{2, 5}, pair);
+    add_log_likelihoods(all, std::vector<int>{2, 5, 9}, triple);
+    add_log_likelihood(pair, std::span<const double>(all).subspan(9 * 64, 64), grown);
+    EXPECT_EQ(grown, triple);
+    EXPECT_EQ(most_likely_point(grown), std::max_element(grown.begin(), grown.end()) - grown.begin());
+}
+
+TEST(CurveLikelihood, OfEquallyLikelyPointsTheFirstIsTaken) {
+    std::vector<double> flat(16, -1.0);
+    EXPECT_EQ(most_likely_point(flat), 0);
+    flat[9] = flat[13] = 2.0;
+    EXPECT_EQ(most_likely_point(flat), 9);
+}
+
 }  // namespace
 }  // namespace capstan

@@ -83,5 +83,29 @@ TEST(Noise, DeviationIsThatOfManyReadings) {
     }
 }
 
+TEST(Noise, AConverterRoundsToItsStepsAndASensorReadsNoMoreThanItsRange) {
+    const NoiseLevel noise{.multiplicative_ratio = 0.1, .quantisation_N = 0.25, .range_N = 12.0};
+    for (std::uint32_t repetition = 0; repetition < 200; ++repetition) {
+        for (const double reading_N : readings(noise, draw_readings({3, 0, repetition}, nodes))) {
+            EXPECT_EQ(reading_N / 0.25, std::round(reading_N / 0.25));
+            EXPECT_LE(reading_N, 12.0);
+        }
+    }
+}
+
+// A reading with much noise to a step: the rounding adds step^2 / 12 to the variance. 40000 readings know a
+// deviation to 0.35%; without the term it would be 2% too small.
+TEST(Noise, RoundingAddsATwelfthOfTheStepSquaredToTheVariance) {
+    const NoiseLevel noise{.additive_N = 0.3, .quantisation_N = 0.2};
+    double squares_N2 = 0.0;
+    constexpr int repetitions = 10000;
+    for (std::uint32_t repetition = 0; repetition < repetitions; ++repetition) {
+        const auto read_N = readings(noise, draw_readings({4, 0, repetition}, nodes));
+        for (int i = 0; i < nodes; ++i) squares_N2 += std::pow(read_N[i] - tension_N[i], 2);
+    }
+    const double deviation_N = std::sqrt(squares_N2 / (repetitions * nodes));
+    EXPECT_NEAR(deviation_N, reading_deviation_N(noise, 10.0), 0.0105 * deviation_N);
+}
+
 }  // namespace
 }  // namespace capstan

@@ -1,0 +1,90 @@
+// Where a search over all sensor sets spends its time, so it runs on whatever SIMD the processor has
+// (Highway, chosen at run time). Nothing is summed across lanes: every processor gives the same bits.
+#include "capstan/estimation/curve_peak.h"
+
+// foreach_target.h comes before highway.h.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "capstan/estimation/curve_peak.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace capstan::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<double, 8>;  // points are a multiple of 8
+
+void add_rows(const double* HWY_RESTRICT before, const double* HWY_RESTRICT sensor, int points,
+              double* HWY_RESTRICT sum) {
+    const Tag d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    for (int k = 0; k < points; k += lanes) {
+        hn::StoreU(hn::Add(hn::LoadU(d, before + k), hn::LoadU(d, sensor + k)), d, sum + k);
+    }
+}
+
+// The first index at which the value is that of all lanes' largest.
+int first_index_of(const double* HWY_RESTRICT value, int points, hn::Vec<Tag> largest) {
+    const Tag d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const auto top = hn::MaxOfLanes(d, largest);
+    for (int k = 0; k < points; k += lanes) {
+        const auto at_top = hn::FindFirstTrue(d, hn::Eq(hn::LoadU(d, value + k), top));
+        if (at_top >= 0) return k + static_cast<int>(at_top);
+    }
+    return 0;  // only where a value is not a number
+}
+
+int add_rows_and_find(const double* HWY_RESTRICT before, const double* HWY_RESTRICT sensor, int points,
+                      double* HWY_RESTRICT sum) {
+    const Tag d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    auto largest = hn::Add(hn::LoadU(d, before), hn::LoadU(d, sensor));
+    hn::StoreU(largest, d, sum);
+    for (int k = lanes; k < points; k += lanes) {
+        const auto here = hn::Add(hn::LoadU(d, before + k), hn::LoadU(d, sensor + k));
+        hn::StoreU(here, d, sum + k);
+        largest = hn::Max(largest, here);
+    }
+    return first_index_of(sum, points, largest);
+}
+
+int first_largest(const double* HWY_RESTRICT value, int points) {
+    const Tag d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    auto largest = hn::LoadU(d, value);
+    for (int k = lanes; k < points; k += lanes) largest = hn::Max(largest, hn::LoadU(d, value + k));
+    return first_index_of(value, points, largest);
+}
+
+}  // namespace capstan::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace capstan {
+
+HWY_EXPORT(add_rows);
+HWY_EXPORT(add_rows_and_find);
+HWY_EXPORT(first_largest);
+
+void add_log_likelihood(std::span<const double> before, std::span<const double> sensor,
+                        std::span<double> result) {
+    HWY_DYNAMIC_DISPATCH(add_rows)
+    (before.data(), sensor.data(), static_cast<int>(result.size()), result.data());
+}
+
+int add_log_likelihood_and_find_peak(std::span<const double> before, std::span<const double> sensor,
+                                     std::span<double> result) {
+    return HWY_DYNAMIC_DISPATCH(add_rows_and_find)(before.data(), sensor.data(),
+                                                   static_cast<int>(result.size()), result.data());
+}
+
+int most_likely_point(std::span<const double> log_likelihood) {
+    return HWY_DYNAMIC_DISPATCH(first_largest)(log_likelihood.data(),
+                                               static_cast<int>(log_likelihood.size()));
+}
+
+}  // namespace capstan
+#endif

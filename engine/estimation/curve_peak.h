@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "capstan/estimation/feasible_curve.h"
+
+namespace capstan {
+
+/// add_log_likelihood(), and most_likely_point() of the result, in one pass.
+int add_log_likelihood_and_find_peak(std::span<const double> before, std::span<const double> sensor,
+                                     std::span<double> result);
+
+/// maximum_likelihood() where `peak`, its most likely point, is known already.
+void maximum_likelihood_around(const FeasibleCurve& curve, std::span<const double> log_likelihood, int peak,
+                               std::span<double> tension_N);
+
+}  // namespace capstan

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "capstan/placement/placement_answer.h"
+#include "capstan/placement/study_plan.h"
+#include "capstan/reports/experiment_page.h"
+
+namespace capstan::cli {
+
+/// The best layouts as a page: error against number of sensors beside the families, which nodes, the numbers.
+reports::ExperimentPage place_page(const StudyPlan& plan, const PlacementAnswer& answer);
+
+}  // namespace capstan::cli

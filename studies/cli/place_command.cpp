@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/config_reader.h"
+#include "capstan/cli/json_text.h"
+#include "capstan/cli/nearest_name.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/page_place.h"
+#include "capstan/cli/place_words.h"
+#include "capstan/cli/usage_error.h"
+#include "capstan/duty/duty_cycle.h"
+#include "capstan/gap/recording_reader.h"
+#include "capstan/placement/sensor_placement.h"
+
+namespace capstan::cli {
+
+namespace {
+
+int noise_index(const StudyPlan& plan, const Invocation& invocation) {
+    if (!invocation.has("noise")) return 0;
+    std::vector<std::string> labels;
+    for (std::size_t k = 0; k < plan.noise_levels.size(); ++k) {
+        labels.push_back(plan.noise_levels[k].label);
+        if (labels.back() == invocation.text("noise")) return static_cast<int>(k);
+    }
+    throw UsageError(fmt::format("--noise: the configuration has no noise level \"{}\"{}",
+                                 invocation.text("noise"), suggestion(invocation.text("noise"), labels)));
+}
+
+// Duty shares out of a recording, in place of the configuration's.
+void take_duty(const Invocation& invocation, StudyPlan& plan) {
+    duty::DutyOptions options;
+    options.jobs = static_cast<int>(invocation.whole("jobs"));
+    const duty::DutyCycle duty = duty::measure_duty(gap::read_recording(invocation.text("duty")), options);
+    const double elsewhere = duty::use_duty(duty, plan);
+    std::string shares;
+    for (const RegimeInstants& regime : plan.regimes) {
+        shares += fmt::format("{}{} {:.1f} %", shares.empty() ? "" : ", ", name_of(regime.regime),
+                              100.0 * regime.duty_share);
+    }
+    fmt::print(stderr, "duty cycle from {}: {}", invocation.text("duty"), shares);
+    if (elsewhere > 0.0005)
+        fmt::print(stderr, "; {:.1f} % of the moving time is in regimes that the configuration does not have",
+                   100.0 * elsewhere);
+    fmt::print(stderr, "\n");
+}
+
+ExitCode run(const Invocation& invocation) {
+    ReadConfig config = read_config(invocation.argument("CONFIG"));
+    if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
+    if (invocation.has("repetitions"))
+        config.plan.repetitions = static_cast<int>(invocation.whole("repetitions"));
+    if (invocation.has("duty")) take_duty(invocation, config.plan);
+    require_runnable(config);
+    PlacementOptions options;
+    options.jobs = static_cast<int>(invocation.whole("jobs"));
+    options.noise_index = noise_index(config.plan, invocation);
+    options.runners_up = static_cast<int>(invocation.whole("runners-up"));
+    if (invocation.has("until-resolved")) options.resolve_to_N = invocation.real("until-resolved");
+    options.on_progress = [](const std::string& message) { fmt::print(stderr, "{}\n", message); };
+    const PlacementAnswer answer = place_sensors(config.plan, options);
+    if (invocation.has("stats")) {
+        fmt::print(stderr,
+                   "wall time: {:.2f} s to score {} candidates, {:.2f} s on fresh draws, {:.2f} s in all\n",
+                   answer.times.score_s, answer.candidates, answer.times.fresh_s, answer.times.wall_s);
+    }
+    deliver_page(invocation, [&] { return reports::experiment_page_html(place_page(config.plan, answer)); });
+    deliver(invocation,
+            invocation.has("json") ? json_text(in_json(config.plan, answer)) : in_words(config.plan, answer));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command place_command() {
+    return {
+        "place",
+        "Search all layouts for the best ones, under constraints.",
+        "Scores every set of nodes with every fusion method of CONFIG on the same draws, and says for each number of "
+        "sensors which nodes are best, what error they leave, and how far the paper's families, greedy choices and the "
+        "D-optimal one are from it: in each motion regime, to be safe in every regime, and over the duty cycle. The "
+        "best of many looks better than it is, so its error is estimated again on fresh draws. The section "
+        "[placement] of CONFIG says what is allowed and which error counts.",
+        {config_argument},
+        {{"noise", '\0', OptionKind::text, "LABEL",
+          "Which of the configuration's noise levels; the first if not given."},
+         {"runners-up",
+          '\0',
+          OptionKind::whole_number,
+          "N",
+          "How many of the next best layouts --json lists.",
+          "3",
+          {},
+          0,
+          1000},
+         {"duty", '\0', OptionKind::text, "LOG",
+          "Take the duty cycle from this recording instead of the configuration's duty_share."},
+         {"until-resolved",
+          '\0',
+          OptionKind::real_number,
+          "N",
+          "Draw more repetitions until, with 95 % certainty, no layout is better than the best of its count by more "
+          "than this, in newtons.",
+          "",
+          {},
+          1e-6,
+          1e6},
+         seed_option,
+         repetitions_option,
+         jobs_option,
+         output_option,
+         page_option,
+         json_option,
+         stats_option,
+         help_option},
+        {"capstan place configs/paper.toml",
+         "capstan place configs/paper.toml --html place.html -o place.txt",
+         "capstan place my.toml --until-resolved 0.005",
+         "capstan place my.toml --json | jq .scopes[0].counts"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "capstan/placement/prepared_study.h"
+
+namespace capstan {
+
+/// How much the readings of a sensor set tell of the state, before any is made: half the log determinant of
+/// I + D^-1/2 C D^-1/2, where C is the covariance of the sensors' tensions along the feasible curve (its flat
+/// prior) and D the variance of their noise at the mean tension. The classical D-optimal choice, and the
+/// mutual information if both were Gaussian.
+class SetInformation {
+  public:
+    SetInformation(const PreparedScenario& scenario, const NoiseLevel& noise);
+
+    double nats(const std::vector<int>& nodes) const;  ///< nodes from 0
+
+  private:
+    int nodes_;
+    std::vector<double> scaled_covariance_;  // nodes x nodes: D^-1/2 C D^-1/2
+};
+
+}  // namespace capstan
