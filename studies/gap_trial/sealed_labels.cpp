@@ -32,18 +32,6 @@ TruthGroup group_named(const std::string& name) {
     throw std::invalid_argument(fmt::format("no group of cases is called '{}'", name));
 }
 
-std::string choice_name(SeverityChoice choice) {
-    switch (choice) {
-        case SeverityChoice::mild:
-            return "mild";
-        case SeverityChoice::strong:
-            return "strong";
-        case SeverityChoice::both:
-            return "both";
-    }
-    return "";
-}
-
 ordered_json text_or_null(const std::string& text) {
     return text.empty() ? ordered_json(nullptr) : ordered_json(text);
 }
@@ -141,9 +129,9 @@ std::string labels_text(const TrialLabels& labels) {
     const TrialOptions& options = labels.options;
     ordered_json json = {{"salt", labels.salt},
                          {"seed", options.seed},
-                         {"severity", choice_name(options.severity)},
+                         {"severity", severity_choice_name(options.severity)},
                          {"noise_factor", options.noise_factor},
-                         {"length", options.length == RecordingLength::standard ? "standard" : "short"},
+                         {"length", length_name(options.length)},
                          {"nominal_error", options.nominal_error},
                          {"cases", ordered_json::object()}};
     for (const CaseLabel& label : labels.cases) json["cases"][label.name] = case_json(label);

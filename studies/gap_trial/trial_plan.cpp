@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace capstan::gap_trial {
@@ -44,6 +45,36 @@ Severity severity_of(SeverityChoice choice, std::size_t turn) {
 }
 
 }  // namespace
+
+std::string severity_choice_name(SeverityChoice choice) {
+    switch (choice) {
+        case SeverityChoice::mild:
+            return "mild";
+        case SeverityChoice::strong:
+            return "strong";
+        case SeverityChoice::both:
+            return "both";
+    }
+    return "";
+}
+
+std::string length_name(RecordingLength length) {
+    return length == RecordingLength::standard ? "standard" : "short";
+}
+
+std::string options_text(const TrialOptions& options) {
+    const nlohmann::ordered_json json = {{"cases", options.cases},
+                                         {"seed", options.seed},
+                                         {"severity", severity_choice_name(options.severity)},
+                                         {"noise_factor", options.noise_factor},
+                                         {"length", length_name(options.length)},
+                                         {"nominal_error", options.nominal_error}};
+    return json.dump(1) + "\n";
+}
+
+std::string case_name(int number) {
+    return fmt::format("case{:03}", number);
+}
 
 std::string truth_group_name(TruthGroup group) {
     switch (group) {
@@ -94,7 +125,7 @@ std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
     shuffle(plan, draws);
     for (std::size_t k = 0; k < plan.size(); ++k) {
         plan[k].index = static_cast<int>(k) + 1;
-        plan[k].name = fmt::format("case{:03}", k + 1);
+        plan[k].name = case_name(plan[k].index);
     }
     return plan;
 }

@@ -23,14 +23,22 @@ struct TrialOptions {
     double nominal_error = 0.0;
 };
 
+/// The options as trial.json states them.
+std::string options_text(const TrialOptions& options);
+std::string severity_choice_name(SeverityChoice choice);
+std::string length_name(RecordingLength length);
+
+/// "case007"
+std::string case_name(int number);
+
 /// What kind of truth a case has.
 enum class TruthGroup { none, catalogue, parameter, foreign, mixture };
 
 std::string truth_group_name(TruthGroup group);
 
 struct PlannedCase {
-    int index = 0;     ///< address of its random numbers
-    std::string name;  ///< "case007"
+    int index = 0;  ///< address of its random numbers
+    std::string name;
     TruthGroup group = TruthGroup::none;
     Severity severity = Severity::strong;
     std::vector<EffectMaker> makers;  ///< none, one, or two
