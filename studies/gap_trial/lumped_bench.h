@@ -11,9 +11,9 @@ namespace capstan::gap_trial {
 struct LumpedBenchOptions {
     int masses = 60;  ///< of a cable
     double damping_s = 1e-5;
-    /// Losses of a wire rope at the rotor's ringing on its cables (60 Hz), which dies out in 0.1 s.
-    double loss_stiffness_ratio = 0.2;
-    double loss_time_s = 2.6e-3;
+    /// Losses of a wire rope where the rotor rings on its cables (20 to 60 Hz); it dies out in 0.1 s.
+    double loss_stiffness_ratio = 0.3;
+    double loss_time_s = 3e-3;
     /// How much of static friction beyond dynamic friction holds a mass at rest. In a continuum the front of
     /// a motion has no width and static friction hardly matters; lumps make each front wait for it, which
     /// with all of it shifts torques by 6% at 60 masses and by less than half of that at 160.

@@ -43,8 +43,7 @@ void MotorSide::step(double motor_torque_Nm, double cable_torque_Nm) {
     double drive_Nm = motor_torque_Nm;
     if (cogging_.amplitude_Nm != 0.0)
         drive_Nm -=
-            cogging_.amplitude_Nm * (std::sin(cogging_.periods_per_turn * rotor_rad_ + cogging_.phase_rad) -
-                                     std::sin(cogging_.phase_rad));
+            cogging_.amplitude_Nm * std::sin(cogging_.periods_per_turn * rotor_rad_ + cogging_.phase_rad);
     if (half_gap_rad_ > 0.0) {
         step_with_lost_motion(drive_Nm, cable_torque_Nm);
         return;

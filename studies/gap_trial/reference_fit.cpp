@@ -22,59 +22,72 @@ bool is_meant(const CandidateCause& candidate, const TrueCause& truth) {
            (truth.end.empty() || candidate.end.empty() || candidate.end == truth.end);
 }
 
-// Every way to pick one candidate for each true cause: a bend's cables are not in the label.
-std::vector<Causes> choices(const std::vector<CandidateCause>& candidates,
-                            const std::vector<TrueCause>& truths) {
-    std::vector<Causes> all = {{}};
-    for (const TrueCause& truth : truths) {
-        std::vector<Causes> longer;
-        for (const Causes& begun : all) {
-            for (const CandidateCause& candidate : candidates) {
-                if (!is_meant(candidate, truth)) continue;
-                longer.push_back(begun);
-                longer.back().push_back(&candidate);
-            }
+// Where to look for a true cause's numbers: as a diagnosis would, but for what the label tells in so many
+// words.
+std::vector<Eigen::VectorXd> starts_of(const CandidateCause& cause, const TrueCause& truth) {
+    std::vector<Eigen::VectorXd> starts = gap::start_grid(cause);
+    for (Eigen::VectorXd& start : starts) {
+        for (std::size_t k = 0; k < cause.numbers.size(); ++k) {
+            const gap::OpenNumber& number = cause.numbers[k];
+            double& coordinate = start(static_cast<Eigen::Index>(k));
+            if (number.kind == gap::OpenNumber::Kind::place && truth.where)
+                coordinate = 0.5 * (truth.where->from_m + truth.where->to_m) / number.typical;
+            // A residual as ragged as a staircase leads nowhere from a wrong step.
+            if (truth.effect == "sensor_quantization")
+                coordinate = (truth.size - number.absent) / (number.typical - number.absent);
+            const auto told = truth.shape.find(number.name);
+            if (number.kind == gap::OpenNumber::Kind::shape && told != truth.shape.end())
+                coordinate = std::log(told->second / number.typical);
         }
-        all = std::move(longer);
     }
-    return all;
-}
-
-std::vector<Eigen::VectorXd> starts_of(const Causes& causes) {
-    std::vector<Eigen::VectorXd> all = {Eigen::VectorXd(0)};
-    for (const CandidateCause* cause : causes) {
-        std::vector<Eigen::VectorXd> longer;
-        for (const Eigen::VectorXd& begun : all) {
-            for (const Eigen::VectorXd& own : gap::start_grid(*cause)) {
-                Eigen::VectorXd together(begun.size() + own.size());
-                together << begun, own;
-                longer.push_back(together);
-            }
-        }
-        all = std::move(longer);
-    }
-    return all;
+    const auto before = [](const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+        return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
+    };
+    std::sort(starts.begin(), starts.end(), before);
+    starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+    return starts;
 }
 
 struct Start {
-    const Causes* causes = nullptr;
+    const CandidateCause* cause = nullptr;
     Eigen::VectorXd own;
     double sum_of_squares = 0.0;
 };
 
-// All starts of all choices, best first.
-std::vector<Start> ranked_starts(const gap::CauseFitter& fitter, const std::vector<Causes>& all) {
-    std::vector<Start> ranked;
-    for (const Causes& causes : all) {
-        for (const Eigen::VectorXd& own : starts_of(causes)) {
-            Eigen::VectorXd coordinates = Eigen::VectorXd::Zero(gap::nominal_coordinates + own.size());
-            coordinates.tail(own.size()) = own;
-            ranked.push_back({&causes, own, fitter.residuals(causes, coordinates).squaredNorm()});
-        }
+Eigen::VectorXd joined(const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+    Eigen::VectorXd both(first.size() + second.size());
+    both << first, second;
+    return both;
+}
+
+// The best fit of what is there already and one more true cause; none if the engine has no such cause.
+std::optional<gap::CauseFit> with_one_more(const gap::CauseFitter& fitter,
+                                           const std::vector<CandidateCause>& candidates,
+                                           const gap::CauseFit& present, const TrueCause& truth) {
+    const auto together = [&](const CandidateCause* cause) {
+        Causes causes = present.causes;
+        causes.push_back(cause);
+        return causes;
+    };
+    std::vector<Start> starts;
+    for (const CandidateCause& candidate : candidates) {
+        if (!is_meant(candidate, truth)) continue;
+        for (const Eigen::VectorXd& own : starts_of(candidate, truth))
+            starts.push_back(
+                {&candidate, own,
+                 fitter.residuals(together(&candidate), joined(present.coordinates, own)).squaredNorm()});
     }
-    std::stable_sort(ranked.begin(), ranked.end(),
+    std::stable_sort(starts.begin(), starts.end(),
                      [](const Start& a, const Start& b) { return a.sum_of_squares < b.sum_of_squares; });
-    return ranked;
+    std::optional<gap::CauseFit> best;
+    const Eigen::VectorXd nominal = present.coordinates.head(gap::nominal_coordinates);
+    const Eigen::VectorXd others = present.coordinates.tail(present.coordinates.size() - nominal.size());
+    for (std::size_t k = 0; k < std::min(full_fits, starts.size()); ++k) {
+        const gap::CauseFit fit =
+            fitter.fit(together(starts[k].cause), nominal, {joined(others, starts[k].own)});
+        if (!best || fit.sum_of_squares < best->sum_of_squares) best = fit;
+    }
+    return best;
 }
 
 std::vector<ChannelRms> measured_gap(const gap::Recording& recording, const gap::BenchNumbers& numbers) {
@@ -109,17 +122,19 @@ std::optional<std::vector<ChannelRms>> reference_fit(const gap::Recording& recor
                                                      const CaseLabel& label) {
     if (label.group == TruthGroup::none || label.group == TruthGroup::foreign) return std::nullopt;
     const std::vector<CandidateCause> candidates = gap::candidate_causes(recording);
-    const std::vector<Causes> all = choices(candidates, label.causes);
-    if (all.empty()) return std::nullopt;
     const gap::CauseFitter fitter(recording, searching, 1);
-    const std::vector<Start> starts = ranked_starts(fitter, all);
-    std::optional<gap::CauseFit> best;
-    for (std::size_t k = 0; k < std::min(full_fits, starts.size()); ++k) {
-        const gap::CauseFit fit =
-            fitter.fit(*starts[k].causes, Eigen::VectorXd::Zero(gap::nominal_coordinates), {starts[k].own});
-        if (!best || fit.sum_of_squares < best->sum_of_squares) best = fit;
+    // The clearest first: the other one is sought in what it leaves.
+    std::vector<TrueCause> truths = label.causes;
+    std::stable_sort(truths.begin(), truths.end(),
+                     [](const TrueCause& a, const TrueCause& b) { return a.visibility > b.visibility; });
+    gap::CauseFit fit;
+    fit.coordinates = Eigen::VectorXd::Zero(gap::nominal_coordinates);
+    for (const TrueCause& truth : truths) {
+        const auto more = with_one_more(fitter, candidates, fit, truth);
+        if (!more) return std::nullopt;
+        fit = *more;
     }
-    return measured_gap(recording, gap::CauseFitter::numbers(best->causes, best->coordinates));
+    return measured_gap(recording, gap::CauseFitter::numbers(fit.causes, fit.coordinates));
 }
 
 }  // namespace capstan::gap_trial
