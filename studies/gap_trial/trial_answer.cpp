@@ -41,7 +41,7 @@ CaseAnswer answer_of(const std::string& name, const gap::Diagnosis& diagnosis) {
     answer.component = diagnosis.component;
     answer.end = diagnosis.end;
     answer.position_m = diagnosis.position_m;
-    for (const gap::ChannelGap& channel : diagnosis.channels)
+    for (const gap::ChannelGap& channel : diagnosis.gap.channels)
         answer.channels.push_back({channel.channel, channel.before_rms, channel.after_rms});
     return answer;
 }
