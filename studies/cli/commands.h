@@ -20,6 +20,7 @@ Command report_command();
 Command simulate_command();
 Command calibrate_command();
 Command diagnose_command();
+Command gap_trial_command();
 Command config_default_command();
 Command config_check_command();
 Command bench_solver_command();

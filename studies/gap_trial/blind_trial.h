@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "capstan/gap_trial/trial_folder.h"
+#include "capstan/gap_trial/trial_recordings.h"
+#include "capstan/gap_trial/trial_score.h"
+
+namespace capstan::gap_trial {
+
+struct BlindTrialHooks {
+    CaseProgress on_progress = [](const std::string&, int, int) {};
+    /// Called with the labels' hash before the first diagnosis begins.
+    std::function<void(const std::string& seal)> on_sealed = [](const std::string&) {};
+};
+
+/// Simulates what is not there yet and seals the labels; returns their hash.
+std::string prepare_trial(const TrialFolder& folder, const TrialOptions& options, int jobs,
+                          const BlindTrialHooks& hooks);
+
+/// Diagnoses every recording that has no answer yet, from its files alone, one case a thread.
+void answer_trial(const TrialFolder& folder, const TrialOptions& options, const std::string& seal, int jobs,
+                  const BlindTrialHooks& hooks);
+
+/// Unseals the labels, finds what the true causes leave where that is not known yet, and scores.
+TrialScore unseal_and_score(const TrialFolder& folder, const std::string& seal, int jobs,
+                            const BlindTrialHooks& hooks);
+
+}  // namespace capstan::gap_trial

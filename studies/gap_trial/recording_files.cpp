@@ -1,0 +1,116 @@
+#include "capstan/gap_trial/recording_files.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace capstan::gap_trial {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string unit_of(const std::string& channel) {
+    if (channel.ends_with("_torque")) return "N m";
+    return channel.ends_with("_angle") ? "rad" : "N";
+}
+
+// As many digits as the instrument has.
+int digits_of(const std::string& channel) {
+    if (channel.ends_with("_torque")) return 5;
+    return channel.ends_with("_angle") ? 6 : 3;
+}
+
+ordered_json nominal_json(const TrialBench& bench) {
+    const gap::NominalBench& nominal = bench.nominal;
+    ordered_json profile = ordered_json::array();
+    double reached_m = 0.0;
+    for (const CurvaturePiece& piece : nominal.curvature) {
+        profile.push_back(
+            {{"s0", reached_m}, {"s1", reached_m + piece.length_m}, {"R", piece.bend_radius_m}});
+        reached_m += piece.length_m;
+    }
+    ordered_json json = {{"L", bench.length_m()},
+                         {"R_profile", profile},
+                         {"r_input", nominal.motor_radius_m},
+                         {"r_load", nominal.load_radius_m},
+                         {"K", nominal.axial_stiffness_N / bench.length_m()},
+                         {"mu_d", nominal.dynamic_friction},
+                         {"mu_s", nominal.static_friction},
+                         {"cable_mass_per_length", bench.cable_mass_kg_per_m}};
+    if (bench.is_pair()) {
+        json["rotor_inertia"] = nominal.rotor_inertia_kg_m2;
+        json["load_pulley_inertia"] = nominal.load_pulley_inertia_kg_m2;
+    }
+    return json;
+}
+
+ordered_json sidecar(const std::string& name, const TrialBench& bench, const std::vector<TrialRun>& runs) {
+    ordered_json units = {{"t", "s"}};
+    for (const std::string& channel : bench.channels()) units[channel] = unit_of(channel);
+    ordered_json json = {{"case", name},
+                         {"schema", 1},
+                         {"mode", bench.is_pair() ? "pull_pull" : "single_cable"},
+                         {"sample_rate_hz", logged_rate_Hz},
+                         {"units", units},
+                         {"nominal", nominal_json(bench)},
+                         {"noise_std", bench.noise_std},
+                         {"encoder_step", bench.encoder_step}};
+    json["tension_sensors"] = ordered_json::array();
+    for (const gap::TensionSensor& sensor : bench.tension_sensors)
+        json["tension_sensors"].push_back({{"channel", sensor.channel},
+                                           {"cable", sensor.cable == gap::CableName::b ? "B" : "A"},
+                                           {"s", sensor.position_m}});
+    json["runs"] = ordered_json::array();
+    for (const TrialRun& run : runs)
+        json["runs"].push_back({{"run", run.number},
+                                {"protocol", run.protocol},
+                                {"t_session_start", run.session_start_s},
+                                {"duration", run.duration_s()},
+                                {"T0", run.pretension_N},
+                                {"output", run.output == gap::OutputKind::locked ? "locked" : "handle"},
+                                {"driven", run.driven}});
+    return json;
+}
+
+std::string samples_csv(const TrialBench& bench, const std::vector<TrialRun>& runs,
+                        const std::vector<SensedRun>& logged) {
+    const std::vector<std::string> channels = bench.channels();
+    std::string text = "run,t";
+    for (const std::string& channel : channels) text += "," + channel;
+    text += "\n";
+    auto out = std::back_inserter(text);
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+        for (std::size_t k = 0; k < logged[run].front().size(); ++k) {
+            fmt::format_to(out, "{},{:.3f}", runs[run].number, static_cast<double>(k) / logged_rate_Hz);
+            for (std::size_t channel = 0; channel < channels.size(); ++channel)
+                fmt::format_to(out, ",{:.{}f}", logged[run][channel][k], digits_of(channels[channel]));
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+void write_whole_file(const std::filesystem::path& path, const std::string& text) {
+    const std::filesystem::path partial = path.string() + ".partial";
+    std::ofstream file(partial, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file)
+        throw std::runtime_error(
+            fmt::format("{}: cannot be written; is the folder there, and is there room?", path.string()));
+    std::filesystem::rename(partial, path);
+}
+
+void write_recording(const std::filesystem::path& folder, const std::string& name, const TrialBench& bench,
+                     const std::vector<TrialRun>& runs, const std::vector<SensedRun>& logged) {
+    write_whole_file(folder / (name + ".csv"), samples_csv(bench, runs, logged));
+    write_whole_file(folder / (name + ".json"), sidecar(name, bench, runs).dump(2) + "\n");
+}
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,98 @@
+#include "capstan/gap_trial/reference_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "capstan/gap/cause_fit.h"
+#include "capstan/gap/screening.h"
+
+namespace capstan::gap_trial {
+
+namespace {
+
+using gap::CandidateCause;
+
+// As a diagnosis searches; the result is measured with every sample.
+constexpr gap::EffectsTwinOptions searching{40, 2};
+constexpr gap::EffectsTwinOptions measuring{40, 1};
+// A bend's cables are not in the label, so that a few candidates can be meant.
+constexpr std::size_t most_full_fits = 3;
+
+bool is_meant(const CandidateCause& candidate, const TrueCause& truth) {
+    return candidate.effect == truth.effect && candidate.component == truth.component &&
+           (truth.end.empty() || candidate.end.empty() || candidate.end == truth.end);
+}
+
+// The best fit of what is there already and one more true cause; none if the engine has no such cause.
+std::optional<gap::CauseFit> with_one_more(const gap::CauseFitter& fitter, const gap::Hypothesis& present,
+                                           const std::vector<CandidateCause>& meant) {
+    std::optional<gap::CauseFit> best;
+    std::size_t fitted = 0;
+    for (const gap::Screened& each : gap::screen(fitter, meant, present)) {
+        if (fitted++ == most_full_fits) break;
+        gap::Hypothesis start = present;
+        start.causes.push_back(each.cause);
+        const Eigen::Index known = start.coordinates.size();
+        start.coordinates.conservativeResize(known + each.start.size());
+        start.coordinates.tail(each.start.size()) = each.start;
+        const gap::CauseFit fit = fitter.fit(start, {});
+        if (!best || fit.sum_of_squares < best->sum_of_squares) best = fit;
+    }
+    return best;
+}
+
+std::vector<ChannelRms> measured_gap(const gap::Recording& recording, const gap::BenchNumbers& numbers) {
+    const gap::EffectsTwin twin(recording, measuring);
+    std::vector<ChannelRms> sums(recording.channels.size());
+    std::vector<double> samples(recording.channels.size(), 0.0);
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        const gap::TwinRun before = twin.run(run, {});
+        const gap::TwinRun after = twin.run(run, numbers);
+        for (std::size_t channel = 0; channel < sums.size(); ++channel) {
+            for (std::size_t k = 0; k < before.values[channel].size(); ++k) {
+                const double measured = recording.runs[run].values[channel][k];
+                sums[channel].before += std::pow(measured - before.values[channel][k], 2);
+                sums[channel].after += std::pow(measured - after.values[channel][k], 2);
+                samples[channel] += 1.0;
+            }
+        }
+    }
+    std::vector<ChannelRms> channels;
+    for (std::size_t channel = 0; channel < sums.size(); ++channel) {
+        if (samples[channel] == 0.0) continue;
+        channels.push_back({recording.channels[channel].name,
+                            std::sqrt(sums[channel].before / samples[channel]),
+                            std::sqrt(sums[channel].after / samples[channel])});
+    }
+    return channels;
+}
+
+}  // namespace
+
+std::optional<std::vector<ChannelRms>> reference_fit(const gap::Recording& recording,
+                                                     const CaseLabel& label) {
+    if (label.group == TruthGroup::none || label.group == TruthGroup::foreign) return std::nullopt;
+    // The clearest first: the other one is sought in what it leaves.
+    std::vector<TrueCause> truths = label.causes;
+    std::stable_sort(truths.begin(), truths.end(),
+                     [](const TrueCause& a, const TrueCause& b) { return a.visibility > b.visibility; });
+    const std::vector<CandidateCause> candidates = gap::candidate_causes(recording);
+    std::vector<std::vector<CandidateCause>> meant;
+    for (const TrueCause& truth : truths) {
+        meant.emplace_back();
+        std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(meant.back()),
+                     [&](const CandidateCause& candidate) { return is_meant(candidate, truth); });
+    }
+    const gap::CauseFitter fitter(recording, searching, 1);
+    gap::Hypothesis found{{}, Eigen::VectorXd::Zero(gap::nominal_coordinates)};
+    for (const std::vector<CandidateCause>& list : meant) {
+        if (list.empty()) return std::nullopt;
+        const auto fit = with_one_more(fitter, found, list);
+        if (!fit) return std::nullopt;
+        found = fit->hypothesis();
+    }
+    return measured_gap(recording, gap::CauseFitter::numbers(found.causes, found.coordinates));
+}
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,190 @@
+#include "capstan/gap_trial/sealed_labels.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <stdexcept>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap_trial/recording_files.h"
+
+namespace capstan::gap_trial {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* labels_name = "labels.json";
+constexpr const char* hash_name = "labels.sha256";
+
+constexpr TruthGroup all_groups[] = {TruthGroup::none, TruthGroup::catalogue, TruthGroup::parameter,
+                                     TruthGroup::foreign, TruthGroup::mixture};
+
+TruthGroup group_named(const std::string& name) {
+    for (const TruthGroup group : all_groups) {
+        if (truth_group_name(group) == name) return group;
+    }
+    throw std::invalid_argument(fmt::format("no group of cases is called '{}'", name));
+}
+
+ordered_json text_or_null(const std::string& text) {
+    return text.empty() ? ordered_json(nullptr) : ordered_json(text);
+}
+
+std::string text_of(const ordered_json& json) {
+    return json.is_null() ? "" : json.get<std::string>();
+}
+
+ordered_json cause_json(const TrueCause& cause) {
+    return {
+        {"effect", cause.effect},
+        {"kind", cause.kind},
+        {"component", text_or_null(cause.component)},
+        {"end", text_or_null(cause.end)},
+        {"s_m", cause.where ? ordered_json({cause.where->from_m, cause.where->to_m}) : ordered_json(nullptr)},
+        {"size", {{"name", cause.size_name}, {"value", cause.size}}},
+        {"shape", cause.shape},
+        {"visibility", cause.visibility},
+        {"clearest_channel", cause.clearest_channel}};
+}
+
+TrueCause cause_of(const ordered_json& json) {
+    TrueCause cause;
+    cause.effect = json.at("effect");
+    cause.kind = json.at("kind");
+    cause.component = text_of(json.at("component"));
+    cause.end = text_of(json.at("end"));
+    if (const ordered_json& where = json.at("s_m"); !where.is_null())
+        cause.where = {where.at(0), where.at(1)};
+    cause.size_name = json.at("size").at("name");
+    cause.size = json.at("size").at("value");
+    cause.shape = json.at("shape").get<std::map<std::string, double>>();
+    cause.visibility = json.at("visibility");
+    cause.clearest_channel = json.at("clearest_channel");
+    return cause;
+}
+
+ordered_json case_json(const CaseLabel& label) {
+    ordered_json json = {
+        {"group", truth_group_name(label.group)},
+        {"severity", label.severity ? ordered_json(severity_name(*label.severity)) : ordered_json(nullptr)},
+        {"bench", label.bench},
+        {"protocols", label.protocols},
+        {"causes", ordered_json::array()},
+        {"true_ratios",
+         {{"friction", label.friction_ratio},
+          {"stiffness", label.stiffness_ratio},
+          {"pretension", label.pretension_ratio}}}};
+    for (const TrueCause& cause : label.causes) json["causes"].push_back(cause_json(cause));
+    return json;
+}
+
+CaseLabel case_of(const std::string& name, const ordered_json& json) {
+    CaseLabel label;
+    label.name = name;
+    label.group = group_named(json.at("group"));
+    if (!json.at("severity").is_null())
+        label.severity = json.at("severity") == "mild" ? Severity::mild : Severity::strong;
+    label.bench = json.at("bench");
+    label.protocols = json.at("protocols").get<std::vector<std::string>>();
+    for (const ordered_json& cause : json.at("causes")) label.causes.push_back(cause_of(cause));
+    const ordered_json& ratios = json.at("true_ratios");
+    label.friction_ratio = ratios.at("friction");
+    label.stiffness_ratio = ratios.at("stiffness");
+    label.pretension_ratio = ratios.at("pretension");
+    return label;
+}
+
+std::string read_whole(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw InvalidInput({fmt::format("{}: cannot be read; is it there?", path.string())});
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+std::string random_salt() {
+    std::random_device device;
+    std::string salt;
+    for (int k = 0; k < 4; ++k) salt += fmt::format("{:08x}", device());
+    return salt;
+}
+
+std::string sha256(const std::string& bytes) {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int length = 0;
+    if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
+        throw std::runtime_error("libcrypto gives no SHA-256; is it complete?");
+    std::string text;
+    for (unsigned int k = 0; k < length; ++k) text += fmt::format("{:02x}", digest[k]);
+    return text;
+}
+
+std::string labels_text(const TrialLabels& labels) {
+    const TrialOptions& options = labels.options;
+    ordered_json json = {{"salt", labels.salt},
+                         {"seed", options.seed},
+                         {"severity", severity_choice_name(options.severity)},
+                         {"noise_factor", options.noise_factor},
+                         {"length", length_name(options.length)},
+                         {"nominal_error", options.nominal_error},
+                         {"cases", ordered_json::object()}};
+    for (const CaseLabel& label : labels.cases) json["cases"][label.name] = case_json(label);
+    return json.dump(1) + "\n";
+}
+
+TrialLabels read_labels(const std::string& text, const std::string& place) {
+    try {
+        const ordered_json json = ordered_json::parse(text);
+        TrialLabels labels;
+        labels.salt = json.at("salt");
+        labels.options.seed = json.at("seed");
+        const std::string severity = json.at("severity");
+        labels.options.severity = severity == "mild"     ? SeverityChoice::mild
+                                  : severity == "strong" ? SeverityChoice::strong
+                                                         : SeverityChoice::both;
+        labels.options.noise_factor = json.at("noise_factor");
+        labels.options.length =
+            json.at("length") == "standard" ? RecordingLength::standard : RecordingLength::brief;
+        labels.options.nominal_error = json.at("nominal_error");
+        for (const auto& [name, label] : json.at("cases").items())
+            labels.cases.push_back(case_of(name, label));
+        labels.options.cases = static_cast<int>(labels.cases.size());
+        return labels;
+    } catch (const std::exception& problem) {
+        throw InvalidInput(
+            {fmt::format("{}: no labels of a trial: {}; give the labels.json that gap-trial wrote", place,
+                         problem.what())});
+    }
+}
+
+std::string seal_labels(const std::filesystem::path& folder, const TrialLabels& labels) {
+    const std::string text = labels_text(labels);
+    const std::string hash = sha256(text);
+    write_whole_file(folder / labels_name, text);
+    write_whole_file(folder / hash_name, fmt::format("{}  {}\n", hash, labels_name));
+    return hash;
+}
+
+TrialLabels unseal_labels(const std::filesystem::path& labels_file, const std::string& expected_hash) {
+    const std::string text = read_whole(labels_file);
+    const std::string hash = sha256(text);
+    const std::filesystem::path hash_file = labels_file.parent_path() / hash_name;
+    const std::string sealed = read_whole(hash_file).substr(0, hash.size());
+    for (const auto& [said, by] :
+         {std::pair(sealed, hash_file.string()), std::pair(expected_hash, std::string("what was printed"))}) {
+        if (!said.empty() && said != hash)
+            throw InvalidInput({fmt::format(
+                "{}: hashes to {}, but {} says {}: the labels were changed after they were sealed; score with "
+                "the file as it was written",
+                labels_file.string(), hash, by, said)});
+    }
+    return read_labels(text, labels_file.string());
+}
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,119 @@
+#include "capstan/gap_trial/sensor_chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace capstan::gap_trial {
+
+namespace {
+
+constexpr double cutoff_Hz = 40.0;
+
+void butterworth(std::vector<double>& signal, double corner_Hz, double rate_Hz) {
+    // Bilinear transform, prewarped.
+    const double k = std::tan(std::numbers::pi * corner_Hz / rate_Hz);
+    const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * k + k * k);
+    const double b0 = k * k * norm;
+    const double a1 = 2.0 * (k * k - 1.0) * norm;
+    const double a2 = (1.0 - std::numbers::sqrt2 * k + k * k) * norm;
+    // At rest at the first sample.
+    double x1 = signal.front(), x2 = x1, y1 = x1, y2 = x1;
+    for (double& value : signal) {
+        const double y = b0 * (value + 2.0 * x1 + x2) - a1 * y1 - a2 * y2;
+        x2 = x1;
+        x1 = value;
+        y2 = y1;
+        y1 = y;
+        value = y;
+    }
+}
+
+void apply_hysteresis(std::vector<double>& signal, double half_width) {
+    double reading = signal.front();
+    for (double& value : signal) {
+        reading = std::clamp(reading, value - half_width, value + half_width);
+        value = reading;
+    }
+}
+
+void apply_lag(std::vector<double>& signal, double lag_s) {
+    const double share = -std::expm1(-1.0 / (fine_rate_Hz * lag_s));
+    double reading = signal.front();
+    for (double& value : signal) {
+        reading += share * (value - reading);
+        value = reading;
+    }
+}
+
+void apply_delay(std::vector<double>& signal, double delay_s) {
+    const std::vector<double> original = signal;
+    const double last = static_cast<double>(signal.size() - 1);
+    for (std::size_t k = 0; k < signal.size(); ++k) {
+        const double place = std::clamp(static_cast<double>(k) - delay_s * fine_rate_Hz, 0.0, last);
+        const auto below = std::min(static_cast<std::size_t>(place), signal.size() - 2);
+        const double share = place - static_cast<double>(below);
+        signal[k] = (1.0 - share) * original[below] + share * original[below + 1];
+    }
+}
+
+void apply(const TrueSensorFault& fault, std::vector<double>& signal) {
+    if (fault.hysteresis > 0.0) apply_hysteresis(signal, fault.hysteresis);
+    if (fault.lag_s > 0.0) apply_lag(signal, fault.lag_s);
+    if (fault.delay_s != 0.0) apply_delay(signal, fault.delay_s);
+    for (std::size_t k = 0; k < signal.size(); ++k) {
+        double& value = signal[k];
+        value = fault.gain * value + fault.offset;
+        if (fault.hum != 0.0)
+            value += fault.hum *
+                     std::sin(2.0 * std::numbers::pi * fault.hum_Hz * static_cast<double>(k) / fine_rate_Hz);
+        if (fault.clipped_above > 0.0) value = std::clamp(value, -fault.clipped_above, fault.clipped_above);
+    }
+}
+
+double rounded(double value, double step) {
+    return step > 0.0 ? step * std::round(value / step) : value;
+}
+
+}  // namespace
+
+void zero_phase_low_pass(std::vector<double>& signal, double corner_Hz, double rate_Hz) {
+    butterworth(signal, corner_Hz, rate_Hz);
+    std::reverse(signal.begin(), signal.end());
+    butterworth(signal, corner_Hz, rate_Hz);
+    std::reverse(signal.begin(), signal.end());
+}
+
+SensedRun sense(const TrialBench& bench, const TrueRun& run,
+                const std::map<std::string, TrueSensorFault>& faults) {
+    const std::vector<std::string> channels = bench.channels();
+    SensedRun sensed(channels.size());
+    constexpr int stride = fine_rate_Hz / logged_rate_Hz;
+    for (std::size_t channel = 0; channel < channels.size(); ++channel) {
+        std::vector<double> signal = run.values[channel];
+        const auto fault = faults.find(channels[channel]);
+        if (fault != faults.end()) apply(fault->second, signal);
+        if (!channels[channel].ends_with("_angle")) zero_phase_low_pass(signal, cutoff_Hz, fine_rate_Hz);
+        for (std::size_t k = 0; k < signal.size(); k += stride) sensed[channel].push_back(signal[k]);
+    }
+    return sensed;
+}
+
+SensedRun with_noise(const TrialBench& bench, const SensedRun& run,
+                     const std::map<std::string, TrueSensorFault>& faults, TrialStream& draws) {
+    const std::vector<std::string> channels = bench.channels();
+    SensedRun logged = run;
+    for (std::size_t channel = 0; channel < channels.size(); ++channel) {
+        const auto noise = bench.noise_std.find(channels[channel]);
+        const auto step = bench.encoder_step.find(channels[channel]);
+        const auto fault = faults.find(channels[channel]);
+        for (double& value : logged[channel]) {
+            if (noise != bench.noise_std.end()) value += noise->second * draws.normal();
+            if (step != bench.encoder_step.end()) value = rounded(value, step->second);
+            if (fault != faults.end()) value = rounded(value, fault->second.step);
+        }
+    }
+    return logged;
+}
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,79 @@
+#include "capstan/gap_trial/trial_answer.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap/json_file.h"
+#include "capstan/gap_trial/recording_files.h"
+
+namespace capstan::gap_trial {
+
+namespace {
+
+using nlohmann::json;
+
+json in_json(const CaseAnswer& answer, const std::string& seal) {
+    json text = {{"case", answer.name},
+                 {"labels_sha256", seal},
+                 {"ranked", json::array()},
+                 {"named", answer.named},
+                 {"component", answer.component},
+                 {"end", answer.end},
+                 {"s_m", answer.position_m ? json(*answer.position_m) : json(nullptr)},
+                 {"channels", json::array()}};
+    for (const gap::RankedEffect& each : answer.ranked)
+        text["ranked"].push_back({{"effect", each.effect}, {"probability", each.probability}});
+    for (const ChannelRms& each : answer.channels)
+        text["channels"].push_back(
+            {{"channel", each.channel}, {"rms_before", each.before}, {"rms_after", each.after}});
+    return text;
+}
+
+}  // namespace
+
+CaseAnswer answer_of(const std::string& name, const gap::Diagnosis& diagnosis) {
+    CaseAnswer answer;
+    answer.name = name;
+    answer.ranked = diagnosis.ranked;
+    for (const gap::FittedCause& cause : diagnosis.causes) answer.named.push_back(cause.effect);
+    answer.component = diagnosis.component;
+    answer.end = diagnosis.end;
+    answer.position_m = diagnosis.position_m;
+    for (const gap::ChannelGap& channel : diagnosis.gap.channels)
+        answer.channels.push_back({channel.channel, channel.before_rms, channel.after_rms});
+    return answer;
+}
+
+void write_answer(const std::filesystem::path& path, const CaseAnswer& answer, const std::string& seal) {
+    write_whole_file(path, in_json(answer, seal).dump(1) + "\n");
+}
+
+CaseAnswer read_answer(const std::filesystem::path& path, const std::string& seal) {
+    const json text = gap::read_json_file(path);
+    try {
+        const std::string given_under = text.at("labels_sha256");
+        if (given_under != seal)
+            throw InvalidInput(
+                {fmt::format("{}: was given for labels that hash to {}, not to {}; remove it, or "
+                             "score it with its own labels",
+                             path.string(), given_under, seal)});
+        CaseAnswer answer;
+        answer.name = text.at("case");
+        for (const json& each : text.at("ranked"))
+            answer.ranked.push_back({each.at("effect"), each.at("probability")});
+        answer.named = text.at("named").get<std::vector<std::string>>();
+        answer.component = text.at("component");
+        answer.end = text.at("end");
+        if (!text.at("s_m").is_null()) answer.position_m = text.at("s_m").get<double>();
+        for (const json& each : text.at("channels"))
+            answer.channels.push_back({each.at("channel"), each.at("rms_before"), each.at("rms_after")});
+        return answer;
+    } catch (const json::exception& problem) {
+        throw InvalidInput({fmt::format("{}: no answer of a trial: {}; remove it and run the trial again",
+                                        path.string(), problem.what())});
+    }
+}
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/gap/diagnosis.h"
+
+namespace capstan::gap_trial {
+
+/// RMS of measured minus model in one channel, over all samples that are predicted.
+struct ChannelRms {
+    std::string channel;
+    double before = 0.0;
+    double after = 0.0;
+};
+
+/// What of a diagnosis is scored.
+struct CaseAnswer {
+    std::string name;
+    std::vector<gap::RankedEffect> ranked;  ///< best first
+    std::vector<std::string> named;         ///< effects that the verdict names: none, one, or two together
+    std::string component;
+    std::string end;
+    std::optional<double> position_m;
+    std::vector<ChannelRms> channels;
+};
+
+CaseAnswer answer_of(const std::string& name, const gap::Diagnosis& diagnosis);
+
+/// Files an answer with the hash of the labels that were sealed before it was given.
+void write_answer(const std::filesystem::path& path, const CaseAnswer& answer, const std::string& seal);
+/// Throws InvalidInput if the file is no answer, or was given under another seal.
+CaseAnswer read_answer(const std::filesystem::path& path, const std::string& seal);
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/gap_trial/trial_plan.h"
+
+namespace capstan::gap_trial {
+
+/// One effect that was put in, as the label tells it.
+struct TrueCause {
+    std::string effect;
+    std::string kind;
+    std::string component;
+    std::string end;
+    std::optional<Stretch> where;
+    std::string size_name;
+    double size = 0.0;
+    std::map<std::string, double> shape;
+    double visibility = 0.0;  ///< alone
+    std::string clearest_channel;
+};
+
+/// What is behind a case.
+struct CaseLabel {
+    std::string name;
+    TruthGroup group = TruthGroup::none;
+    std::optional<Severity> severity;  ///< none for `none`
+    std::string bench;
+    std::vector<std::string> protocols;
+    std::vector<TrueCause> causes;
+    // Nominal numbers' true ratios.
+    double friction_ratio = 1.0;
+    double stiffness_ratio = 1.0;
+    double pretension_ratio = 1.0;
+};
+
+/// Simulates a planned case and files its recording under its name in `folder`. Everything is drawn anew
+/// (bench, motion, effect) until the effect has its severity. Throws std::runtime_error if that never
+/// happens.
+CaseLabel make_case(const PlannedCase& planned, const TrialOptions& options,
+                    const std::filesystem::path& folder);
+
+}  // namespace capstan::gap_trial

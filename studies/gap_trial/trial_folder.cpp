@@ -1,0 +1,81 @@
+#include "capstan/gap_trial/trial_folder.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap_trial/recording_files.h"
+#include "capstan/gap_trial/sealed_labels.h"
+
+namespace capstan::gap_trial {
+
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TrialFolder::TrialFolder(std::filesystem::path path, bool goes_away)
+    : path_(std::move(path)), goes_away_(goes_away) {}
+
+TrialFolder::TrialFolder(TrialFolder&& other) noexcept
+    : path_(std::move(other.path_)), goes_away_(std::exchange(other.goes_away_, false)) {}
+
+TrialFolder::~TrialFolder() {
+    if (!goes_away_) return;
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+TrialFolder TrialFolder::kept(const std::filesystem::path& path, const TrialOptions& options) {
+    TrialFolder folder(path, false);
+    folder.state_options(options);
+    return folder;
+}
+
+TrialFolder TrialFolder::temporary(const TrialOptions& options) {
+    TrialFolder folder(std::filesystem::temp_directory_path() / ("capstan-gap-trial-" + random_salt()), true);
+    folder.state_options(options);
+    return folder;
+}
+
+TrialFolder TrialFolder::of_labels(const std::filesystem::path& labels_file) {
+    return {labels_file.has_parent_path() ? labels_file.parent_path() : std::filesystem::path("."), false};
+}
+
+void TrialFolder::state_options(const TrialOptions& options) const {
+    std::filesystem::create_directories(path_ / "answers");
+    std::filesystem::create_directories(path_ / "references");
+    const std::filesystem::path stated = path_ / "trial.json";
+    const std::string text = options_text(options);
+    if (!std::filesystem::exists(stated)) {
+        write_whole_file(stated, text);
+    } else if (text_of(stated) != text) {
+        throw InvalidInput(
+            {fmt::format("{}: another trial is kept there, with\n{}and not\n{}give the same "
+                         "options, or another folder",
+                         path_.string(), text_of(stated), text)});
+    }
+}
+
+std::filesystem::path TrialFolder::answer(const std::string& name) const {
+    return path_ / "answers" / (name + ".json");
+}
+
+std::filesystem::path TrialFolder::reference(const std::string& name) const {
+    return path_ / "references" / (name + ".json");
+}
+
+std::string TrialFolder::seal() const {
+    const std::string text = text_of(path_ / "labels.sha256");
+    return text.substr(0, text.find(' '));
+}
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/gap/recording.h"
+#include "capstan/gap_trial/trial_bench.h"
+
+namespace capstan::gap_trial {
+
+/// Rate at which motions are stated and signals are taken before they are logged.
+inline constexpr int fine_rate_Hz = 2000;
+inline constexpr int logged_rate_Hz = 200;
+
+/// One run as it is asked for, before anything is measured.
+struct TrialRun {
+    int number = 1;
+    std::string protocol;
+    double session_start_s = 0.0;
+    double pretension_N = 0.0;  ///< as the lab sets it
+    gap::OutputKind output = gap::OutputKind::locked;
+    std::vector<std::string> driven;
+    // Fine samples: motor_torque [N m] and load_angle [rad] of a pair; motor_angle [rad] of a single cable.
+    std::vector<double> motor_torque_Nm;
+    std::vector<double> load_angle_rad;
+    std::vector<double> motor_angle_rad;
+
+    double duration_s() const;
+};
+
+enum class RecordingLength {
+    standard,  ///< all protocols of the bench
+    brief,     ///< one or two
+};
+
+/// The runs of a session, two seconds between them: levels, strokes and speeds are drawn.
+std::vector<TrialRun> draw_session(const TrialBench& bench, RecordingLength length, TrialStream& draws);
+
+}  // namespace capstan::gap_trial

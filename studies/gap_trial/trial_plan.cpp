@@ -1,0 +1,133 @@
+#include "capstan/gap_trial/trial_plan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace capstan::gap_trial {
+
+namespace {
+
+constexpr double none_share = 0.10;
+constexpr double foreign_share = 0.12;
+constexpr double mixture_share = 0.10;
+constexpr double parameter_share = 0.09;
+// No case has this address.
+constexpr int whole_trial = 0x7fffffff;
+
+template <typename Item>
+void shuffle(std::vector<Item>& items, TrialStream& draws) {
+    for (std::size_t k = items.size(); k > 1; --k)
+        std::swap(items[k - 1], items[static_cast<std::size_t>(draws.whole(static_cast<int>(k)))]);
+}
+
+// One after the other in a drawn order, and round again.
+class Round {
+  public:
+    Round(std::vector<EffectMaker> makers, TrialStream& draws) : makers_(std::move(makers)) {
+        shuffle(makers_, draws);
+    }
+    const EffectMaker& next() { return makers_[turn_++ % makers_.size()]; }
+    /// How often the round has been gone through.
+    std::size_t rounds() const { return turn_ / makers_.size(); }
+
+  private:
+    std::vector<EffectMaker> makers_;
+    std::size_t turn_ = 0;
+};
+
+Severity severity_of(SeverityChoice choice, std::size_t turn) {
+    if (choice == SeverityChoice::mild) return Severity::mild;
+    if (choice == SeverityChoice::strong) return Severity::strong;
+    return turn % 2 == 0 ? Severity::strong : Severity::mild;
+}
+
+}  // namespace
+
+std::string severity_choice_name(SeverityChoice choice) {
+    switch (choice) {
+        case SeverityChoice::mild:
+            return "mild";
+        case SeverityChoice::strong:
+            return "strong";
+        case SeverityChoice::both:
+            return "both";
+    }
+    return "";
+}
+
+std::string length_name(RecordingLength length) {
+    return length == RecordingLength::standard ? "standard" : "short";
+}
+
+std::string options_text(const TrialOptions& options) {
+    const nlohmann::ordered_json json = {{"cases", options.cases},
+                                         {"seed", options.seed},
+                                         {"severity", severity_choice_name(options.severity)},
+                                         {"noise_factor", options.noise_factor},
+                                         {"length", length_name(options.length)},
+                                         {"nominal_error", options.nominal_error}};
+    return json.dump(1) + "\n";
+}
+
+std::string case_name(int number) {
+    return fmt::format("case{:03}", number);
+}
+
+std::string truth_group_name(TruthGroup group) {
+    switch (group) {
+        case TruthGroup::none:
+            return "none";
+        case TruthGroup::catalogue:
+            return "one effect";
+        case TruthGroup::parameter:
+            return "wrong parameter";
+        case TruthGroup::foreign:
+            return "outside the catalogue";
+        case TruthGroup::mixture:
+            return "two effects";
+    }
+    return "";
+}
+
+std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
+    TrialStream draws(options.seed, whole_trial, DrawTopic::plan);
+    Round catalogue(catalogue_effects(), draws);
+    Round parameters(wrong_parameters(), draws);
+    Round foreign(foreign_causes(), draws);
+    Round firsts(catalogue_effects(), draws);
+    Round seconds(catalogue_effects(), draws);
+    const auto share_of = [&](double share) { return static_cast<int>(std::lround(share * options.cases)); };
+
+    std::vector<PlannedCase> plan;
+    const auto add = [&](TruthGroup group, Severity severity, std::vector<EffectMaker> makers) {
+        plan.push_back({0, "", group, severity, std::move(makers)});
+    };
+    for (int k = 0; k < share_of(none_share); ++k) add(TruthGroup::none, Severity::strong, {});
+    for (int k = 0; k < share_of(foreign_share); ++k)
+        add(TruthGroup::foreign, severity_of(options.severity, plan.size()), {foreign.next()});
+    for (int k = 0; k < share_of(parameter_share); ++k)
+        add(TruthGroup::parameter, severity_of(options.severity, plan.size()), {parameters.next()});
+    for (int k = 0; k < share_of(mixture_share); ++k) {
+        const EffectMaker& first = firsts.next();
+        const EffectMaker* second = &seconds.next();
+        while (effect_family(second->effect) == effect_family(first.effect)) second = &seconds.next();
+        add(TruthGroup::mixture, options.severity == SeverityChoice::mild ? Severity::mild : Severity::strong,
+            {first, *second});
+    }
+    while (static_cast<int>(plan.size()) < options.cases) {
+        // Each effect alternates from round to round, and half of them begin mild.
+        const std::size_t turn = catalogue.rounds() + plan.size();
+        add(TruthGroup::catalogue, severity_of(options.severity, turn), {catalogue.next()});
+    }
+    shuffle(plan, draws);
+    for (std::size_t k = 0; k < plan.size(); ++k) {
+        plan[k].index = static_cast<int>(k) + 1;
+        plan[k].name = case_name(plan[k].index);
+    }
+    return plan;
+}
+
+}  // namespace capstan::gap_trial

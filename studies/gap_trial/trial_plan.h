@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capstan/gap_trial/trial_motion.h"
+#include "capstan/gap_trial/visibility.h"
+#include "capstan/gap_trial/withheld_effect.h"
+
+namespace capstan::gap_trial {
+
+enum class SeverityChoice { mild, strong, both };
+
+/// What is asked of a trial. The same options give the same recordings, bit for bit.
+struct TrialOptions {
+    int cases = 60;
+    std::uint64_t seed = 1;
+    SeverityChoice severity = SeverityChoice::both;
+    double noise_factor = 1.0;
+    RecordingLength length = RecordingLength::standard;
+    /// Standard deviation of the lab's error in friction, stiffness and pretension (logarithms); 0: none.
+    double nominal_error = 0.0;
+};
+
+/// The options as trial.json states them.
+std::string options_text(const TrialOptions& options);
+std::string severity_choice_name(SeverityChoice choice);
+std::string length_name(RecordingLength length);
+
+/// "case007"
+std::string case_name(int number);
+
+/// What kind of truth a case has.
+enum class TruthGroup { none, catalogue, parameter, foreign, mixture };
+
+std::string truth_group_name(TruthGroup group);
+
+struct PlannedCase {
+    int index = 0;  ///< address of its random numbers
+    std::string name;
+    TruthGroup group = TruthGroup::none;
+    Severity severity = Severity::strong;
+    std::vector<EffectMaker> makers;  ///< none, one, or two
+};
+
+/// The mix: 10% without a gap, 12% outside the catalogue, 10% of two effects together, 9% wrong parameters,
+/// the rest spread evenly over the catalogue and the severities, in an order that tells nothing. Mixtures are
+/// strong where both severities are asked for.
+std::vector<PlannedCase> plan_trial(const TrialOptions& options);
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/gap_trial/sealed_labels.h"
+#include "capstan/gap_trial/trial_answer.h"
+
+namespace capstan::gap_trial {
+
+/// So many of so many, with Wilson's 95% interval (1927) for the probability behind it.
+struct Share {
+    int hits = 0;
+    int of = 0;
+
+    void count(bool hit) {
+        ++of;
+        hits += hit ? 1 : 0;
+    }
+    double value() const { return of > 0 ? static_cast<double>(hits) / of : 0.0; }
+    double low() const;
+    double high() const;
+};
+
+/// How the answers of one group of cases fared. Of two true effects either counts as a hit.
+struct GroupScore {
+    std::string by;  ///< "all", "truth", "effect", "severity", "bench", "runs"
+    std::string name;
+    Share top1;
+    Share top3;
+    Share family;  ///< of the effect that leads
+};
+
+/// Stated probability of the leading effect against how often it was right.
+struct ReliabilityBin {
+    double from = 0.0;
+    double to = 0.0;
+    int cases = 0;
+    double mean_probability = 0.0;
+    double share_right = 0.0;
+};
+
+struct Calibration {
+    /// Mean over cases of the squared distance of the stated probabilities from the truth (Brier 1950): 0 is
+    /// perfect, 2 the worst. Two true effects hold half of the truth each.
+    double brier = 0.0;
+    /// Expected calibration error: mean gap between stated and found, weighted by cases, in ten bins.
+    double ece = 0.0;
+    std::vector<ReliabilityBin> bins;  ///< those that hold a case
+};
+
+/// What the named causes leave of the gap, against what the true causes leave.
+struct Shrinkage {
+    int cases = 0;
+    double median_before = 0.0;  ///< all three in units of what the true cause leaves
+    double median_after = 0.0;   ///< by the diagnosis
+    Share as_good_as_truth;      ///< leaves at most 10% more
+};
+
+struct TrialScore {
+    std::vector<GroupScore> groups;  ///< the first is of all cases
+    Share false_alarms;              ///< something named where there is nothing
+    Share missed_gaps;               ///< `none` where there is something
+    Share foreign_found;             ///< `unknown` where the cause is outside the catalogue
+    Share needless_unknown;          ///< `unknown` where the catalogue has the cause
+    Share both_of_mixtures;          ///< the first two are the two
+    Calibration calibration;
+    // Of single causes that lead the answer.
+    Share component;
+    Share end;    ///< where the truth has one
+    Share place;  ///< within 0.15 m of the true stretch's middle, where it has one
+    double median_place_error_m = 0.0;
+    Shrinkage load_torque;
+    Shrinkage clearest_channel;
+    std::vector<std::string> unanswered;  ///< cases without an answer; not in any of the numbers
+};
+
+/// What the true cause leaves of a case, where that is known.
+struct Reference {
+    std::string name;
+    std::optional<std::vector<ChannelRms>> channels;
+};
+
+/// `answers` and `references` in any order; cases of the labels without an answer are listed, not scored.
+TrialScore score_trial(const TrialLabels& labels, const std::vector<CaseAnswer>& answers,
+                       const std::vector<Reference>& references);
+
+}  // namespace capstan::gap_trial

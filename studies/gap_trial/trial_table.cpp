@@ -1,0 +1,131 @@
+#include "capstan/gap_trial/trial_table.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace capstan::gap_trial {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string in_percent(const Share& share) {
+    if (share.of == 0) return "-";
+    return fmt::format("{:.1f}% ({:.0f}-{:.0f})", 1e2 * share.value(), 1e2 * share.low(), 1e2 * share.high());
+}
+
+std::string row(const std::string& what, const Share& share) {
+    return fmt::format("  {:<46} {:>18}  {:>4} of {}\n", what, in_percent(share), share.hits, share.of);
+}
+
+std::string group_rows(const TrialScore& score) {
+    std::string text = fmt::format("  {:<10} {:<26} {:>5} {:>17} {:>17} {:>17}\n", "by", "", "cases", "first",
+                                   "among first 3", "family");
+    std::string by;
+    for (const GroupScore& group : score.groups) {
+        text += fmt::format("  {:<10} {:<26} {:>5} {:>17} {:>17} {:>17}\n", group.by == by ? "" : group.by,
+                            group.name, group.top1.of, in_percent(group.top1), in_percent(group.top3),
+                            in_percent(group.family));
+        by = group.by;
+    }
+    return text;
+}
+
+std::string reliability_rows(const Calibration& calibration) {
+    std::string text =
+        fmt::format("  {:<12} {:>5} {:>12} {:>12}\n", "probability", "cases", "mean stated", "right");
+    for (const ReliabilityBin& bin : calibration.bins)
+        text += fmt::format("  {:.1f} to {:.1f}   {:>5} {:>12.3f} {:>12.3f}\n", bin.from, bin.to, bin.cases,
+                            bin.mean_probability, bin.share_right);
+    return text;
+}
+
+std::string shrinkage_row(const std::string& channel, const Shrinkage& shrinkage) {
+    if (shrinkage.cases == 0) return "";
+    return fmt::format(
+        "  {:<20} {:>5} cases: {:.2f} times what the true cause leaves (before: {:.1f} times); at most "
+        "10% more in {}\n",
+        channel, shrinkage.cases, shrinkage.median_after, shrinkage.median_before,
+        in_percent(shrinkage.as_good_as_truth));
+}
+
+ordered_json share_json(const Share& share) {
+    return {{"hits", share.hits},
+            {"of", share.of},
+            {"share", share.of > 0 ? ordered_json(share.value()) : ordered_json(nullptr)},
+            {"interval_95", {share.low(), share.high()}}};
+}
+
+ordered_json shrinkage_json(const Shrinkage& shrinkage) {
+    return {{"cases", shrinkage.cases},
+            {"median_before_by_truth", shrinkage.median_before},
+            {"median_after_by_truth", shrinkage.median_after},
+            {"at_most_10_percent_more", share_json(shrinkage.as_good_as_truth)}};
+}
+
+}  // namespace
+
+std::string trial_table(const TrialScore& score) {
+    std::string text = "Effect named first, among the first three, and its family; 95% intervals\n";
+    text += group_rows(score);
+    text += "\nNothing and nobody known\n";
+    text += row("false alarms: named something, nothing was there", score.false_alarms);
+    text += row("missed: `none` where something was there", score.missed_gaps);
+    text += row("`unknown` where it is outside the catalogue", score.foreign_found);
+    text += row("`unknown` where the catalogue has it", score.needless_unknown);
+    text += row("both effects of a mixture are the first two", score.both_of_mixtures);
+    text += "\nWhere, of single causes named rightly\n";
+    text += row("component", score.component);
+    text += row("end", score.end);
+    text += row("place within 0.15 m", score.place);
+    if (score.place.of > 0)
+        text += fmt::format("  {:<46} {:>14.3f} m\n", "median error of place", score.median_place_error_m);
+    text += fmt::format("\nStated probabilities: Brier score {:.3f}, expected calibration error {:.3f}\n",
+                        score.calibration.brier, score.calibration.ece);
+    text += reliability_rows(score.calibration);
+    if (score.load_torque.cases > 0) {
+        text += "\nWhat the named cause leaves of the gap (RMS, median)\n";
+        text += shrinkage_row("load_torque", score.load_torque);
+        text += shrinkage_row("clearest channel", score.clearest_channel);
+    }
+    if (!score.unanswered.empty())
+        text += fmt::format("\nNot answered, and not in these numbers: {} cases\n", score.unanswered.size());
+    return text;
+}
+
+std::string trial_json(const TrialOptions& options, const std::string& seal, const TrialScore& score) {
+    ordered_json json = {{"trial", ordered_json::parse(options_text(options))},
+                         {"labels_sha256", seal},
+                         {"groups", ordered_json::array()}};
+    for (const GroupScore& group : score.groups)
+        json["groups"].push_back({{"by", group.by},
+                                  {"name", group.name},
+                                  {"top1", share_json(group.top1)},
+                                  {"top3", share_json(group.top3)},
+                                  {"family", share_json(group.family)}});
+    json["false_alarms"] = share_json(score.false_alarms);
+    json["missed_gaps"] = share_json(score.missed_gaps);
+    json["unknown_found"] = share_json(score.foreign_found);
+    json["needless_unknown"] = share_json(score.needless_unknown);
+    json["both_of_mixtures"] = share_json(score.both_of_mixtures);
+    json["component"] = share_json(score.component);
+    json["end"] = share_json(score.end);
+    json["place"] = share_json(score.place);
+    json["median_place_error_m"] = score.median_place_error_m;
+    json["brier"] = score.calibration.brier;
+    json["ece"] = score.calibration.ece;
+    json["reliability"] = ordered_json::array();
+    for (const ReliabilityBin& bin : score.calibration.bins)
+        json["reliability"].push_back({{"from", bin.from},
+                                       {"to", bin.to},
+                                       {"cases", bin.cases},
+                                       {"mean_probability", bin.mean_probability},
+                                       {"share_right", bin.share_right}});
+    json["shrinkage"] = {{"load_torque", shrinkage_json(score.load_torque)},
+                         {"clearest_channel", shrinkage_json(score.clearest_channel)}};
+    json["unanswered"] = score.unanswered;
+    return json.dump(2) + "\n";
+}
+
+}  // namespace capstan::gap_trial

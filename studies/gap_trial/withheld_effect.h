@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/gap_trial/trial_bench.h"
+#include "capstan/gap_trial/trial_motion.h"
+#include "capstan/gap_trial/trial_stream.h"
+#include "capstan/gap_trial/true_effects.h"
+
+namespace capstan::gap_trial {
+
+/// An effect put into a bench, all of it drawn but its size.
+struct WithheldEffect {
+    std::string effect;     ///< canonical name, as a diagnosis should answer; `unknown` outside the catalogue
+    std::string kind;       ///< which one exactly
+    std::string component;  ///< empty: none can be named
+    std::string end;
+    std::optional<Stretch> where;
+    std::map<std::string, double> shape;  ///< what was drawn besides the size, for the label
+    std::string size_name;                ///< with its unit
+    double first_size = 1.0;              ///< where a search for a size begins
+    double largest_size = 1.0;            ///< beyond it the bench would not be one
+    std::function<void(TrueEffects&, double size)> apply;
+    bool only_sensors = false;  ///< the motion stays as it is
+};
+
+/// What an effect can be drawn for.
+struct EffectSetting {
+    const TrialBench& bench;
+    const std::vector<TrialRun>& runs;
+    const std::map<std::string, double>& spans;  ///< by channel, without the effect
+};
+
+/// One entry of the list of effects that a trial can withhold.
+struct EffectMaker {
+    std::string effect;
+    std::string kind;
+    bool needs_pair = false;    ///< not on a single cable
+    bool needs_motion = false;  ///< nothing to see in locked runs
+    WithheldEffect (*draw)(const EffectSetting&, TrialStream&);
+};
+
+/// Effects that a diagnosis's catalogue has, wrong parameters, and causes outside of it.
+const std::vector<EffectMaker>& catalogue_effects();
+const std::vector<EffectMaker>& wrong_parameters();
+const std::vector<EffectMaker>& foreign_causes();
+
+/// True if the session can show what the maker draws.
+bool fits(const EffectMaker& maker, const TrialBench& bench, const std::vector<TrialRun>& runs);
+
+/// `friction law` and so on, as a near miss is judged; `none` and `unknown` are families of their own.
+std::string effect_family(const std::string& effect);
+
+}  // namespace capstan::gap_trial

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "capstan/gap_trial/trial_plan.h"
+
+namespace capstan::gap_trial {
+namespace {
+
+TEST(TrialPlan, TwoHundredCasesAreMixedAsPromised) {
+    TrialOptions options;
+    options.cases = 200;
+    std::map<TruthGroup, int> groups;
+    std::map<std::string, int> effects;
+    std::map<Severity, int> severities;
+    for (const PlannedCase& planned : plan_trial(options)) {
+        ++groups[planned.group];
+        if (planned.group == TruthGroup::catalogue) {
+            ++effects[planned.makers.front().effect];
+            ++severities[planned.severity];
+        }
+        if (planned.group == TruthGroup::mixture) {
+            ASSERT_EQ(planned.makers.size(), 2U);
+            EXPECT_NE(effect_family(planned.makers[0].effect), effect_family(planned.makers[1].effect));
+        }
+    }
+    EXPECT_EQ(groups[TruthGroup::none], 20);
+    EXPECT_EQ(groups[TruthGroup::foreign], 24);
+    EXPECT_EQ(groups[TruthGroup::mixture], 20);
+    EXPECT_EQ(groups[TruthGroup::parameter], 18);
+    EXPECT_EQ(groups[TruthGroup::catalogue], 118);
+    EXPECT_EQ(effects.size(), catalogue_effects().size());
+    for (const auto& [effect, count] : effects) {
+        EXPECT_GE(count, 5) << effect;
+        EXPECT_LE(count, 6) << effect;
+    }
+    EXPECT_NEAR(severities[Severity::mild], severities[Severity::strong], 12);
+}
+
+TEST(TrialPlan, TheSeedDecides) {
+    const auto order = [](std::uint64_t seed) {
+        TrialOptions options;
+        options.seed = seed;
+        std::vector<std::string> names;
+        for (const PlannedCase& planned : plan_trial(options))
+            names.push_back(planned.makers.empty() ? "none" : planned.makers.front().effect);
+        return names;
+    };
+    EXPECT_EQ(order(1), order(1));
+    EXPECT_NE(order(1), order(2));
+}
+
+TEST(TrialPlan, OneSeverityWhereOneIsAskedFor) {
+    TrialOptions options;
+    options.severity = SeverityChoice::mild;
+    for (const PlannedCase& planned : plan_trial(options)) {
+        if (planned.group != TruthGroup::none) {
+            EXPECT_EQ(planned.severity, Severity::mild);
+        }
+    }
+}
+
+TEST(TrialStream, IsItsAddressAndNothingElse) {
+    TrialStream one(5, 3, DrawTopic::effect);
+    TrialStream same(5, 3, DrawTopic::effect);
+    TrialStream other_case(5, 4, DrawTopic::effect);
+    TrialStream other_topic(5, 3, DrawTopic::noise);
+    const double first = one.normal();
+    EXPECT_EQ(first, same.normal());
+    EXPECT_NE(first, other_case.normal());
+    EXPECT_NE(first, other_topic.normal());
+}
+
+TEST(TrialStream, StaysInsideItsLimits) {
+    TrialStream draws(1, 1, DrawTopic::plan);
+    double mean = 0.0;
+    constexpr int count = 4000;
+    for (int k = 0; k < count; ++k) {
+        const double value = draws.uniform(2.0, 4.0);
+        ASSERT_GE(value, 2.0);
+        ASSERT_LE(value, 4.0);
+        mean += value / count;
+        const int whole = draws.whole(3);
+        ASSERT_GE(whole, 0);
+        ASSERT_LE(whole, 2);
+    }
+    EXPECT_NEAR(mean, 3.0, 0.05);
+}
+
+}  // namespace
+}  // namespace capstan::gap_trial
