@@ -243,7 +243,9 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
                                   effect.variant == "cable A" || effect.end == "load";
         if (recording.mode == BenchMode::single_cable && needs_a_pair && effect.name != "conduit_compliance")
             continue;
-        const CandidateCause cause = cause_of(effect, length_m);
+        CandidateCause cause = cause_of(effect, length_m);
+        // Nobody knows at which tension the stated stiffness of a cable that stiffens was measured.
+        if (effect.name == "cable_stiffness_nonlinear") cause.stiffness_std = wrong_log_std;
         causes.push_back(effect.name == "load_dependent_friction"
                              ? load_dependent_friction(cause, usual_normal_force_N_per_m(recording))
                              : cause);

@@ -54,11 +54,12 @@ class Diagnoser {
 
     ScoredFit scored(CauseFit fit) {
         evaluations_ += fit.evaluations;
-        const double misfit = fitter_.misfit(fit);
-        const double price = fitter_.nominal_price(fit);
-        const std::vector<double> visibility = fitter_.visibility({&fit, 1}).front();
-        const double evidence = evidence_.of(misfit, open_numbers(fit), price);
-        return {std::move(fit), misfit, price, visibility, evidence};
+        ScoredFit scored{std::move(fit), 0.0, 0.0, {}, 0.0};
+        scored.misfit = fitter_.misfit(scored.fit);
+        scored.nominal_price = fitter_.nominal_price(scored.fit);
+        scored.visibility = fitter_.visibility({&scored.fit, 1}).front();
+        scored.evidence = evidence_.of(scored);
+        return scored;
     }
 
     static double least_sum(const std::vector<ScoredFit>& fits) {
@@ -100,7 +101,7 @@ class Diagnoser {
     // whether another would go better with its partner.
     std::vector<ScoredFit> pairs_with(const std::vector<ScoredFit>& singles) {
         std::vector<ScoredFit> pairs;
-        if (singles.front().misfit < worth_a_second_cause) return pairs;
+        if (!worth_a_second_cause(singles.front().misfit, nominal_misfit_)) return pairs;
         std::vector<std::string> firsts;
         for (const ScoredFit& single : singles) {
             const std::string& first = single.fit.causes.front()->effect;
@@ -112,7 +113,7 @@ class Diagnoser {
         }
         sort_by_evidence(pairs);
         for (int round = 0; round < most_exchanges && !pairs.empty(); ++round) {
-            if (pairs.front().misfit < worth_a_second_cause) break;
+            if (!worth_a_second_cause(pairs.front().misfit, nominal_misfit_)) break;
             const CauseFit best = pairs.front().fit;
             for (std::size_t kept = 0; kept < best.causes.size(); ++kept) add_pairs(only(best, kept), pairs);
             sort_by_evidence(pairs);
@@ -132,12 +133,20 @@ class Diagnoser {
         return one;
     }
 
+    // A wrong nominal number beside a cause that lets the same number go far already.
+    static bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
+        const auto goes_far = [](double std) { return std > nominal_log_std; };
+        return cause.numbers.empty() && ((goes_far(cause.friction_std) && goes_far(first.friction_std)) ||
+                                         (goes_far(cause.stiffness_std) && goes_far(first.stiffness_std)) ||
+                                         (goes_far(cause.pretension_std) && goes_far(first.pretension_std)));
+    }
+
     void add_pairs(const Hypothesis& present, std::vector<ScoredFit>& pairs) {
         const CandidateCause* first = present.causes.front();
         std::size_t seconds = 0;
         for (const Screened& each : screen(screener_, causes_, present)) {
             if (seconds == most_second_causes) break;
-            if (each.cause->effect == first->effect) continue;
+            if (each.cause->effect == first->effect || is_part_of(*each.cause, *first)) continue;
             ++seconds;
             const auto same = [&](const ScoredFit& pair) {
                 return std::is_permutation(pair.fit.causes.begin(), pair.fit.causes.end(),
@@ -153,11 +162,12 @@ class Diagnoser {
     }
 
     Diagnosis verdict(const std::vector<ScoredFit>& singles, const std::vector<ScoredFit>& pairs) {
-        const bool two =
-            !pairs.empty() && evidence_.second_is_earned(singles.front(), pairs.front(), nominal_misfit_);
+        const bool two = !pairs.empty() && pairs.front().evidence > singles.front().evidence;
         const ScoredFit& leading = two ? pairs.front() : singles.front();
+        std::vector<ScoredFit> fits = singles;
+        fits.insert(fits.end(), pairs.begin(), pairs.end());
         Diagnosis diagnosis;
-        diagnosis.ranked = evidence_.rank(causes_, singles, leading, nominal_misfit_);
+        diagnosis.ranked = evidence_.rank(causes_, fits, nominal_misfit_);
         diagnosis.independent_samples = fitter_.independent_samples();
         for (const std::vector<ScoredFit>* fits : {&pairs, &singles}) {
             for (const ScoredFit& each : *fits) {

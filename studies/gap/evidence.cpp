@@ -2,63 +2,122 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace capstan::gap {
 
 namespace {
 
-// Mean square residuals below this are as good as one: the floor is not known better.
-constexpr double as_good_as_noise = 1.06;
-// What goes on below that still tells two causes apart, but counts for less.
-constexpr double below_noise_weight = 0.2;
+// All constants below: README, "How sure a diagnosis is".
+//
+// Mean square residuals below this are as good as one another: the floor is not known better. What goes on
+// below still tells two causes apart, but counts for less.
+constexpr double as_good_as_noise = 0.95;
+constexpr double below_noise_weight = 0.3;
+// Of an open number, in half logarithms of the independent samples.
+constexpr double number_price = 0.5;
+// A cause that changes no channel by this much, rms in units of noise and floor, is hardly what makes a gap.
+constexpr double visible = 2.0;
+constexpr double invisible_price = 8.0;
+// Known beforehand, as logarithms.
+constexpr double nothing_bonus = 1.0;
+constexpr double faulty_sensor_price = 2.0;
+constexpr double second_cause_price = 8.0;
+constexpr double unknown_price = 4.0;
+// Two causes of one gap are about as visible; a faint second one mends what the first one's model lacks.
+constexpr double faint = 0.25;
+constexpr double faint_price = 60.0;
 // A cause nobody has thought of is granted to leave this share of the gap, at the price of as many numbers.
-constexpr double share_left_by_unknown = 0.12;
+constexpr double share_left_by_unknown = 0.1;
 constexpr std::size_t numbers_of_unknown = 4;
-// A second cause must raise the evidence by this much, and explain this share of the gap.
-constexpr double second_cause_evidence = 12.0;
-constexpr double second_cause_share = 0.05;
-// Causes that were not worth a fit.
-constexpr double not_fitted = -60.0;
+// Evidence overstates what it knows by this factor; and something else may always be the matter.
+constexpr double overstated = 1.3;
+constexpr double anything_share = 0.02;
+
+using Effects = std::vector<std::string>;  // of a hypothesis, sorted
+
+Effects effects_of(const CauseFit& fit) {
+    Effects effects;
+    for (const CandidateCause* cause : fit.causes) effects.push_back(cause->effect);
+    std::sort(effects.begin(), effects.end());
+    return effects;
+}
 
 }  // namespace
 
-double Evidence::of(double misfit, std::size_t open_numbers, double nominal_price) const {
+double Evidence::of(double misfit, std::size_t open_numbers) const {
     return -0.5 * samples_ *
                (std::log(std::max(misfit, as_good_as_noise)) + below_noise_weight * std::log(misfit)) -
-           0.5 * static_cast<double>(open_numbers) * std::log(samples_) - nominal_price;
+           0.5 * number_price * static_cast<double>(open_numbers) * std::log(samples_);
+}
+
+double Evidence::of(const ScoredFit& fit) const {
+    double evidence = of(fit.misfit, open_numbers(fit.fit)) - fit.nominal_price;
+    for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
+        const CandidateCause& cause = *fit.fit.causes[k];
+        if (cause.effect == "none") {
+            evidence += nothing_bonus;
+            continue;
+        }
+        evidence -= invisible_price * std::max(0.0, 1.0 - fit.visibility[k] / visible);
+        if (cause.family == "sensor") evidence -= faulty_sensor_price;
+    }
+    if (fit.fit.causes.size() < 2) return evidence;
+    const auto [least, most] = std::minmax_element(fit.visibility.begin(), fit.visibility.end());
+    const double relative = *most > 0.0 ? *least / *most : 0.0;
+    return evidence - second_cause_price - faint_price * std::max(0.0, 1.0 - relative / faint);
 }
 
 double Evidence::of_unknown(double nominal_misfit) const {
-    return of(1.0 + share_left_by_unknown * std::max(0.0, nominal_misfit - 1.0), numbers_of_unknown, 0.0);
-}
-
-bool Evidence::second_is_earned(const ScoredFit& single, const ScoredFit& pair, double nominal_misfit) const {
-    return pair.evidence > single.evidence + second_cause_evidence &&
-           single.misfit - pair.misfit > second_cause_share * (nominal_misfit - 1.0);
+    return of(1.0 + share_left_by_unknown * std::max(0.0, nominal_misfit - 1.0), numbers_of_unknown) -
+           unknown_price;
 }
 
 std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& causes,
-                                         const std::vector<ScoredFit>& singles, const ScoredFit& leading,
-                                         double nominal_misfit) const {
-    std::map<std::string, double> evidence = {{"unknown", of_unknown(nominal_misfit)}};
-    const auto raise = [&](const std::string& effect, double value) {
-        const auto [known, added] = evidence.emplace(effect, value);
-        if (!added) known->second = std::max(known->second, value);
-    };
-    for (const ScoredFit& each : singles) raise(each.fit.causes.front()->effect, each.evidence);
-    for (const CandidateCause* cause : leading.fit.causes) raise(cause->effect, leading.evidence);
-    for (const CandidateCause& cause : causes) raise(cause.effect, leading.evidence + not_fitted);
-    double most = evidence.at("unknown");
-    for (const auto& [effect, value] : evidence) most = std::max(most, value);
+                                         const std::vector<ScoredFit>& fits, double nominal_misfit) const {
+    std::map<Effects, double> hypotheses = {{{"unknown"}, of_unknown(nominal_misfit)}};
+    for (const ScoredFit& each : fits) {
+        const auto [known, added] = hypotheses.emplace(effects_of(each.fit), each.evidence);
+        if (!added) known->second = std::max(known->second, each.evidence);
+    }
+    double most = hypotheses.at({"unknown"});
+    for (const auto& [effects, evidence] : hypotheses) most = std::max(most, evidence);
     double sum = 0.0;
-    for (const auto& [effect, value] : evidence) sum += std::exp(value - most);
+    for (const auto& [effects, evidence] : hypotheses) sum += std::exp((evidence - most) / overstated);
+
+    std::map<std::string, double> probability;
+    // Of two effects with hardly any, the one with the better hypothesis goes first.
+    std::map<std::string, double> best;
+    for (const CandidateCause& cause : causes) probability[cause.effect] = 0.0;
+    for (const auto& [effects, evidence] : hypotheses) {
+        for (const std::string& effect : effects) {
+            probability[effect] +=
+                std::exp((evidence - most) / overstated) / sum / static_cast<double>(effects.size());
+            const auto [known, added] = best.emplace(effect, evidence);
+            if (!added) known->second = std::max(known->second, evidence);
+        }
+    }
     std::vector<RankedEffect> ranked;
-    for (const auto& [effect, value] : evidence) ranked.push_back({effect, std::exp(value - most) / sum});
-    std::stable_sort(ranked.begin(), ranked.end(), [](const RankedEffect& a, const RankedEffect& b) {
-        return a.probability > b.probability;
+    const double anything = anything_share / static_cast<double>(probability.size());
+    for (const auto& [effect, share] : probability)
+        ranked.push_back({effect, (1.0 - anything_share) * share + anything});
+    const auto evidence_of = [&](const RankedEffect& each) {
+        const auto known = best.find(each.effect);
+        return known == best.end() ? -std::numeric_limits<double>::infinity() : known->second;
+    };
+    std::stable_sort(ranked.begin(), ranked.end(), [&](const RankedEffect& a, const RankedEffect& b) {
+        constexpr double the_same = 1e-9;
+        if (std::abs(a.probability - b.probability) > the_same) return a.probability > b.probability;
+        return evidence_of(a) > evidence_of(b);
     });
     return ranked;
+}
+
+bool worth_a_second_cause(double misfit, double nominal_misfit) {
+    constexpr double nothing_left = 1.15;
+    constexpr double least_share = 0.01;
+    return misfit > nothing_left && misfit - 1.0 > least_share * (nominal_misfit - 1.0);
 }
 
 std::size_t open_numbers(const CauseFit& fit) {

@@ -24,32 +24,35 @@ struct ScoredFit {
 };
 
 /// Weighs what is left of residuals that hang together in time.
+///
+/// A hypothesis is nothing, one cause, two causes, or one that nobody has thought of. Its evidence is the
+/// profile likelihood of the mean square that it leaves, over the independent samples; a price for each open
+/// number and for how far the nominal numbers had to go; and what is known beforehand: a cause that makes a
+/// gap can be seen, two at once are rarer than one, and the model's own floor looks like a faulty sensor.
 class Evidence {
   public:
     /// `independent_samples`: instants that tell something new.
     explicit Evidence(double independent_samples) : samples_(independent_samples) {}
 
-    /// Of a model that leaves a mean square of this, with a price for each open number and for how far the
-    /// nominal ones had to go.
-    double of(double misfit, std::size_t open_numbers, double nominal_price) const;
+    double of(const ScoredFit& fit) const;
     /// Of a cause that nobody has thought of, granted to leave some of a gap that the nominal model leaves.
     double of_unknown(double nominal_misfit) const;
-    /// Whether a second cause earns its place: by evidence and by a share of the gap.
-    bool second_is_earned(const ScoredFit& single, const ScoredFit& pair, double nominal_misfit) const;
 
-    /// Of every effect that any cause has; `singles` and `leading` (one or two causes) as fitted.
+    /// Effects of all hypotheses, best first; each of two causes has half of what both together have.
+    /// Probabilities sum to 1.
     std::vector<RankedEffect> rank(const std::vector<CandidateCause>& causes,
-                                   const std::vector<ScoredFit>& singles, const ScoredFit& leading,
-                                   double nominal_misfit) const;
+                                   const std::vector<ScoredFit>& fits, double nominal_misfit) const;
 
   private:
+    double of(double misfit, std::size_t open_numbers) const;
+
     double samples_;
 };
 
 /// Numbers that a fit was free to choose beyond the nominal ones' uncertainty.
 std::size_t open_numbers(const CauseFit& fit);
 
-/// Only what a single cause leaves above this is looked at for a second.
-inline constexpr double worth_a_second_cause = 1.15;
+/// Whether a single cause leaves enough, by itself and of the whole gap, to look for a second.
+bool worth_a_second_cause(double misfit, double nominal_misfit);
 
 }  // namespace capstan::gap
