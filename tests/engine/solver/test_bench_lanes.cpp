@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "capstan/effects/effect_catalogue.h"
+#include "capstan/solver/bench_simulation.h"
+
+namespace capstan {
+namespace {
+
+BenchDescription bench_with(double friction) {
+    CableSpecification specification;
+    specification.curvature = {{0.6, 5.0}, {0.8, 0.28}, {0.6, 5.0}};
+    specification.segments = 30;
+    specification.axial_stiffness_N = 4000.0;
+    specification.dynamic_friction = specification.static_friction = friction;
+    specification.pretension_N = 6.0;
+    return {Cable(specification), true, {0.02, 0.104}, {}};
+}
+
+BenchEffects typical(const std::string& name, const std::string& variant) {
+    BenchEffects effects;
+    for (const Effect& effect : effect_catalogue()) {
+        if (effect.name != name || effect.variant != variant) continue;
+        std::vector<double> values;
+        for (const EffectParameter& parameter : effect.parameters) values.push_back(parameter.typical);
+        effect.apply(effects, values);
+    }
+    return effects;
+}
+
+BenchInputs hand_at(int step) {
+    const double angle = 0.3 * std::sin(2.0 * std::numbers::pi * step * 0.005);
+    return {MotorTorque{-0.3 * angle}, LoadAngle{angle}, 0.005, step * 0.005};
+}
+
+// What neighbours need (creep, a gap that Newton's method cannot close, friction that varies) is no business
+// of a bench.
+TEST(BenchSimulations, ABenchDoesNotFeelItsNeighbours) {
+    const std::vector<BenchDescription> descriptions = {bench_with(0.21), bench_with(0.15), bench_with(0.21),
+                                                        bench_with(0.3)};
+    const std::vector<BenchEffects> effects = {
+        typical("creep", ""), typical("backlash", "load"), typical("stribeck", ""), {}};
+    BenchSimulations together(descriptions, effects);
+    for (int bench = 0; bench < together.count(); ++bench) {
+        const auto at = static_cast<std::size_t>(bench);
+        BenchSimulations all(descriptions, effects);
+        BenchSimulation alone(descriptions[at], effects[at]);
+        for (int step = 1; step <= 300; ++step) {
+            all.advance(hand_at(step));
+            alone.advance(hand_at(step));
+            ASSERT_EQ(all.pulleys(bench).load_torque_Nm(), alone.load_torque_Nm()) << bench << " at " << step;
+            ASSERT_EQ(all.pulleys(bench).motor_angle_rad(), alone.motor_angle_rad())
+                << bench << " at " << step;
+            ASSERT_EQ(all.tension_at_N(bench, 1, 1.3), alone.tension_at_N(1, 1.3)) << bench << " at " << step;
+        }
+    }
+}
+
+// A rotor on two locked cables rings at sqrt(k / J), and Newmark's method keeps it ringing.
+TEST(BenchSimulations, AnUnmodelledRotorRings) {
+    BenchDescription description = bench_with(1e-4);
+    BenchEffects effects;
+    effects.inertia.motor_kg_m2 = 1e-3;
+    BenchSimulation bench(description, effects);
+    constexpr double step_s = 0.001;
+    std::vector<double> angle_rad;
+    for (int step = 1; step <= 1000; ++step) {
+        bench.advance({MotorTorque{0.02}, LoadAngle{0.0}, step_s, 0.0});
+        angle_rad.push_back(bench.motor_angle_rad());
+    }
+    const double stiffness_Nm_per_rad = 2.0 * 4000.0 / 2.0 * 0.02 * 0.02;  // two cables of EA / L
+    const double rest_rad = 0.02 / stiffness_Nm_per_rad;
+    int crossings = 0;
+    for (std::size_t k = 1; k < angle_rad.size(); ++k)
+        crossings += (angle_rad[k - 1] - rest_rad) * (angle_rad[k] - rest_rad) < 0.0 ? 1 : 0;
+    const double expected = std::sqrt(stiffness_Nm_per_rad / 1e-3) / std::numbers::pi;  // in one second
+    EXPECT_NEAR(crossings, expected, 1.5);
+}
+
+}  // namespace
+}  // namespace capstan

@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "capstan/gap/candidate_cause.h"
+#include "capstan/gap/estimated_noise.h"
+#include "capstan/gap/gap_map.h"
+#include "sample_recording.h"
+
+namespace capstan::gap {
+namespace {
+
+// Residuals of noise, five times as large in one run.
+std::vector<RunResiduals> larger_in(const Recording& recording, std::size_t loud) {
+    std::mt19937_64 random(20260203);
+    std::normal_distribution<double> normal;
+    std::vector<RunResiduals> runs;
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        const auto samples = recording.runs[run].time_s.size();
+        RunResiduals residuals{run, std::vector<std::vector<double>>(recording.channels.size()),
+                               std::vector<double>(samples, 1.0), 0};
+        for (std::size_t k = 0; k < samples; ++k)
+            residuals.residual[3].push_back((run == loud ? 5.0 : 1.0) * normal(random));
+        runs.push_back(std::move(residuals));
+    }
+    return runs;
+}
+
+const GapShare* part(const std::vector<GapShare>& map, const std::string& by, const std::string& name) {
+    for (const GapShare& share : map) {
+        if (share.by == by && share.name == name) return &share;
+    }
+    return nullptr;
+}
+
+TEST(GapMap, FindsTheRunThatHoldsTheGap) {
+    const Recording recording = measured_session(nominal_values(*make_twin(driven_session())));
+    const std::vector<GapShare> map = gap_map(recording, larger_in(recording, 1));
+    const GapShare* loud = part(map, "run", "2");
+    ASSERT_NE(loud, nullptr);
+    EXPECT_GT(loud->share, 0.95);
+    EXPECT_LE(loud->low, loud->share);
+    EXPECT_GE(loud->high, loud->share);
+    EXPECT_NEAR(loud->of_samples, 0.5, 0.01);
+    EXPECT_NE(gap_sentence(map).find("run 2"), std::string::npos);
+}
+
+TEST(GapMap, SharesOfAKindSumToOne) {
+    const Recording recording = measured_session(nominal_values(*make_twin(driven_session())));
+    double direction = 0.0;
+    for (const GapShare& share : gap_map(recording, larger_in(recording, 0))) {
+        if (share.by == "direction") direction += share.share;
+    }
+    EXPECT_NEAR(direction, 1.0, 1e-12);
+}
+
+TEST(GapMap, OfNothingIsEmpty) {
+    const Recording recording = measured_session(nominal_values(*make_twin(driven_session())));
+    std::vector<RunResiduals> quiet = larger_in(recording, 0);
+    for (RunResiduals& run : quiet) {
+        for (double& residual : run.residual[3]) residual *= 0.1;
+    }
+    EXPECT_TRUE(gap_map(recording, quiet).empty());
+}
+
+TEST(EstimatedNoise, IsThatOfTheSamples) {
+    Recording recording = driven_session();
+    const auto channel = static_cast<std::size_t>(*recording.channel("load_torque"));
+    recording.channels[channel].noise_std.reset();
+    std::mt19937_64 random(20260204);
+    std::normal_distribution<double> normal(0.0, 0.03);
+    for (RecordedRun& run : recording.runs) {
+        run.values[channel].clear();
+        for (const double time_s : run.time_s)
+            run.values[channel].push_back(std::sin(time_s) + normal(random));
+    }
+    EXPECT_NEAR(*with_estimated_noise(recording).channels[channel].noise_std, 0.03, 0.002);
+}
+
+TEST(UnstatedStep, ShowsWhereValuesLieOnALattice) {
+    Recording recording = driven_session();
+    const auto channel = static_cast<std::size_t>(*recording.channel("load_torque"));
+    for (RecordedRun& run : recording.runs) {
+        run.values[channel].clear();
+        for (const double time_s : run.time_s) run.values[channel].push_back(std::sin(time_s));
+    }
+    EXPECT_FALSE(unstated_step(recording, channel).has_value());
+    for (RecordedRun& run : recording.runs) {
+        for (double& value : run.values[channel]) value = 0.07 * std::round(value / 0.07);
+    }
+    ASSERT_TRUE(unstated_step(recording, channel).has_value());
+    EXPECT_NEAR(*unstated_step(recording, channel), 0.07, 1e-9);
+}
+
+}  // namespace
+}  // namespace capstan::gap
