@@ -169,8 +169,8 @@ class Diagnoser {
         Diagnosis diagnosis;
         diagnosis.ranked = evidence_.rank(causes_, fits, nominal_misfit_);
         diagnosis.independent_samples = fitter_.independent_samples();
-        for (const std::vector<ScoredFit>* fits : {&pairs, &singles}) {
-            for (const ScoredFit& each : *fits) {
+        for (const std::vector<ScoredFit>* group : {&pairs, &singles}) {
+            for (const ScoredFit& each : *group) {
                 CandidateScore score{{},
                                      {},
                                      open_numbers(each.fit),
