@@ -1,6 +1,7 @@
 // The description of a study, written.
 #include <string>
 
+#include "capstan/storage/error.h"
 #include "capstan/storage/node_list.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/study_ids.h"
@@ -98,10 +99,7 @@ void write_work_units(Database& database, const std::vector<WorkUnitRecord>& uni
     }
 }
 
-}  // namespace
-
-std::int64_t begin_study(Database& database, const StudyDescription& description) {
-    Transaction transaction(database);
+std::int64_t write_description(Database& database, const StudyDescription& description) {
     StudyIds ids;
     ids.study_id = write_study(database, description.study);
     write_plain(database, "cable_segment", description.cable_segments, ids.study_id);
@@ -115,8 +113,33 @@ std::int64_t begin_study(Database& database, const StudyDescription& description
     ids.sensor_sets = write_sensor_sets(database, description.sensor_sets, ids.study_id);
     write_layouts(database, description.layouts, ids);
     write_work_units(database, description.work_units, ids);
-    transaction.commit();
     return ids.study_id;
+}
+
+}  // namespace
+
+std::int64_t begin_study(Database& database, const StudyDescription& description) {
+    Transaction transaction(database);
+    const std::int64_t study_id = write_description(database, description);
+    transaction.commit();
+    return study_id;
+}
+
+std::vector<std::int64_t> begin_shard(Database& database, const ShardRecord& shard,
+                                      const std::vector<StudyDescription>& descriptions) {
+    Transaction transaction(database);
+    if (next_id(database, "study", "study_id") != 1) {
+        throw Error(database.path().string() +
+                    " holds studies already, and a shard needs a file of its own; name a new one.");
+    }
+    Statement insert(database, "INSERT INTO shard (shard, shards) VALUES (?, ?)");
+    insert.bind_all(shard.shard, shard.shards);
+    insert.run("mark the file as a shard");
+    std::vector<std::int64_t> study_ids;
+    for (const StudyDescription& description : descriptions)
+        study_ids.push_back(write_description(database, description));
+    transaction.commit();
+    return study_ids;
 }
 
 }  // namespace capstan::storage

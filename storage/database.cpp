@@ -122,12 +122,12 @@ Database Database::open_for_writing(const std::filesystem::path& path, int open_
     return database;
 }
 
-Database Database::open_or_create(const std::filesystem::path& path) {
+Database Database::open_or_create(const std::filesystem::path& path, Journal journal) {
     refuse_foreign(path, identify_file(path));
     Database database = open_for_writing(path, SQLITE_OPEN_CREATE);
     create_schema_if_empty(database);
     migrate(database, migrations(), schema_version);
-    use_write_ahead_log(database);
+    if (journal == Journal::write_ahead) use_write_ahead_log(database);
     return database;
 }
 
@@ -152,7 +152,8 @@ Database Database::open_read_only(const std::filesystem::path& path) {
         // a log the database alone is the whole truth: open it as immutable, that is, trust that nobody
         // starts to write while we read. A log that holds something is never passed over.
         if (sqlite3_errcode(database.connection()) == SQLITE_CORRUPT ||
-            sqlite3_errcode(database.connection()) == SQLITE_BUSY || holds_bytes(path.string() + "-wal")) {
+            sqlite3_errcode(database.connection()) == SQLITE_BUSY || holds_bytes(path.string() + "-wal") ||
+            holds_bytes(path.string() + "-journal")) {
             throw_sqlite_error(database.connection(), "read");
         }
         database = Database(path, immutable_uri(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);

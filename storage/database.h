@@ -10,13 +10,19 @@
 
 namespace capstan::storage {
 
+// How a file is kept whole while it is written.
+enum class Journal {
+    write_ahead,  // readers never wait; only for programs on one machine
+    rollback,  // for a shared disk, where programs on several machines may open the file, one after the other
+};
+
 class Database {
   public:
     // Every factory refuses a file that is not capstan's, or is of a newer schema, before SQLite touches it:
     // such a file keeps every byte.
 
     // For writing. A file that is missing, or empty because its creation was killed, gets the schema.
-    static Database open_or_create(const std::filesystem::path& path);
+    static Database open_or_create(const std::filesystem::path& path, Journal journal = Journal::write_ahead);
 
     // For writing. An older schema is migrated.
     static Database open_existing(const std::filesystem::path& path);

@@ -44,8 +44,14 @@ void require_whole_references(Database& database) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-    return {};
-}  // version 1 is the first
+    static const Migration steps[] = {
+        // 2: files of shards say which one they are.
+        {1,
+         "CREATE TABLE shard (shard INTEGER PRIMARY KEY CHECK (shard > 0), "
+         "shards INTEGER NOT NULL CHECK (shards >= shard)) STRICT;"},
+    };
+    return steps;
+}
 
 void migrate(Database& database, std::span<const Migration> steps, int target_version) {
     const int found = version_of(database);

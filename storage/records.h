@@ -110,6 +110,13 @@ struct StudyDescription {
     bool operator==(const StudyDescription&) const = default;
 };
 
+// Which part of the studies in a file the file is to compute.
+struct ShardRecord {
+    int shard = 0;   // from 1
+    int shards = 0;  // at least shard
+    bool operator==(const ShardRecord&) const = default;
+};
+
 struct SingleSensorNodeRecord {
     int node = 0;
     double mean_abs_error_N = 0;

@@ -1,4 +1,4 @@
--- The results database of capstan, version 1. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 2. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a share or a ratio has no unit and says so in its
 -- name; nodes are numbered from 1 (proximal, motor) to segments + 1 (distal, load); there is no clock in any
@@ -114,6 +114,13 @@ CREATE TABLE work_unit (
     done           INTEGER NOT NULL CHECK (done IN (0, 1)),
     PRIMARY KEY (study_id, unit_index)
 ) STRICT, WITHOUT ROWID;
+
+-- One row in the file of a shard, none elsewhere. Such a file describes every study in full, but has the results of
+-- the shard's own units only; `capstan study merge` joins the shards.
+CREATE TABLE shard (
+    shard  INTEGER PRIMARY KEY CHECK (shard > 0),  -- from 1
+    shards INTEGER NOT NULL CHECK (shards >= shard)
+) STRICT;
 
 CREATE TABLE single_sensor (
     scenario_id       INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,

@@ -94,6 +94,12 @@ std::int64_t find_study(Database& database, std::string_view id_or_name_or_lates
                 sentence_of(studies));
 }
 
+std::optional<ShardRecord> read_shard(Database& database) {
+    Statement select(database, "SELECT shard, shards FROM shard");
+    if (!select.step()) return std::nullopt;
+    return ShardRecord{select.get<int>(0), select.get<int>(1)};
+}
+
 std::vector<int> pending_units(Database& database, std::int64_t study_id) {
     Statement select(database,
                      "SELECT unit_index FROM work_unit WHERE study_id = ?1 AND done = 0 ORDER BY unit_index");

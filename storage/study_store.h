@@ -4,6 +4,7 @@
 // none.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,12 @@ namespace capstan::storage {
 // Writes everything that is known before the first draw; the study is 'running' and none of its units is
 // done. Returns its study_id; the study_id and status of the description are not read.
 std::int64_t begin_study(Database& database, const StudyDescription& description);
+
+// The same for the file of a shard, all studies in one transaction: a file is marked as a shard from its
+// first row on. Refused when the file holds a study already. Returns the study_ids in the order of the
+// descriptions.
+std::vector<std::int64_t> begin_shard(Database& database, const ShardRecord& shard,
+                                      const std::vector<StudyDescription>& descriptions);
 
 // Write a unit's results and mark it done. Refused when the unit is done already, or is another stage,
 // scenario or noise level than the results.
@@ -49,6 +56,9 @@ std::vector<StudySummary> list_studies(Database& database);  // oldest first
 // '3' is the study with that id; 'latest' the one begun last; any other text the last one begun under that
 // name. No such study: an Error that lists what there is.
 std::int64_t find_study(Database& database, std::string_view id_or_name_or_latest);
+
+// Which shard the file is; nothing for a file of whole studies.
+std::optional<ShardRecord> read_shard(Database& database);
 
 std::vector<int> pending_units(Database& database, std::int64_t study_id);  // unit_index, ascending
 

@@ -7,6 +7,8 @@ build_packages=(
     nodejs npm
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev sqlite3 python3 chromium)
+# For the test on a Slurm of its own, which is skipped without them.
+slurm_packages=(slurmctld slurmd slurm-client munge)
 
 # Programs count however they were installed; a package that only brings programs is missing only without them.
 package_is_there() {

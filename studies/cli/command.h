@@ -27,7 +27,7 @@ struct Option {
     double high = std::numeric_limits<double>::infinity();
 };
 
-enum class ArgumentNeed { required, optional };
+enum class ArgumentNeed { required, optional, one_or_more };  ///< the last only for a command's last argument
 
 struct Argument {
     std::string_view name;
@@ -53,8 +53,12 @@ struct Command {
 class Invocation {
   public:
     Invocation(const Command& command, std::map<std::string, std::string, std::less<>> options,
-               std::map<std::string, std::string, std::less<>> arguments)
-        : command_(&command), options_(std::move(options)), arguments_(std::move(arguments)) {}
+               std::map<std::string, std::string, std::less<>> arguments,
+               std::vector<std::string> repeated_argument = {})
+        : command_(&command),
+          options_(std::move(options)),
+          arguments_(std::move(arguments)),
+          repeated_argument_(std::move(repeated_argument)) {}
 
     const Command& command() const { return *command_; }
     /// Given, or has a default.
@@ -65,11 +69,14 @@ class Invocation {
 
     bool has_argument(std::string_view name) const { return arguments_.find(name) != arguments_.end(); }
     const std::string& argument(std::string_view name) const { return arguments_.find(name)->second; }
+    /// All values of the argument that may be given more than once; at least one.
+    const std::vector<std::string>& repeated_argument() const { return repeated_argument_; }
 
   private:
     const Command* command_;
     std::map<std::string, std::string, std::less<>> options_;
     std::map<std::string, std::string, std::less<>> arguments_;
+    std::vector<std::string> repeated_argument_;
 };
 
 }  // namespace capstan::cli

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/config_problem.h"
 #include "capstan/cli/config_reader.h"
+#include "capstan/cli/config_studies.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 
@@ -46,18 +48,36 @@ std::string counted(std::size_t count, const std::string& thing) {
     return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
-std::string in_words(const std::string& file, const StudyPlan& plan) {
-    const PlanSize size = size_of(plan);
-    return fmt::format("{}: ok\n  {} nodes, {}, {}, {}, {}: {} of {} repetitions\n", file, size.nodes,
-                       counted(size.scenarios, "instant"), counted(size.noise_levels, "noise level"),
-                       counted(size.sensor_sets, "sensor set"), counted(size.methods, "method"),
-                       counted(size.cells, "cell"), plan.repetitions);
+// Of all studies of a sweep; nodes and sensor sets are those of the largest.
+PlanSize size_of(const std::vector<StudyPlan>& studies) {
+    PlanSize total;
+    for (const StudyPlan& study : studies) {
+        const PlanSize size = size_of(study);
+        total.nodes = std::max(total.nodes, size.nodes);
+        total.sensor_sets = std::max(total.sensor_sets, size.sensor_sets);
+        total.scenarios += size.scenarios;
+        total.noise_levels = size.noise_levels;
+        total.methods = size.methods;
+        total.cells += size.cells;
+    }
+    return total;
 }
 
-nlohmann::ordered_json in_json(const StudyPlan& plan) {
-    const PlanSize size = size_of(plan);
+std::string in_words(const std::string& file, const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
+    const PlanSize size = size_of(studies);
+    const std::string sweep =
+        studies.size() > 1 ? fmt::format("  a sweep of {} studies, together:\n", studies.size()) : "";
+    return fmt::format("{}: ok\n{}  {} nodes, {}, {}, {}, {}: {} of {} repetitions\n", file, sweep,
+                       size.nodes, counted(size.scenarios, "instant"),
+                       counted(size.noise_levels, "noise level"), counted(size.sensor_sets, "sensor set"),
+                       counted(size.methods, "method"), counted(size.cells, "cell"), plan.repetitions);
+}
+
+nlohmann::ordered_json in_json(const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
+    const PlanSize size = size_of(studies);
     return {{"ok", true},
             {"name", plan.name},
+            {"studies", studies.size()},
             {"nodes", size.nodes},
             {"scenarios", size.scenarios},
             {"noise_levels", size.noise_levels},
@@ -109,9 +129,9 @@ ExitCode run(const Invocation& invocation) {
             return ExitCode::success;
         }
         const ReadConfig config = read_config(file);
-        require_runnable(config);
-        deliver(invocation,
-                invocation.has("json") ? json_text(in_json(config.plan)) : in_words(file, config.plan));
+        const std::vector<StudyPlan> studies = runnable_studies(config);
+        deliver(invocation, invocation.has("json") ? json_text(in_json(config.plan, studies))
+                                                   : in_words(file, config.plan, studies));
         return ExitCode::success;
     } catch (const ConfigError& error) {
         if (!invocation.has("json")) throw;

@@ -127,6 +127,12 @@ Invocation parse_command_line(const Command& command, const std::vector<std::str
 
     std::vector<std::string> given;
     if (values.count(positional) != 0) given = values[positional].as<std::vector<std::string>>();
+    std::vector<std::string> repeated;
+    const std::size_t places = command.arguments.size();
+    if (places > 0 && command.arguments.back().need == ArgumentNeed::one_or_more && given.size() >= places) {
+        repeated.assign(given.begin() + static_cast<std::ptrdiff_t>(places) - 1, given.end());
+        given.resize(places);
+    }
     if (given.size() > command.arguments.size()) {
         refuse(command, fmt::format("'{}' is one argument too many", given[command.arguments.size()]));
     }
@@ -137,11 +143,11 @@ Invocation parse_command_line(const Command& command, const std::vector<std::str
             named[std::string(argument.name)] = given[k];
         } else if (!argument.default_value.empty()) {
             named[std::string(argument.name)] = argument.default_value;
-        } else if (argument.need == ArgumentNeed::required) {
+        } else if (argument.need != ArgumentNeed::optional) {
             refuse(command, fmt::format("{} is missing", argument.name));
         }
     }
-    return {command, std::move(options), std::move(named)};
+    return {command, std::move(options), std::move(named), std::move(repeated)};
 }
 
 }  // namespace capstan::cli

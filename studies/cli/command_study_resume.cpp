@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "capstan/cli/commands.h"
-#include "capstan/cli/common_options.h"
 #include "capstan/cli/program.h"
+#include "capstan/cli/shard_option.h"
 #include "capstan/cli/stored_study.h"
 #include "capstan/cli/watched_run.h"
 #include "capstan/storage/study_store.h"
@@ -13,9 +13,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
-    storage::Database database = storage::Database::open_existing(invocation.text("db"));
-    const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+ExitCode resume_one(const Invocation& invocation, storage::Database& database, std::int64_t id) {
     const StoredStudy stored = load_stored_study(database, id);
     const storage::StudyRecord& study = stored.description.study;
     if (study.status == "complete") {
@@ -34,6 +32,27 @@ ExitCode run(const Invocation& invocation) {
     });
 }
 
+// A study that is called "all" is found by its number.
+ExitCode resume_all(const Invocation& invocation, storage::Database& database) {
+    int running = 0;
+    for (const storage::StudySummary& study : storage::list_studies(database)) {
+        if (study.status == "complete") continue;
+        ++running;
+        const ExitCode code = resume_one(invocation, database, study.study_id);
+        if (code != ExitCode::success) return code;
+    }
+    if (running == 0) fmt::print(stderr, "All studies are complete already; nothing to do.\n");
+    return ExitCode::success;
+}
+
+ExitCode run(const Invocation& invocation) {
+    storage::Database database = storage::Database::open_existing(invocation.text("db"));
+    refuse_shard_file(database);
+    const std::string& named = invocation.argument("STUDY");
+    if (named == "all") return resume_all(invocation, database);
+    return resume_one(invocation, database, storage::find_study(database, named));
+}
+
 }  // namespace
 
 Command study_resume_command() {
@@ -42,7 +61,8 @@ Command study_resume_command() {
         "Go on with a study that was stopped or killed.",
         "Goes on with a study that was stopped or killed, from the configuration stored with it. The units that "
         "are stored stay; the tables end with the same bits as without the interruption.",
-        {study_argument},
+        {{"STUDY", "Its number, its name (the last one begun under it), latest, or all.",
+          ArgumentNeed::optional, "latest"}},
         watched_run_options(),
         {"capstan study resume", "capstan study resume paper --db paper.db"},
         run};

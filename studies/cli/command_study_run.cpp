@@ -2,47 +2,92 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_reader.h"
-#include "capstan/cli/config_writer.h"
+#include "capstan/cli/config_studies.h"
 #include "capstan/cli/program.h"
+#include "capstan/cli/shard_option.h"
 #include "capstan/cli/watched_run.h"
 
 namespace capstan::cli {
 
 namespace {
 
-// The stored configuration is that of the study as it ran, options of the command line included.
-void override_from(const Invocation& invocation, StudyPlan& plan) {
-    if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
-    if (invocation.has("repetitions")) plan.repetitions = static_cast<int>(invocation.whole("repetitions"));
-    plan.config_toml = config_text(plan, Comments::none);
+std::string seconds(const StudyTimes& times) {
+    return fmt::format("{:.2f} s", times.wall_s);
+}
+
+ExitCode run_one(const Invocation& invocation, const StudyPlan& plan) {
+    storage::Database database = storage::Database::open_or_create(invocation.text("db"));
+    refuse_shard_file(database);
+    return run_watched(invocation, database, plan.name, [&](const RunOptions& options) {
+        return run_study(database, plan, program_version(), options);
+    });
+}
+
+ExitCode run_sweep(const Invocation& invocation, const std::string& name,
+                   const std::vector<StudyPlan>& plans) {
+    const std::string file = invocation.text("db");
+    storage::Database database = storage::Database::open_or_create(file);
+    refuse_shard_file(database);
+    return watch(invocation, name, [&](const RunOptions& options) -> WatchedEnd {
+        const RunOutcome outcome = run_studies(database, plans, program_version(), options);
+        const std::string words =
+            outcome.end == RunEnd::complete
+                ? fmt::format(
+                      "All {} studies of {} are complete in {}, after {}; `capstan study list --db {}` "
+                      "names them, `capstan recommend STUDY` says what follows from each.",
+                      plans.size(), name, file, seconds(outcome.times), file)
+                : fmt::format(
+                      "Stopped; every finished unit is kept. Go on with: capstan study resume all --db {}",
+                      file);
+        return {outcome.end, outcome.times, words, 0};
+    });
+}
+
+ExitCode run_part(const Invocation& invocation, const std::string& name,
+                  const std::vector<StudyPlan>& plans) {
+    const Shard shard = parse_shard(invocation.text("shard"));
+    const std::string file = invocation.text("db");
+    require_useful(plans, shard);
+    storage::Database database = storage::Database::open_or_create(file, storage::Journal::rollback);
+    return watch(
+        invocation, fmt::format("{}, {}", name, words_of(shard)),
+        [&](const RunOptions& options) -> WatchedEnd {
+            const ShardOutcome outcome = run_shard(database, plans, shard, program_version(), options);
+            const std::string words =
+                outcome.end == RunEnd::complete
+                    ? fmt::format("{} of {} is done in {}, after {}; `capstan study merge` joins all {}.",
+                                  words_of(shard), name, file, seconds(outcome.times), shard.count)
+                    : "Stopped; every finished unit is kept. The same command goes on.";
+            return {outcome.end, outcome.times, words, 0};
+        });
 }
 
 ExitCode run(const Invocation& invocation) {
-    ReadConfig config = read_config(invocation.argument("CONFIG"));
-    override_from(invocation, config.plan);
-    require_runnable(config);
-    storage::Database database = storage::Database::open_or_create(invocation.text("db"));
-    return run_watched(invocation, database, config.plan.name, [&](const RunOptions& options) {
-        return run_study(database, config.plan, program_version(), options);
-    });
+    const ReadConfig config = read_config_of(invocation);
+    const std::vector<StudyPlan> plans = runnable_studies(config);
+    if (invocation.has("shard")) return run_part(invocation, config.plan.name, plans);
+    if (plans.size() > 1) return run_sweep(invocation, config.plan.name, plans);
+    return run_one(invocation, plans.front());
 }
 
 }  // namespace
 
 Command study_run_command() {
     std::vector<Option> options = watched_run_options();
-    options.insert(options.begin() + 2, {seed_option, repetitions_option});
+    options.insert(options.begin() + 2, {seed_option, repetitions_option, shard_option});
     return {
         "study run",
         "Run a study and recommend sensors.",
         "Runs the study that CONFIG describes, stores it in the results database, and says which sensors to use, "
-        "where, and how to fuse them. A database holds any number of studies. Ctrl-C stops after the unit under "
-        "way, and even a killed run loses no more than that unit: `capstan study resume` goes on, to the same bits.",
+        "where, and how to fuse them. A database holds any number of studies; a CONFIG with a [sweep] makes one for "
+        "each combination. Ctrl-C stops after the unit under way, and even a killed run loses no more than that "
+        "unit: `capstan study resume` goes on, to the same bits. With --shard only one part is run, so that a "
+        "cluster can run all of them at once; `capstan study submit` does.",
         {config_argument},
         std::move(options),
         {"capstan study run configs/quick.toml", "capstan study run configs/paper.toml --db paper.db --stats",
-         "capstan study run my.toml --repetitions 50 --json | jq .recommendations"},
+         "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
+         "capstan study run my.toml --shard 2/8 --db part-2.db"},
         run};
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "capstan/cli/config_cable_keys.h"
+#include "capstan/estimation/direction_pattern.h"
 #include "capstan/estimation/fusion_method.h"
 
 namespace capstan::cli {
@@ -377,6 +378,44 @@ void add_placement_keys(std::vector<StudyKey>& keys) {
         [](auto& plan, int) -> auto& { return plan.placement.largest_error_after_loss_N; }));
 }
 
+// ---- [sweep]
+
+StudyKey swept_ratio(std::string name, std::string what, std::vector<double> Sweep::*list) {
+    StudyKey key = real_list<StudyPlan>(
+        {"sweep", std::move(name), "", "Factors on " + what + ", one study each; none: as above."},
+        above_zero, {}, [list](auto& plan, int) -> auto& { return plan.sweep.*list; });
+    key.may_be_empty = true;
+    return key;
+}
+
+StudyKey swept_segments() {
+    StudyKey key{"sweep", "segments", ValueKind::whole_numbers, "", {2, true, most_estimated_segments}};
+    key.help = "Numbers of segments, one study each; none: as above.";
+    key.default_value = std::vector<std::int64_t>{};
+    key.read = [](const StudyPlan& plan, int) -> ConfigValue {
+        return std::vector<std::int64_t>(plan.sweep.segments.begin(), plan.sweep.segments.end());
+    };
+    key.write = [](StudyPlan& plan, int, const ConfigValue& value) {
+        const auto& given = std::get<std::vector<std::int64_t>>(value);
+        plan.sweep.segments.assign(given.begin(), given.end());
+    };
+    return key;
+}
+
+void add_sweep_keys(std::vector<StudyKey>& keys) {
+    keys.push_back(swept_ratio("friction_ratio", "both friction coefficients", &Sweep::friction_ratio));
+    keys.push_back(swept_ratio("curvature_ratio", "the curvature of every bend (its radius is divided)",
+                               &Sweep::curvature_ratio));
+    keys.push_back(swept_ratio("stiffness_ratio", "the cable's axial stiffness", &Sweep::stiffness_ratio));
+    keys.push_back(swept_segments());
+    keys.push_back(whole(
+        {"sweep", "instants_per_regime", "",
+         "When a regime is reached depends on the transmission: take this many instants, spread evenly over all "
+         "samples that are in the regime, instead of the regime's samples. 0: its samples."},
+        {0, true, 1e6}, std::int64_t{0},
+        [](auto& plan, int) -> auto& { return plan.sweep.instants_per_regime; }));
+}
+
 std::vector<StudyKey> all_keys() {
     std::vector<StudyKey> keys;
     add_study_keys(keys);
@@ -391,6 +430,7 @@ std::vector<StudyKey> all_keys() {
          "One more sensor must lower the error by this much to be recommended."},
         zero_or_more, 0.02, [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));
     add_placement_keys(keys);
+    add_sweep_keys(keys);
     return keys;
 }
 
@@ -428,6 +468,9 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
         {"placement",
          "For `capstan place`, which searches all layouts: what a designer has to live with. Regimes, noise and methods "
          "are those above; layouts is not used."},
+        {"sweep",
+         "Many studies from one file: one for every combination of the values given here. `capstan study plan` says "
+         "what it costs, `capstan study submit` runs it on a cluster."},
     };
 }
 

@@ -40,8 +40,17 @@ std::string exit_codes() {
 std::string usage_line(const Command& command) {
     std::string line = fmt::format("capstan {}", command.name);
     for (const Argument& argument : command.arguments) {
-        const bool optional = argument.need == ArgumentNeed::optional;
-        line += optional ? fmt::format(" [{}]", argument.name) : fmt::format(" {}", argument.name);
+        switch (argument.need) {
+            case ArgumentNeed::required:
+                line += fmt::format(" {}", argument.name);
+                break;
+            case ArgumentNeed::optional:
+                line += fmt::format(" [{}]", argument.name);
+                break;
+            case ArgumentNeed::one_or_more:
+                line += fmt::format(" {}...", argument.name);
+                break;
+        }
     }
     return line + " [options]";
 }

@@ -49,47 +49,56 @@ std::vector<Option> watched_run_options() {
             progress_option, stats_option, help_option};
 }
 
-ExitCode run_watched(const Invocation& invocation, storage::Database& database, const std::string& study_name,
-                     const std::function<RunOutcome(const RunOptions&)>& work) {
-    ProgressDisplay display(progress_mode(invocation.text("progress")), study_name);
+ExitCode watch(const Invocation& invocation, const std::string& name, const WatchedWork& work) {
+    ProgressDisplay display(progress_mode(invocation.text("progress")), name);
     RunOptions options;
     options.jobs = static_cast<int>(invocation.whole("jobs"));
     options.on_progress = [&](const StudyProgress& progress) { display.show(progress); };
     options.compare_with_paper = paper::compare_placement;
-    RunOutcome outcome;
+    WatchedEnd ended;
     {
         const StopRequest stoppable;
         options.stop = StopRequest::flag();
         try {
-            outcome = work(options);
+            ended = work(options);
         } catch (...) {
             display.end_line();
             throw;
         }
     }
     display.end_line();
-    if (invocation.has("stats")) say_times(outcome.times);
-
-    const std::string file = invocation.text("db");
-    switch (outcome.end) {
+    if (invocation.has("stats")) say_times(ended.times);
+    switch (ended.end) {
         case RunEnd::stopped:
             // Said even with --progress none: it is an answer, not progress.
             say_end(display.mode() == ProgressMode::none ? ProgressMode::automatic : display.mode(),
-                    "stopped",
-                    fmt::format(
-                        "Stopped; every finished unit is kept. Go on with: capstan study resume {} --db {}",
-                        outcome.study_id, file),
-                    outcome.study_id);
+                    "stopped", ended.words, ended.study_id);
             return ExitCode::stopped;
         case RunEnd::complete:
-            say_end(display.mode(), "complete",
-                    fmt::format("Study {} ({}) is complete in {}, after {:.2f} s.", outcome.study_id,
-                                study_name, file, outcome.times.wall_s),
-                    outcome.study_id);
-            deliver_conclusions(invocation, database, outcome.study_id);
+            say_end(display.mode(), "complete", ended.words, ended.study_id);
             return ExitCode::success;
     }
     return ExitCode::failure;
+}
+
+ExitCode run_watched(const Invocation& invocation, storage::Database& database, const std::string& study_name,
+                     const std::function<RunOutcome(const RunOptions&)>& work) {
+    const std::string file = invocation.text("db");
+    std::int64_t study_id = 0;
+    const ExitCode code = watch(invocation, study_name, [&](const RunOptions& options) -> WatchedEnd {
+        const RunOutcome outcome = work(options);
+        study_id = outcome.study_id;
+        const std::string words =
+            outcome.end == RunEnd::stopped
+                ? fmt::format(
+                      "Stopped; every finished unit is kept. Go on with: capstan study resume {} --db {}",
+                      study_id, file)
+                : fmt::format("Study {} ({}) is complete in {}, after {:.2f} s.", study_id, study_name, file,
+                              outcome.times.wall_s);
+        return {outcome.end, outcome.times, words, study_id};
+    });
+    if (code == ExitCode::success) deliver_conclusions(invocation, database, study_id);
+    return code;
 }
 
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "capstan/cli/command.h"
 #include "capstan/placement/study_run.h"
@@ -10,6 +11,18 @@ namespace capstan::cli {
 
 /// Options of every command that computes a study.
 std::vector<Option> watched_run_options();
+
+/// How work under watch ended, and the sentence that says so.
+struct WatchedEnd {
+    RunEnd end = RunEnd::complete;
+    StudyTimes times;
+    std::string words;
+    std::int64_t study_id = 0;  ///< in the JSON event; 0: several studies
+};
+using WatchedWork = std::function<WatchedEnd(const RunOptions&)>;
+
+/// Runs `work` with progress shown and Ctrl-C caught, and says how it ended.
+ExitCode watch(const Invocation& invocation, const std::string& name, const WatchedWork& work);
 
 /// Runs `work` with progress shown and Ctrl-C caught, then gives the study's conclusions, or says how to go
 /// on.

@@ -9,25 +9,25 @@ namespace {
 // A sensor that never errs gets a very large weight, not an infinite one.
 constexpr double smallest_error_N = 1e-12;
 
-bool gives_weights(const PreparedStudy& study, const PreparedScenario& source,
-                   const PreparedScenario& fused) {
+}  // namespace
+
+bool gives_weights(const PreparedStudy& study, int source_index, int fused_index) {
+    const Regime source = study.scenarios[source_index].regime;
     switch (study.plan.weight_source) {
         case WeightSource::mass_motion:
-            return source.regime == Regime::mass;
+            return source == Regime::mass;
         case WeightSource::same_regime:
-            return source.regime == fused.regime;
+            return source == study.scenarios[fused_index].regime;
     }
     return false;
 }
-
-}  // namespace
 
 std::vector<double> sensor_weights(const PreparedStudy& study,
                                    const std::vector<std::vector<double>>& errors_N, int scenario_index) {
     std::vector<double> mean_N(study.nodes(), 0.0);
     int sources = 0;
-    for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
-        if (!gives_weights(study, study.scenarios[s], study.scenarios[scenario_index])) continue;
+    for (int s = 0; s < static_cast<int>(study.scenarios.size()); ++s) {
+        if (!gives_weights(study, s, scenario_index)) continue;
         for (int node = 0; node < study.nodes(); ++node) mean_N[node] += errors_N[s][node];
         ++sources;
     }

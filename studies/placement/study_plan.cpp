@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "capstan/cable/invalid_input.h"
@@ -180,16 +179,6 @@ void check_regimes(const StudyPlan& plan, Problems& problems) {
     }
 }
 
-// Samples at which the motion really is in each regime.
-std::map<Regime, std::vector<int>> samples_by_regime(const StudyPlan& plan) {
-    std::map<Regime, std::vector<int>> samples;
-    const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
-    simulate(step, plan.motion, [&](const TrueSample& sample) {
-        if (const auto regime = regime_of(sample.report.pattern)) samples[*regime].push_back(sample.sample);
-    });
-    return samples;
-}
-
 // "3-8, 14, 20-22", the first few runs.
 std::string as_ranges(const std::vector<int>& samples) {
     std::string text;
@@ -235,6 +224,15 @@ std::string_view name_of(Regime regime) {
             return "partial_both";
     }
     return {};
+}
+
+std::map<Regime, std::vector<int>> samples_by_regime(const StudyPlan& plan) {
+    std::map<Regime, std::vector<int>> samples;
+    const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
+    simulate(step, plan.motion, [&](const TrueSample& sample) {
+        if (const auto regime = regime_of(sample.report.pattern)) samples[*regime].push_back(sample.sample);
+    });
+    return samples;
 }
 
 std::vector<std::string> problems_of(const StudyPlan& plan) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,24 @@ enum class WeightSource {
     same_regime,  ///< those of the regime that is fused
 };
 
+/// A plan that stands for many: one study for every combination of these values. An empty list leaves what
+/// the plan says. Ratios multiply: both friction coefficients, the curvature of every bend, the axial
+/// stiffness.
+struct Sweep {
+    std::vector<double> friction_ratio;
+    std::vector<double> curvature_ratio;
+    std::vector<double> stiffness_ratio;
+    std::vector<int> segments;
+    /// The samples of a regime move with the transmission: take this many, spread evenly over all that are in
+    /// it. 0: the plan's samples.
+    int instants_per_regime = 0;
+
+    bool is_there() const {
+        return !friction_ratio.empty() || !curvature_ratio.empty() || !stiffness_ratio.empty() ||
+               !segments.empty() || instants_per_regime > 0;
+    }
+};
+
 /// Everything a study is: plain values, checked by problems_of(). What a configuration file describes.
 struct StudyPlan {
     std::string name;
@@ -93,10 +112,14 @@ struct StudyPlan {
     bool compare_with_paper = false;  ///< the plan holds what the paper's table needs
 
     PlacementPlan placement;  ///< for the search over all layouts
+    Sweep sweep;              ///< studies_in_sweep() makes the studies; each of them has none
 };
 
 /// Everything wrong with the plan, each with what to try; empty when it can run. Simulates the motion to see
 /// that each instant is in its regime.
 std::vector<std::string> problems_of(const StudyPlan& plan);
+
+/// Samples at which the motion is in each regime, ascending. The plan's cable and motion must be valid.
+std::map<Regime, std::vector<int>> samples_by_regime(const StudyPlan& plan);
 
 }  // namespace capstan

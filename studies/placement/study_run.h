@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,12 @@ struct RunOutcome {
 /// is written then.
 RunOutcome run_study(storage::Database& database, const StudyPlan& plan, const std::string& program_version,
                      const RunOptions& options);
+
+/// Runs several studies one after the other, as one run: all are begun in the database before the first draw,
+/// so that a killed run can be resumed, study by study. The outcome's study_id is that of the last study
+/// worked on.
+RunOutcome run_studies(storage::Database& database, std::span<const StudyPlan> plans,
+                       const std::string& program_version, const RunOptions& options);
 
 /// Goes on with a study that was killed or stopped: the units that are stored stay, the others are run, and
 /// the tables end with the same bits as without the interruption. `plan` is what the stored configuration

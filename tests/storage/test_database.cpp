@@ -15,8 +15,9 @@ namespace capstan::storage {
 namespace {
 
 using Opener = Database (*)(const std::filesystem::path&);
-const std::vector<Opener> all_openers{Database::open_or_create, Database::open_existing,
-                                      Database::open_read_only};
+const std::vector<Opener> all_openers{
+    [](const std::filesystem::path& path) { return Database::open_or_create(path); }, Database::open_existing,
+    Database::open_read_only};
 
 void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
@@ -107,7 +108,7 @@ TEST(OpeningADatabase, ANewerSchemaIsRefusedUntouchedAndBothVersionsAreNamed) {
     const TemporaryFolder folder;
     Database::open_or_create(folder / "results.db");
     run_plain_sqlite(folder / "results.db", "PRAGMA user_version = 42");
-    expect_refused_untouched(folder, "results.db", "version 42, newer than version 1");
+    expect_refused_untouched(folder, "results.db", "version 42, newer than version 2");
 }
 
 TEST(OpeningADatabase, AFolderIsRefused) {
@@ -230,23 +231,25 @@ TEST(Migrating, AnOlderFileGetsEveryStepAndLeavesACopy) {
     Database database = Database::open_or_create(folder / "results.db");
     begin_study(database, example_study());
     const std::vector<Migration> steps{
-        {1, "ALTER TABLE study ADD COLUMN author TEXT NOT NULL DEFAULT 'nobody'"},
-        {2, "UPDATE study SET author = 'somebody'"}};
-    migrate(database, steps, 3);
-    EXPECT_EQ(number_from(database, "PRAGMA user_version"), 3);
+        {schema_version, "ALTER TABLE study ADD COLUMN author TEXT NOT NULL DEFAULT 'nobody'"},
+        {schema_version + 1, "UPDATE study SET author = 'somebody'"}};
+    migrate(database, steps, schema_version + 2);
+    EXPECT_EQ(number_from(database, "PRAGMA user_version"), schema_version + 2);
     EXPECT_EQ(number_from(database, "PRAGMA foreign_keys"), 1);
     EXPECT_EQ(number_from(database, "SELECT count(*) FROM study WHERE author = 'somebody'"), 1);
 
-    Database copy = Database::open_read_only(folder / "results.db.version1");
+    Database copy =
+        Database::open_read_only(folder / ("results.db.version" + std::to_string(schema_version)));
     EXPECT_EQ(list_studies(copy).size(), 1u);
 }
 
 TEST(Migrating, AStepThatFailsLeavesTheFileAsItWas) {
     const TemporaryFolder folder;
-    const std::vector<Migration> steps{{1, "DROP VIEW v_progress"}, {2, "DROP TABLE no_such_table"}};
+    const std::vector<Migration> steps{{schema_version, "DROP VIEW v_progress"},
+                                       {schema_version + 1, "DROP TABLE no_such_table"}};
     {
         Database database = Database::open_or_create(folder / "results.db");
-        EXPECT_THROW(migrate(database, steps, 3), Error);
+        EXPECT_THROW(migrate(database, steps, schema_version + 2), Error);
     }
     Database database = Database::open_existing(folder / "results.db");
     EXPECT_TRUE(list_studies(database).empty());
@@ -255,7 +258,23 @@ TEST(Migrating, AStepThatFailsLeavesTheFileAsItWas) {
 TEST(Migrating, AVersionWithoutAWayIsRefused) {
     const TemporaryFolder folder;
     Database database = Database::open_or_create(folder / "results.db");
-    expect_says(error_of([&] { migrate(database, {}, 2); }), "knows no way");
+    expect_says(error_of([&] { migrate(database, {}, schema_version + 1); }), "knows no way");
+}
+
+// What version 2 added is taken away again.
+TEST(Migrating, AFileOfVersion1IsOpenedWithItsStudies) {
+    const TemporaryFolder folder;
+    {
+        Database database = Database::open_or_create(folder / "results.db");
+        begin_study(database, example_study());
+        write_unit(database, 1, 0);
+        database.execute("DROP TABLE shard; PRAGMA user_version = 1", "make an older file");
+    }
+    Database database = Database::open_existing(folder / "results.db");
+    EXPECT_EQ(number_from(database, "PRAGMA user_version"), schema_version);
+    EXPECT_EQ(list_studies(database).at(0).units_done, 1);
+    EXPECT_FALSE(read_shard(database));
+    EXPECT_TRUE(std::filesystem::exists(folder / "results.db.version1"));
 }
 
 TEST(Migrating, EveryOlderVersionHasAWay) {

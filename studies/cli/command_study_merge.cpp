@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/config_reader.h"
+#include "capstan/cli/watched_run.h"
+#include "capstan/placement/study_merge.h"
+
+namespace capstan::cli {
+
+namespace {
+
+ExitCode run(const Invocation& invocation) {
+    const std::string file = invocation.text("db");
+    const auto& names = invocation.repeated_argument();
+    const std::vector<std::filesystem::path> shards(names.begin(), names.end());
+    return watch(invocation, "merge", [&](const RunOptions& options) -> WatchedEnd {
+        MergeOptions merge{options, {}};
+        merge.plan_of = [&](const std::string& config_toml) {
+            return parse_config(config_toml, "the stored configuration of " + names.front()).plan;
+        };
+        const RunEnd end = merge_shards(file, shards, merge);
+        const std::string words =
+            end == RunEnd::complete
+                ? fmt::format("Merged {} into {}; `capstan recommend --db {}` says what follows.",
+                              shards.size() == 1 ? "1 shard" : fmt::format("{} shards", shards.size()), file,
+                              file)
+                : "Stopped; nothing was written, and the shards are as they were.";
+        return {end, {}, words, 0};
+    });
+}
+
+}  // namespace
+
+Command study_merge_command() {
+    return {
+        "study merge",
+        "Join the shards of a study.",
+        "Joins the files that `capstan study run --shard` wrote into a new database, draws the conclusions, and has the "
+        "same bits in every table as one run. Every shard must be there once, finished, and of the same study; "
+        "otherwise nothing is written and every shard that is missing, doubled, foreign or unfinished is named.",
+        {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
+        {{"db", '\0', OptionKind::text, "FILE", "The new database; appears whole or not at all.",
+          "capstan.db"},
+         jobs_option,
+         progress_option,
+         help_option},
+        {"capstan study merge --db atlas.db shard-*.db"},
+        run};
+}
+
+}  // namespace capstan::cli

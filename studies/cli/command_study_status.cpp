@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/json_text.h"
+#include "capstan/cli/output.h"
+#include "capstan/cluster/slurm_queue.h"
+
+namespace capstan::cli {
+
+namespace {
+
+using cluster::QueuedTask;
+using cluster::StudyDirectory;
+
+// Of a shard or of the merge.
+struct TaskStatus {
+    std::string state;  // done, running, waiting, failed, not_started; without Slurm also unfinished
+    cluster::ShardProgress progress;
+    std::optional<QueuedTask> task;
+};
+
+struct StudyStatus {
+    StudyDirectory directory;
+    bool slurm = false;
+    std::vector<TaskStatus> shards;
+    TaskStatus merge;
+};
+
+std::string state_of(bool is_done, bool was_begun, const std::optional<QueuedTask>& task, bool slurm) {
+    if (is_done) return "done";
+    if (task) return task->is_running() ? "running" : "waiting";
+    if (!was_begun) return "not_started";
+    return slurm ? "failed" : "unfinished";
+}
+
+StudyStatus status_of(const std::string& named) {
+    StudyStatus status{cluster::read_directory(named), cluster::slurm_is_there(), {}, {}};
+    const StudyDirectory& directory = status.directory;
+    const cluster::StudyQueue queue = status.slurm ? cluster::read_queue(directory) : cluster::StudyQueue{};
+    for (int number = 1; number <= directory.shards; ++number) {
+        TaskStatus shard{{}, cluster::progress_of(directory, number), {}};
+        if (const auto task = queue.shards.find(number); task != queue.shards.end())
+            shard.task = task->second;
+        shard.state = state_of(shard.progress.is_done(), shard.progress.was_begun, shard.task, status.slurm);
+        status.shards.push_back(std::move(shard));
+    }
+    const bool merged = std::filesystem::exists(directory.merged_file());
+    const bool begun = std::filesystem::exists(directory.merge_log());
+    status.merge = {state_of(merged, begun, queue.merge, status.slurm), {}, queue.merge};
+    return status;
+}
+
+std::string slurm_words(const TaskStatus& task) {
+    return task.task ? fmt::format("  Slurm: {} {}", task.task->id, task.task->state) : "";
+}
+
+// One state for the whole, and what to do about it.
+std::string advice(const StudyStatus& status) {
+    const StudyDirectory& directory = status.directory;
+    const std::string folder = directory.path.string();
+    if (status.merge.state == "done") {
+        return fmt::format("Complete: capstan recommend --db {}", directory.merged_file().string());
+    }
+    if (!status.slurm) return "There is no Slurm on this machine, so only the files are known.";
+    bool left = status.merge.state == "failed" || status.merge.state == "not_started";
+    for (const TaskStatus& shard : status.shards) {
+        left = left || shard.state == "failed" || shard.state == "not_started";
+    }
+    if (!left) return "Under way; nothing to do.";
+    return fmt::format(
+        "Some of it is not in the queue. The logs in {0}/logs say why; submit what is missing with:\n"
+        "capstan study submit --slurm {0}/config.toml --shards {1} --processors {2} --directory {0}",
+        folder, directory.shards, directory.processors_per_shard);
+}
+
+std::string in_words(const StudyStatus& status) {
+    std::string text = fmt::format("{} in {}\n\n", status.directory.name, status.directory.path.string());
+    int number = 0;
+    int done = 0;
+    for (const TaskStatus& shard : status.shards) {
+        const auto& progress = shard.progress;
+        done += progress.is_done() ? 1 : 0;
+        const std::string units =
+            progress.units > 0 ? fmt::format("{} of {} units", progress.units_done, progress.units) : "";
+        std::string line =
+            fmt::format("  shard {:>4}  {:<11}  {:<18}{}", ++number, shard.state, units, slurm_words(shard));
+        if (!progress.problem.empty()) line += "  " + progress.problem;
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    text += fmt::format("  merge       {}{}\n\n", status.merge.state, slurm_words(status.merge));
+    return text +
+           fmt::format("{} of {} shards are done. {}\n", done, status.directory.shards, advice(status));
+}
+
+nlohmann::ordered_json task_json(const TaskStatus& task) {
+    nlohmann::ordered_json json = {{"state", task.state}};
+    if (task.progress.units > 0) {
+        json["units_done"] = task.progress.units_done;
+        json["units"] = task.progress.units;
+    }
+    if (!task.progress.problem.empty()) json["problem"] = task.progress.problem;
+    if (task.task) json["slurm"] = {{"job", task.task->id}, {"state", task.task->state}};
+    return json;
+}
+
+nlohmann::ordered_json in_json(const StudyStatus& status) {
+    nlohmann::ordered_json json = {{"name", status.directory.name},
+                                   {"directory", status.directory.path.string()},
+                                   {"slurm", status.slurm},
+                                   {"shards", nlohmann::ordered_json::array()},
+                                   {"merge", task_json(status.merge)}};
+    for (std::size_t k = 0; k < status.shards.size(); ++k) {
+        nlohmann::ordered_json shard = {{"shard", k + 1}};
+        shard.update(task_json(status.shards[k]));
+        json["shards"].push_back(std::move(shard));
+    }
+    return json;
+}
+
+ExitCode run(const Invocation& invocation) {
+    const StudyStatus status = status_of(invocation.argument("DIR"));
+    deliver(invocation, invocation.has("json") ? json_text(in_json(status)) : in_words(status));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command study_status_command() {
+    return {
+        "study status",
+        "Show where a submitted study stands.",
+        "Shows for every shard of a folder that `capstan study submit` made whether it is done, running, waiting, "
+        "failed (begun, but not in Slurm's queue) or not started, how many of its units are stored, and what Slurm "
+        "says of it; then what to do. Reads the shards' files; works without Slurm too.",
+        {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
+        {output_option, json_option, help_option},
+        {"capstan study status atlas", "capstan study status atlas --json | jq -r .merge.state"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/config_studies.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/usage_error.h"
+#include "capstan/cluster/slurm_queue.h"
+#include "capstan/cluster/slurm_scripts.h"
+
+namespace capstan::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using cluster::StudyDirectory;
+
+// As it will stand in the scripts: a line break would end an #SBATCH line.
+fs::path absolute_directory(const std::string& named) {
+    fs::path path = fs::weakly_canonical(fs::absolute(named));
+    if (!path.has_filename()) path = path.parent_path();
+    if (path.string().find('\n') != std::string::npos) {
+        throw UsageError(
+            "--directory has a line break in its name, which Slurm cannot be told; name another");
+    }
+    return path;
+}
+
+std::string content_of(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The same study may be submitted again into its folder; any other folder must be new or empty.
+void require_own_folder(const StudyDirectory& directory, const std::string& config_toml) {
+    if (!fs::exists(directory.path) || fs::is_empty(directory.path)) return;
+    const std::string name = directory.path.string();
+    if (!fs::exists(directory.submission_file())) {
+        throw UsageError(name + " holds other files; name a new folder for the study");
+    }
+    const StudyDirectory before = cluster::read_directory(directory.path);
+    if (before.shards != directory.shards) {
+        throw UsageError(
+            fmt::format("{0} holds the study in {1} shards, not {2}; submit with --shards {1}, or "
+                        "name a new folder",
+                        name, before.shards, directory.shards));
+    }
+    if (content_of(directory.config_file()) != config_toml) {
+        throw UsageError(
+            name +
+            " holds a study with another configuration; name a new folder (in it, config.toml is "
+            "the one that runs there)");
+    }
+}
+
+// submission.json last: with it the folder is whole.
+void write_folder(const StudyDirectory& directory, const std::string& config_toml) {
+    fs::create_directories(directory.path / "logs");
+    write_file(directory.config_file(), config_toml);
+    write_file(directory.shards_script(), cluster::shards_script(directory));
+    write_file(directory.merge_script(), cluster::merge_script(directory));
+    write_file(directory.submission_file(), cluster::submission_text(directory));
+}
+
+void say_dry_run(const StudyDirectory& directory) {
+    std::vector<int> numbers = cluster::shards_to_submit(directory, {});
+    write_standard_output(fmt::format(
+        "# {}\n{}\n# {}\n{}\n# Not submitted. Without --dry-run:\nsbatch --array={} {}\nsbatch "
+        "--dependency=afterok:JOB --kill-on-invalid-dep=yes {}\n",
+        directory.shards_script().string(), content_of(directory.shards_script()),
+        directory.merge_script().string(), content_of(directory.merge_script()), cluster::as_array(numbers),
+        directory.shards_script().string(), directory.merge_script().string()));
+}
+
+void submit(const StudyDirectory& directory) {
+    const cluster::StudyQueue queue = cluster::read_queue(directory);
+    const cluster::Submission done = cluster::submit(directory, queue);
+    std::string text;
+    if (!done.shards.empty()) {
+        text += fmt::format("Submitted shards {} of {} as job {}.\n", cluster::as_array(done.shards),
+                            directory.shards, done.array_job);
+    }
+    if (!queue.shards.empty()) text += fmt::format("In the queue already: {} shards.\n", queue.shards.size());
+    if (!done.merge_job.empty()) {
+        text +=
+            fmt::format("Job {} merges them into {}.\n", done.merge_job, directory.merged_file().string());
+    }
+    if (text.empty()) text = "Everything is in the queue already.\n";
+    write_standard_output(
+        text + fmt::format("capstan study status {} shows where it stands.\n", directory.path.string()));
+}
+
+ExitCode run(const Invocation& invocation) {
+    if (!invocation.has("slurm")) {
+        throw UsageError(
+            "capstan study submit: say --slurm; Slurm is the one scheduler that it knows. Elsewhere run "
+            "`capstan study run CONFIG --shard I/N` for each shard, then `capstan study merge`.");
+    }
+    const ReadConfig config = read_config_of(invocation);
+    const std::vector<StudyPlan> plans = runnable_studies(config);
+    StudyDirectory directory;
+    directory.path = absolute_directory(invocation.text("directory"));
+    directory.name = config.plan.name;
+    directory.shards = static_cast<int>(invocation.whole("shards"));
+    directory.processors_per_shard = static_cast<int>(invocation.whole("processors"));
+    directory.program = fs::read_symlink("/proc/self/exe");
+    require_useful(plans, {1, directory.shards});
+    const bool dry_run = invocation.has("dry-run");
+    if (!dry_run && !cluster::slurm_is_there()) {
+        throw UsageError(
+            "capstan study submit: sbatch and squeue are not on PATH, so there is no Slurm here. Run this "
+            "on a machine of the cluster, or see with --dry-run what would be submitted.");
+    }
+    require_own_folder(directory, config.plan.config_toml);
+    if (fs::exists(directory.merged_file())) {
+        write_standard_output(
+            fmt::format("{} is complete; nothing to submit. `capstan recommend --db {}` says what follows.\n",
+                        directory.name, directory.merged_file().string()));
+        return ExitCode::success;
+    }
+    write_folder(directory, config.plan.config_toml);
+    if (dry_run) {
+        say_dry_run(directory);
+    } else {
+        submit(directory);
+    }
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command study_submit_command() {
+    return {
+        "study submit",
+        "Run a study on a cluster, in shards.",
+        "Writes into a folder what Slurm needs to run CONFIG in shards: an array job, one task a shard, and a job that "
+        "merges them when all are done; then submits both with sbatch. Scheduling and the failure of nodes are Slurm's "
+        "business: a task that it starts again goes on where it was. Given again, it submits only the shards that are "
+        "neither done nor in the queue. The folder and this program must be seen under the same name by all machines. "
+        "Partition, account and time limit are sbatch's: set SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.",
+        {config_argument},
+        {{"slurm", '\0', OptionKind::flag, "", "Submit to Slurm."},
+         {"shards",
+          '\0',
+          OptionKind::whole_number,
+          "N",
+          "Into how many tasks to deal the study; `capstan study plan` helps.",
+          "8",
+          {},
+          1,
+          1e6},
+         {"directory", '\0', OptionKind::text, "DIR",
+          "The study's folder: scripts, shards, logs, and the result study.db.", "capstan-study"},
+         {"processors", '\0', OptionKind::whole_number, "N", "Processors of each task.", "1", {}, 1, 1024},
+         {"dry-run", '\0', OptionKind::flag, "",
+          "Write the folder and print the scripts, but submit nothing."},
+         seed_option,
+         repetitions_option,
+         help_option},
+        {"capstan study submit --slurm configs/atlas.toml --shards 100 --directory atlas",
+         "SBATCH_PARTITION=long capstan study submit --slurm my.toml"},
+        run};
+}
+
+}  // namespace capstan::cli

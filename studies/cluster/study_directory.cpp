@@ -1,0 +1,81 @@
+#include "capstan/cluster/study_directory.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "capstan/placement/study_merge.h"
+#include "capstan/storage/error.h"
+
+namespace capstan::cluster {
+
+namespace fs = std::filesystem;
+
+fs::path StudyDirectory::shard_file(int number) const {
+    return path / ("shard-" + std::to_string(number) + "-of-" + std::to_string(shards) + ".db");
+}
+
+fs::path StudyDirectory::shard_log(int number) const {
+    return path / ("logs/shard-" + std::to_string(number) + ".log");
+}
+
+// From the folder, so that two studies never answer to one name: 32-bit FNV-1a of its path.
+std::string StudyDirectory::job_name() const {
+    std::uint32_t hash = 2166136261u;
+    for (const char c : path.string()) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+    char text[32];
+    std::snprintf(text, sizeof text, "capstan-%08x", static_cast<unsigned>(hash));
+    return text;
+}
+
+std::string submission_text(const StudyDirectory& directory) {
+    const nlohmann::ordered_json json = {{"name", directory.name},
+                                         {"shards", directory.shards},
+                                         {"processors_per_shard", directory.processors_per_shard},
+                                         {"program", directory.program.string()}};
+    return json.dump(2) + "\n";
+}
+
+StudyDirectory read_directory(const fs::path& path) {
+    StudyDirectory directory;
+    directory.path = fs::absolute(path).lexically_normal();
+    if (!directory.path.has_filename()) directory.path = directory.path.parent_path();
+    std::ifstream stream(directory.submission_file());
+    if (!stream) {
+        throw std::runtime_error(
+            path.string() + " holds no submitted study; `capstan study submit --slurm CONFIG --directory " +
+            path.string() + "` makes one");
+    }
+    try {
+        const auto json = nlohmann::json::parse(stream);
+        directory.name = json.at("name");
+        directory.shards = json.at("shards");
+        directory.processors_per_shard = json.at("processors_per_shard");
+        directory.program = json.at("program").get<std::string>();
+    } catch (const nlohmann::json::exception& error) {
+        throw std::runtime_error(directory.submission_file().string() +
+                                 " is damaged; submit the study into a new folder. (" + error.what() + ")");
+    }
+    return directory;
+}
+
+ShardProgress progress_of(const StudyDirectory& directory, int number) {
+    ShardProgress progress;
+    const fs::path file = directory.shard_file(number);
+    progress.was_begun = fs::exists(file) || fs::exists(directory.shard_log(number));
+    if (!fs::exists(file) || fs::file_size(file) == 0) return progress;
+    try {
+        storage::Database database = storage::Database::open_read_only(file);
+        if (const auto state = read_shard_state(database)) {
+            progress.units_done = state->units_done;
+            progress.units = state->units;
+        }
+    } catch (const storage::Error& error) {
+        progress.problem = error.what();
+    }
+    return progress;
+}
+
+}  // namespace capstan::cluster

@@ -1,0 +1,221 @@
+#include "capstan/placement/study_merge.h"
+
+#include <map>
+#include <memory>
+#include <set>
+
+#include "capstan/placement/same_study.h"
+#include "capstan/placement/study_conclusion.h"
+#include "capstan/storage/error.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan {
+
+namespace {
+
+namespace fs = std::filesystem;
+using storage::Database;
+using storage::StudyDescription;
+
+std::vector<StudyDescription> descriptions_in(Database& database) {
+    std::vector<StudyDescription> descriptions;
+    for (const storage::StudySummary& study : storage::list_studies(database)) {
+        descriptions.push_back(storage::load_study(database, study.study_id));
+    }
+    return descriptions;
+}
+
+Deal deal_out(const std::vector<StudyDescription>& studies, int shards) {
+    std::vector<StudySize> sizes;
+    for (const StudyDescription& study : studies) {
+        sizes.push_back(
+            {static_cast<int>(study.noise_levels.size()), static_cast<int>(study.scenarios.size())});
+    }
+    return {sizes, shards};
+}
+
+struct ShardFile {
+    fs::path path;
+    std::unique_ptr<Database> database;
+    ShardState state;
+};
+
+// Looks at every file and refuses the set with all that is wrong with it.
+class ShardSet {
+  public:
+    explicit ShardSet(const std::vector<fs::path>& paths) {
+        for (const fs::path& path : paths) take(path);
+        name_missing();
+        if (problems_.empty()) return;
+        std::string text = "These shards cannot be merged; nothing was written.";
+        for (const std::string& problem : problems_) text += "\n  " + problem;
+        throw storage::Error(text);
+    }
+
+    const std::vector<StudyDescription>& studies() const { return studies_; }
+
+    int count() const { return count_; }
+    Database& file_of(int number) { return *files_.at(number).database; }
+
+  private:
+    void take(const fs::path& path) {
+        ShardFile file{path, nullptr, {}};
+        try {
+            file.database = std::make_unique<Database>(Database::open_read_only(path));
+            const auto state = read_shard_state(*file.database);
+            if (!state)
+                return problem(path, "is not the file of a shard; `capstan study run --shard` writes one");
+            file.state = *state;
+            compare(path, file);
+        } catch (const storage::Error& error) {
+            problems_.push_back(error.what());
+        }
+    }
+
+    void compare(const fs::path& path, ShardFile& file) {
+        const std::string words = words_of(file.state.shard);
+        auto studies = descriptions_in(*file.database);
+        if (files_.empty()) {
+            studies_ = std::move(studies);
+            count_ = file.state.shard.count;
+            first_ = path;
+        } else if (file.state.shard.count != count_) {
+            return problem(
+                path, "is " + words + ", but " + first_.string() + " is one of " + std::to_string(count_));
+        } else if (const std::string other = difference_from_first(studies); !other.empty()) {
+            return problem(path, "belongs to another study than " + first_.string() + ": " + other);
+        }
+        if (!file.state.is_done()) {
+            problem(path, "is unfinished: " + std::to_string(file.state.units_done) + " of its " +
+                              std::to_string(file.state.units) +
+                              " units are done; go on with: " + how_to_run(file.state.shard.number, path));
+        }
+        const auto [at, is_new] = files_.try_emplace(file.state.shard.number, std::move(file));
+        if (!is_new)
+            problem(path, "is " + words + ", and so is " + at->second.path.string() + "; leave one out");
+    }
+
+    std::string difference_from_first(const std::vector<StudyDescription>& studies) const {
+        if (studies.size() != studies_.size()) {
+            return "it has " + std::to_string(studies.size()) + " studies, not " +
+                   std::to_string(studies_.size());
+        }
+        for (std::size_t k = 0; k < studies.size(); ++k) {
+            if (std::string other = difference_between(studies[k], studies_[k]); !other.empty()) return other;
+        }
+        return {};
+    }
+
+    void name_missing() {
+        for (int number = 1; number <= count_; ++number) {
+            if (files_.count(number) != 0) continue;
+            problems_.push_back(words_of({number, count_}) +
+                                " is missing; name its file, or run it: " + how_to_run(number, "FILE"));
+        }
+    }
+
+    std::string how_to_run(int number, const fs::path& path) const {
+        return "capstan study run CONFIG --shard " + std::to_string(number) + "/" + std::to_string(count_) +
+               " --db " + path.string();
+    }
+
+    void problem(const fs::path& path, const std::string& what) {
+        problems_.push_back(path.string() + " " + what + ".");
+    }
+
+    std::vector<StudyDescription> studies_;
+    std::map<int, ShardFile> files_;  // by shard number
+    int count_ = 0;
+    fs::path first_;
+    std::vector<std::string> problems_;
+};
+
+void copy_unit(Database& from, Database& to, std::int64_t from_id, std::int64_t to_id, int unit_index,
+               const storage::WorkUnitRecord& unit) {
+    const int s = unit.scenario_index;
+    const int noise = unit.noise_index;
+    if (unit.stage == "single_sensor") {
+        storage::write_single_sensor(to, to_id, unit_index,
+                                     {s, noise, storage::read_single_sensor(from, from_id, s, noise)});
+    } else {
+        storage::write_fusion(to, to_id, unit_index, storage::read_fusion(from, from_id, s, noise));
+    }
+}
+
+RunEnd write_merged(ShardSet& shards, Database& merged, const MergeOptions& options) {
+    StudyProgress progress;
+    for (const StudyDescription& study : shards.studies()) {
+        progress.units += static_cast<int>(study.work_units.size());
+    }
+    std::vector<std::int64_t> ids;
+    for (const StudyDescription& study : shards.studies()) ids.push_back(storage::begin_study(merged, study));
+    StudyTimes times;
+    const Deal deal = deal_out(shards.studies(), shards.count());
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        const StudyDescription& study = shards.studies()[k];
+        for (std::size_t unit = 0; unit < study.work_units.size(); ++unit) {
+            if (options.run.stop != nullptr && options.run.stop->load()) return RunEnd::stopped;
+            const storage::WorkUnitRecord& record = study.work_units[unit];
+            const int owner = deal.owner(k, record.noise_index, record.scenario_index);
+            copy_unit(shards.file_of(owner), merged, study.study.study_id, ids[k], static_cast<int>(unit),
+                      record);
+            ++progress.units_done;
+            if (options.run.on_progress) options.run.on_progress(progress);
+        }
+        conclude_study(merged, ids[k], options.plan_of(study.study.config_toml), options.run, times);
+    }
+    return RunEnd::complete;
+}
+
+void remove_database(const fs::path& path) {
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(path.string() + end);
+}
+
+}  // namespace
+
+std::optional<ShardState> read_shard_state(Database& database) {
+    const auto mark = storage::read_shard(database);
+    if (!mark) return std::nullopt;
+    ShardState state{{mark->shard, mark->shards}, 0, 0};
+    const auto studies = descriptions_in(database);
+    const Deal deal = deal_out(studies, mark->shards);
+    for (std::size_t k = 0; k < studies.size(); ++k) {
+        const auto pending = storage::pending_units(database, studies[k].study.study_id);
+        const std::set<int> left(pending.begin(), pending.end());
+        int unit_index = 0;
+        for (const storage::WorkUnitRecord& unit : studies[k].work_units) {
+            const bool is_done = left.count(unit_index++) == 0;
+            if (deal.owner(k, unit.noise_index, unit.scenario_index) != mark->shard) continue;
+            ++state.units;
+            if (is_done) ++state.units_done;
+        }
+    }
+    return state;
+}
+
+RunEnd merge_shards(const fs::path& merged, const std::vector<fs::path>& paths, const MergeOptions& options) {
+    if (fs::exists(merged)) {
+        throw storage::Error(
+            merged.string() +
+            " exists already, and a merge makes a new file. Name another one, or remove it.");
+    }
+    ShardSet shards(paths);
+    const fs::path unfinished = merged.string() + ".unfinished";
+    remove_database(unfinished);
+    RunEnd end = RunEnd::stopped;
+    try {
+        Database database = Database::open_or_create(unfinished);
+        end = write_merged(shards, database, options);
+    } catch (...) {
+        remove_database(unfinished);
+        throw;
+    }
+    if (end == RunEnd::complete) {
+        fs::rename(unfinished, merged);
+    } else {
+        remove_database(unfinished);
+    }
+    return end;
+}
+
+}  // namespace capstan

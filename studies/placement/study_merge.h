@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/placement/study_run.h"
+#include "capstan/placement/study_shard.h"
+
+namespace capstan {
+
+/// How far a shard's file is.
+struct ShardState {
+    Shard shard;
+    int units_done = 0;
+    int units = 0;  ///< of the shard, not of the whole
+
+    bool is_done() const { return units_done == units; }
+};
+
+/// Reads a file that run_shard() wrote; nothing if the file holds no shard. Throws storage::Error if it
+/// cannot be read.
+std::optional<ShardState> read_shard_state(storage::Database& database);
+
+struct MergeOptions {
+    RunOptions run;  ///< progress, stop, the paper's comparison
+    /// The plan that a stored configuration describes.
+    std::function<StudyPlan(const std::string& config_toml)> plan_of;
+};
+
+/// Joins the files of all shards into a new database with the same bits in every table as one run would have
+/// given. Under another name (`merged` + ".unfinished") until it is whole. Throws storage::Error that names
+/// every missing, doubled, foreign or unfinished shard, or says that `merged` exists already.
+RunEnd merge_shards(const std::filesystem::path& merged, const std::vector<std::filesystem::path>& shards,
+                    const MergeOptions& options);
+
+}  // namespace capstan
