@@ -9,6 +9,7 @@ namespace capstan {
 enum class RandomPurpose : std::uint32_t {
     reading_noise = 1,  ///< drawn anew for each scenario
     sensor_bias = 2,    ///< the same at every scenario: its address leaves the scenario at 0
+    member_motion = 3,  ///< of the recursive estimator; `repetition` is its step
 };
 
 /// Where a random number lives: the same address gives the same number, whoever asks, in whatever order.

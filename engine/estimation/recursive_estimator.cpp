@@ -1,0 +1,225 @@
+#include "capstan/estimation/recursive_estimator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/estimation/stratified_scores.h"
+#include "capstan/sensing/random_stream.h"
+
+namespace capstan {
+
+namespace {
+
+// A correlation between few members counts by how far it is beyond this many variances of chance: 4 is two
+// standard deviations. Without, chance correlations shrink the spread of what rests a little in every step,
+// until the band there is far too narrow.
+constexpr double chance_variances = 4.0;
+
+std::array<double, 2> uniforms(std::uint64_t seed, std::uint32_t step, std::uint32_t which) {
+    const auto normals = standard_normals({seed, RandomPurpose::member_motion, 0, step, which});
+    const auto share = [](double normal) { return 0.5 * std::erfc(-normal / std::numbers::sqrt2); };
+    return {share(normals[0]), share(normals[1])};
+}
+
+bool is_slack(const CableState& state) {
+    return state.last_motion.kind == MotionKind::slack;
+}
+
+std::vector<std::string> problems_of(const QuasiStaticStep& model, const CableState& start,
+                                     const RecursiveSettings& settings) {
+    std::vector<std::string> problems;
+    const int members = settings.members;
+    if (members < 8 || members > 1024 || (members & (members - 1)) != 0) {
+        problems.push_back("recursive estimator: " + std::to_string(members) +
+                           " members; take a power of two from 8 to 1024");
+    }
+    for (const double wander_m : {settings.wander.proximal_m, settings.wander.distal_m}) {
+        if (!(wander_m >= 0.0) || !std::isfinite(wander_m)) {
+            problems.push_back("recursive estimator: an end's wander is " + std::to_string(wander_m) +
+                               " m; it must be a finite number, at least 0");
+        }
+    }
+    const auto nodes = static_cast<std::size_t>(model.cable().nodes());
+    if (start.tension_N.size() != nodes || start.displacement_m.size() != nodes) {
+        problems.push_back("recursive estimator: the start has " + std::to_string(start.tension_N.size()) +
+                           " nodes, the model " + std::to_string(nodes) + "; cut both alike");
+    }
+    return problems;
+}
+
+}  // namespace
+
+RecursiveEstimator::RecursiveEstimator(const QuasiStaticStep& model, const CableState& start,
+                                       const RecursiveSettings& settings)
+    : model_(model), settings_(settings) {
+    std::vector<std::string> problems = problems_of(model, start, settings);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    const auto members = static_cast<std::size_t>(settings.members);
+    known_ = {start.displacement_m.front(), start.displacement_m.back()};
+    normal_scores_ = normal_scores(settings.members);
+    members_.assign(members, start);
+    sensed_N_.assign(members, 0.0);
+    mean_N_ = start.tension_N;
+    deviation_N_.assign(start.tension_N.size(), 0.0);
+    gain_ = deviation_N_;
+    gain_m_per_N_ = deviation_N_;
+}
+
+RecursiveReport RecursiveEstimator::step(const KnownEnds& ends, std::span<const TensionReading> readings) {
+    bool finite = std::isfinite(ends.proximal_displacement_m) && std::isfinite(ends.distal_displacement_m);
+    for (const TensionReading& reading : readings) finite = finite && std::isfinite(reading.value_N);
+    if (!finite) throw InvalidInput({"recursive estimator: an input of this step is no finite number"});
+    for (const TensionReading& reading : readings) {
+        if (reading.spot.node < 0 || reading.spot.node >= model_.cable().segments())
+            throw InvalidInput({"recursive estimator: a sensor beyond the cable; its nodes are 0 to " +
+                                std::to_string(model_.cable().segments())});
+    }
+    RecursiveReport report;
+    move(ends, report);
+    take_moments();
+    for (const TensionReading& reading : readings) correct(reading, report);
+    if (!readings.empty()) {
+        forbid_pushing();
+        take_moments();
+    }
+    known_ = ends;
+    ++steps_;
+    return report;
+}
+
+// E36. An end without wander is where it is known to be, free of the rounding of summed increments.
+void RecursiveEstimator::move(const KnownEnds& ends, RecursiveReport& report) {
+    const StratifiedScores proximal(normal_scores_, uniforms(settings_.seed, steps_, 0));
+    const StratifiedScores distal(normal_scores_, uniforms(settings_.seed, steps_, 1));
+    const EndWander& wander = settings_.wander;
+    const double proximal_known_m = ends.proximal_displacement_m - known_.proximal_displacement_m;
+    const double distal_known_m = ends.distal_displacement_m - known_.distal_displacement_m;
+    for (std::size_t j = 0; j < members_.size(); ++j) {
+        CableState& member = members_[j];
+        const double proximal_m = wander.proximal_m > 0.0 ? member.displacement_m.front() + proximal_known_m +
+                                                                wander.proximal_m * proximal[j]
+                                                          : ends.proximal_displacement_m;
+        const double distal_m = wander.distal_m > 0.0 ? member.displacement_m.back() + distal_known_m +
+                                                            wander.distal_m * distal[j]
+                                                      : ends.distal_displacement_m;
+        const StepReport step = model_.advance(
+            member, {EndCondition::position_m(proximal_m), EndCondition::position_m(distal_m)});
+        if (!step.verified) ++report.unverified;
+        if (is_slack(member)) ++report.slack;
+    }
+}
+
+// E37 and E38 for one reading; deviation_N_ is that of the members before it, then after it.
+void RecursiveEstimator::correct(const TensionReading& reading, RecursiveReport& report) {
+    const double count = static_cast<double>(members_.size());
+    double sensed_mean_N = 0.0;
+    for (std::size_t j = 0; j < members_.size(); ++j) {
+        sensed_N_[j] = tension_at_N(members_[j], reading.spot);
+        sensed_mean_N += sensed_N_[j] / count;
+    }
+    double variance = 0.0;
+    for (double& sensed_N : sensed_N_) {
+        sensed_N -= sensed_mean_N;
+        variance += sensed_N * sensed_N / (count - 1.0);
+    }
+    const double noise_N = std::max(reading_deviation_N(reading.noise, sensed_mean_N), smallest_deviation_N);
+    const double total = variance + noise_N * noise_N;
+    // A reading at the end of its range says only that the tension is at least that.
+    const bool saturated = reading.value_N >= reading.noise.range_N;
+    const double innovation_N = reading.value_N - sensed_mean_N;
+    report.log_evidence += -0.5 * (innovation_N * innovation_N / total + std::log(total));
+    if (variance <= 0.0 || (saturated && innovation_N <= 0.0)) return;
+
+    std::fill(gain_.begin(), gain_.end(), 0.0);
+    for (std::size_t j = 0; j < members_.size(); ++j) {
+        const double* tension_N = members_[j].tension_N.data();
+        for (std::size_t node = 0; node < gain_.size(); ++node) gain_[node] += sensed_N_[j] * tension_N[node];
+    }
+    const double share = 1.0 / (1.0 + std::sqrt(noise_N * noise_N / total));
+    for (std::size_t node = 0; node < gain_.size(); ++node) {
+        const double covariance = gain_[node] / (count - 1.0);
+        const double node_variance = deviation_N_[node] * deviation_N_[node];
+        const double squared = covariance * covariance;
+        const double chance = (variance * node_variance - squared) * chance_variances / (count - 2.0);
+        const double gain =
+            squared > chance ? std::min(1.0 - chance / squared, 1.0) * covariance / total : 0.0;
+        gain_[node] = gain;
+        // What the next reading starts from; take_moments() sees to what slack members do not follow.
+        const double pull = share * gain;
+        const double left = node_variance - 2.0 * pull * covariance + pull * pull * variance;
+        deviation_N_[node] = std::sqrt(std::max(left, 0.0));
+    }
+    // Elongations change with tensions (E2's mean of both ends, whatever the rules say of sliding segments).
+    const double half_compliance = 0.5 * model_.cable().segment_compliance_m_per_N();
+    for (std::size_t node = 0; node + 1 < gain_.size(); ++node)
+        gain_m_per_N_[node + 1] = gain_m_per_N_[node] + half_compliance * (gain_[node] + gain_[node + 1]);
+    for (std::size_t j = 0; j < members_.size(); ++j) {
+        if (is_slack(members_[j])) continue;
+        const double pull_N = innovation_N - share * sensed_N_[j];
+        double* tension_N = members_[j].tension_N.data();
+        double* displacement_m = members_[j].displacement_m.data();
+        for (std::size_t node = 0; node < gain_.size(); ++node) {
+            tension_N[node] += gain_[node] * pull_N;
+            displacement_m[node] += gain_m_per_N_[node] * pull_N;
+        }
+    }
+}
+
+// No cable pushes: what a correction made negative is raised to nothing, and the cable beyond moves along.
+void RecursiveEstimator::forbid_pushing() {
+    const double half_compliance = 0.5 * model_.cable().segment_compliance_m_per_N();
+    for (CableState& member : members_) {
+        if (is_slack(member)) continue;
+        double raised_before_N = 0.0;
+        double moved_m = 0.0;
+        double largest_N = 0.0;
+        for (std::size_t node = 0; node < member.tension_N.size(); ++node) {
+            double& tension_N = member.tension_N[node];
+            const double raised_N = std::max(-tension_N, 0.0);
+            if (node > 0) moved_m += half_compliance * (raised_before_N + raised_N);
+            member.displacement_m[node] += moved_m;
+            tension_N = std::max(tension_N, 0.0);
+            largest_N = std::max(largest_N, tension_N);
+            raised_before_N = raised_N;
+        }
+        if (largest_N > 0.0) continue;
+        member.last_motion = {};
+        member.last_motion.kind = MotionKind::slack;
+    }
+}
+
+void RecursiveEstimator::take_moments() {
+    const double count = static_cast<double>(members_.size());
+    std::fill(mean_N_.begin(), mean_N_.end(), 0.0);
+    std::fill(deviation_N_.begin(), deviation_N_.end(), 0.0);
+    for (const CableState& member : members_) {
+        for (std::size_t node = 0; node < mean_N_.size(); ++node) mean_N_[node] += member.tension_N[node];
+    }
+    for (double& mean_N : mean_N_) mean_N /= count;
+    for (const CableState& member : members_) {
+        for (std::size_t node = 0; node < mean_N_.size(); ++node) {
+            const double off_N = member.tension_N[node] - mean_N_[node];
+            deviation_N_[node] += off_N * off_N;
+        }
+    }
+    for (double& deviation_N : deviation_N_) deviation_N = std::sqrt(deviation_N / (count - 1.0));
+}
+
+RecursiveEstimator::Moments RecursiveEstimator::at(const SensorSpot& spot) const {
+    const double count = static_cast<double>(members_.size());
+    Moments moments;
+    for (const CableState& member : members_) moments.mean_N += tension_at_N(member, spot) / count;
+    double squares = 0.0;
+    for (const CableState& member : members_) {
+        const double off_N = tension_at_N(member, spot) - moments.mean_N;
+        squares += off_N * off_N;
+    }
+    moments.deviation_N = std::sqrt(squares / (count - 1.0));
+    return moments;
+}
+
+}  // namespace capstan

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/estimate_words.h"
+#include "capstan/cli/estimated_cycles.h"
+#include "capstan/cli/log_argument.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/page_estimate.h"
+#include "capstan/cli/usage_error.h"
+#include "capstan/gap/recording_reader.h"
+
+namespace capstan::cli {
+
+namespace {
+
+using estimate::SensedCable;
+using estimate::TrackedSample;
+
+std::vector<std::size_t> named_channels(const SensedCable& cable, const std::string& wanted) {
+    std::vector<std::size_t> found;
+    for (std::size_t channel = 0; channel < cable.channels.size(); ++channel) {
+        if (wanted == "each" || wanted == cable.channels[channel].name) found.push_back(channel);
+    }
+    return found;
+}
+
+std::vector<LeftOutCable> left_out_cables(const std::vector<SensedCable>& cables, const std::string& wanted,
+                                          const estimate::TrackingOptions& options) {
+    std::vector<LeftOutCable> results;
+    std::string known;
+    for (const SensedCable& cable : cables) {
+        const std::vector<std::size_t> channels = named_channels(cable, wanted);
+        if (!channels.empty()) results.push_back({&cable, leave_out(cable, channels, options)});
+        for (const auto& channel : cable.channels) known += (known.empty() ? "" : ", ") + channel.name;
+    }
+    if (results.empty()) {
+        throw UsageError(fmt::format(
+            "capstan estimate: no channel \"{}\" tells a tension in this recording; these do: {}; or `each`",
+            wanted, known));
+    }
+    return results;
+}
+
+std::string head_line(const std::vector<SensedCable>& cables) {
+    std::string line = "run,t,cable";
+    const Cable cut(cables.front().specification);
+    for (int node = 0; node < cut.nodes(); ++node) {
+        const double place_m = cut.node_position_m(node);
+        line += fmt::format(",tension_at_{0:.4g}m_N,band_at_{0:.4g}m_N", place_m);
+    }
+    return line + "\n";
+}
+
+void append_cable(std::string& text, const SensedCable& cable, const estimate::WholeEstimate& whole,
+                  const estimate::TrackingOptions& options) {
+    auto out = std::back_inserter(text);
+    track(cable, all_but(cable, {}), whole.trust, options, [&](const TrackedSample& at) {
+        const estimate::SensedRun& run = cable.runs[at.run];
+        fmt::format_to(out, "{},{},{}", run.number, run.time_s[at.sample], cable.name);
+        for (std::size_t node = 0; node < at.estimator.mean_N().size(); ++node) {
+            const double mean_N = at.estimator.mean_N()[node];
+            const double band_N =
+                estimate::band_N({mean_N, at.estimator.deviation_N()[node]}, whole.widening);
+            fmt::format_to(out, ",{:.6g},{:.4g}", mean_N, band_N);
+        }
+        text += "\n";
+    });
+}
+
+ExitCode run(const Invocation& invocation) {
+    if (!names_a_recording(invocation.argument("LOG"))) return estimate_cycles(invocation);
+    const gap::Recording recording = gap::read_recording(invocation.argument("LOG"));
+    std::vector<SensedCable> cables =
+        estimate::sensed_cables(recording, static_cast<int>(invocation.whole("segments")));
+    estimate::TrackingOptions options;
+    options.members = static_cast<int>(invocation.whole("members"));
+    if (invocation.has("seed")) options.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
+    options.jobs = static_cast<int>(invocation.whole("jobs"));
+    if (invocation.has("leave-out")) {
+        const auto results = left_out_cables(cables, invocation.text("leave-out"), options);
+        deliver_page(invocation, [&] {
+            return reports::experiment_page_html(left_out_page(recording, results, options));
+        });
+        deliver(invocation, invocation.has("json") ? left_out_json(recording, results)
+                                                   : left_out_words(recording, results));
+        return ExitCode::success;
+    }
+    std::vector<estimate::WholeEstimate> wholes;
+    for (const SensedCable& cable : cables) wholes.push_back(prepare_whole(cable, options));
+    deliver_page(invocation, [&] {
+        return reports::experiment_page_html(whole_page(recording, cables, wholes, options));
+    });
+    if (invocation.has("json")) {
+        deliver(invocation, whole_json(recording, cables, wholes));
+        return ExitCode::success;
+    }
+    std::string text = head_line(cables);
+    for (std::size_t c = 0; c < cables.size(); ++c) append_cable(text, cables[c], wholes[c], options);
+    deliver(invocation, text);
+    return ExitCode::success;
+}
+
+const Option leave_out_option{
+    "leave-out", '\0', OptionKind::text, "CHANNEL",
+    "Predict this channel from all the others and compare with what it read; `each`: every one in turn."};
+
+const Option cut_option{"segments", '\0', OptionKind::whole_number, "N", "Segments to a cable.", "40", {},
+                        2,          1000};
+
+const Option members_option{"members",
+                            '\0',
+                            OptionKind::whole_number,
+                            "N",
+                            "States that stand for what the cable may be doing: a power of two.",
+                            "32",
+                            {},
+                            8,
+                            1024};
+
+}  // namespace
+
+Command estimate_command() {
+    return {
+        "estimate",
+        "Estimate the tension everywhere over time from a recording's few sensors.",
+        "Runs the recursive estimator over each run of a recording: the model is moved with the measured angles, its "
+        "previous state is its own last estimate, and every channel that tells a tension corrects it. Writes CSV: the "
+        "tension at every node of every cable that carries a sensor, and half the width of its 95% band. How far the "
+        "model is trusted is chosen by how likely it makes the readings used; the band is widened by what predicting "
+        "each channel from the others shows. With --leave-out, predicts channels that it is not shown and prints the "
+        "error, the channel's noise, how often the reading was within the 95% band, and what the model alone and the "
+        "paper's estimators, started from their own estimates, make of the same samples. With a study's configuration: simulates its whole motion and scores each of its layouts by "
+        "the mean error of this estimator and of the paper's over it (--repetitions draws of noise, 20 if not given).",
+        {Argument{"LOG",
+                  "A recording (NAME.csv with NAME.json beside it), or a study's configuration (TOML)."}},
+        {leave_out_option, cut_option, members_option, repetitions_option, seed_option, jobs_option,
+         output_option, json_option, page_option, help_option},
+        {"capstan estimate bench.csv -o tensions.csv --html tensions.html",
+         "capstan estimate bench.csv --leave-out each",
+         "capstan estimate bench.csv --leave-out tension_2 --json", "capstan estimate configs/paper.toml"},
+        run};
+}
+
+}  // namespace capstan::cli

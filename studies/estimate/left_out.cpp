@@ -1,0 +1,145 @@
+#include "capstan/estimate/left_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/estimate/paper_tracking.h"
+#include "capstan/parallel/parallel_for.h"
+
+namespace capstan::estimate {
+
+namespace {
+
+constexpr double two_sided_95 = 1.959964;
+
+// The squared model error, in parts of the tension, that one reading asks for so as to be just within the
+// band.
+void add_asked(const SensedCable& cable, const ChannelSet& used, std::size_t predicted,
+               const ModelTrust& trust, const TrackingOptions& options, std::vector<double>& asked) {
+    const SensedChannel& channel = cable.channels[predicted];
+    const Cable cut([&] {
+        CableSpecification specification = cable.specification;
+        specification.pretension_N = cable.runs.front().pretension_N;
+        return specification;
+    }());
+    const SensorSpot spot = spot_at(cut, channel.position_m);
+    track(cable, used, trust, options, [&](const TrackedSample& at) {
+        const RecursiveEstimator::Moments moments = at.estimator.at(spot);
+        const double error_N = cable.runs[at.run].reading_N[predicted][at.sample] - moments.mean_N;
+        const double within = std::pow(error_N / two_sided_95, 2) - std::pow(moments.deviation_N, 2) -
+                              std::pow(channel.noise_N, 2);
+        // A slack cable's error is no part of its tension; a newton keeps the ratio finite.
+        const double tension_N = std::max(moments.mean_N, 1.0);
+        asked.push_back(std::max(within, 0.0) / (tension_N * tension_N));
+    });
+}
+
+// E39.
+double widening_of(std::vector<double> asked) {
+    if (asked.empty()) return 0.0;
+    const auto place = asked.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(asked.size()));
+    std::nth_element(asked.begin(), place, asked.end());
+    return std::sqrt(*place);
+}
+
+double model_alone_rms_N(const SensedCable& cable, std::size_t predicted, const SensorSpot& spot) {
+    double squares = 0.0;
+    long samples = 0;
+    TrackingOptions one_is_enough;
+    one_is_enough.members = 8;
+    track(cable, {}, {0.0, 0.0}, one_is_enough, [&](const TrackedSample& at) {
+        squares +=
+            std::pow(cable.runs[at.run].reading_N[predicted][at.sample] - at.estimator.at(spot).mean_N, 2);
+        ++samples;
+    });
+    return std::sqrt(squares / static_cast<double>(samples));
+}
+
+LeftOutChannel left_out(const SensedCable& cable, std::size_t predicted, const TrackingOptions& options) {
+    LeftOutChannel result;
+    result.channel = predicted;
+    const std::size_t one[] = {predicted};
+    const ChannelSet used = all_but(cable, one);
+    result.trust = most_likely_trust(cable, used, options);
+    std::vector<double> asked;
+    if (used.size() >= 2) {
+        for (const std::size_t other : used) {
+            const std::size_t two[] = {predicted, other};
+            add_asked(cable, all_but(cable, two), other, result.trust, options, asked);
+        }
+    }
+    result.widening_known = used.size() >= 2;
+    result.widening = widening_of(std::move(asked));
+
+    const SensedChannel& channel = cable.channels[predicted];
+    CableSpecification specification = cable.specification;
+    specification.pretension_N = cable.runs.front().pretension_N;
+    const SensorSpot spot = spot_at(Cable(specification), channel.position_m);
+    long samples = 0;
+    long within = 0;
+    long within_plain = 0;
+    double squares = 0.0;
+    const TrackingSummary summary = track(cable, used, result.trust, options, [&](const TrackedSample& at) {
+        const RecursiveEstimator::Moments moments = at.estimator.at(spot);
+        const double error_N = std::abs(cable.runs[at.run].reading_N[predicted][at.sample] - moments.mean_N);
+        const double noise_N = two_sided_95 * channel.noise_N;
+        const double half_N = std::hypot(band_N(moments, result.widening), noise_N);
+        within += error_N <= half_N;
+        within_plain += error_N <= std::hypot(band_N(moments, 0.0), noise_N);
+        squares += error_N * error_N;
+        result.mean_band_N += half_N;
+        ++samples;
+    });
+    const double count = static_cast<double>(samples);
+    result.rms_N = std::sqrt(squares / count);
+    result.coverage = static_cast<double>(within) / count;
+    result.plain_coverage = static_cast<double>(within_plain) / count;
+    result.mean_band_N /= count;
+    result.unverified_share =
+        static_cast<double>(summary.unverified) / static_cast<double>(summary.steps * options.members);
+    result.model_alone_rms_N = model_alone_rms_N(cable, predicted, spot);
+    result.paper_mean_rms_N = paper_rms_N(cable, used, predicted, mean_method);
+    result.paper_mean_r_rms_N = paper_rms_N(cable, used, predicted, mean_r_method);
+    return result;
+}
+
+}  // namespace
+
+double band_N(const RecursiveEstimator::Moments& moments, double widening) {
+    return two_sided_95 * std::hypot(moments.deviation_N, widening * moments.mean_N);
+}
+
+std::vector<LeftOutChannel> leave_out(const SensedCable& cable, const std::vector<std::size_t>& channels,
+                                      const TrackingOptions& options) {
+    if (cable.channels.size() < 2) {
+        throw InvalidInput({"cable " + cable.name + " has one tension channel only, " +
+                            cable.channels.front().name +
+                            "; leaving it out leaves nothing to predict it from. Record at least two"});
+    }
+    std::vector<LeftOutChannel> results(channels.size());
+    parallel_for_each_index(static_cast<int>(channels.size()), options.jobs, [&](int k) {
+        const auto index = static_cast<std::size_t>(k);
+        results[index] = left_out(cable, channels[index], options);
+    });
+    return results;
+}
+
+WholeEstimate prepare_whole(const SensedCable& cable, const TrackingOptions& options) {
+    WholeEstimate whole;
+    const ChannelSet all = all_but(cable, {});
+    whole.trust = most_likely_trust(cable, all, options);
+    whole.widening_known = all.size() >= 2;
+    if (!whole.widening_known) return whole;
+    std::vector<std::vector<double>> asked(all.size());
+    parallel_for_each_index(static_cast<int>(all.size()), options.jobs, [&](int k) {
+        const std::size_t predicted[] = {static_cast<std::size_t>(k)};
+        add_asked(cable, all_but(cable, predicted), predicted[0], whole.trust, options, asked[predicted[0]]);
+    });
+    std::vector<double> pooled;
+    for (const std::vector<double>& one : asked) pooled.insert(pooled.end(), one.begin(), one.end());
+    whole.widening = widening_of(std::move(pooled));
+    return whole;
+}
+
+}  // namespace capstan::estimate

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/estimation/recursive_estimator.h"
+#include "capstan/gap/recording.h"
+
+namespace capstan::estimate {
+
+/// A channel of a recording that says what the tension is at one place of a cable.
+struct SensedChannel {
+    std::string name;
+    double position_m = 0.0;  ///< from the motor end
+    double noise_N = 0.0;     ///< standard deviation of one sample
+};
+
+struct SensedRun {
+    int number = 0;
+    std::string protocol;
+    double pretension_N = 0.0;
+    std::vector<double> time_s;                  // samples
+    std::vector<KnownEnds> ends;                 // samples
+    std::vector<std::vector<double>> reading_N;  // channels x samples
+};
+
+/// One cable of a recorded bench: what moved its ends, and what was read of its tension.
+struct SensedCable {
+    std::string name;  ///< "A", "B"
+    CableSpecification specification;
+    std::vector<SensedChannel> channels;
+    std::vector<SensedRun> runs;
+};
+
+/// Every cable of a recording that carries a tension sensor, cut into `segments`. Both ends move with the
+/// measured pulley angles, freed of noise (E15); a single cable's far end stays. A single cable's torque
+/// channels that drive nothing are tensions at its ends too; those of a pair tell of both cables together
+/// and are not used. Noise that the sidecar does not state is estimated. Throws InvalidInput if there is no
+/// tension sensor, no geometry, or an end whose motion nobody measured.
+std::vector<SensedCable> sensed_cables(const gap::Recording& recording, int segments);
+
+}  // namespace capstan::estimate

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "capstan/estimate/sensed_cable.h"
+
+namespace capstan::estimate {
+
+/// What the estimator is told of the model's own errors, the same for every node (E36, E11).
+struct ModelTrust {
+    double wander_m = 0.0;     ///< of each end in one sample beyond its measured motion, standard deviation
+    double error_ratio = 0.0;  ///< of a reading, beyond its noise, in parts of the tension
+};
+
+struct TrackingOptions {
+    int members = 32;
+    std::uint64_t seed = 1;
+    int jobs = 1;
+};
+
+/// One sample of a run, with the estimator as it stands after that sample.
+struct TrackedSample {
+    std::size_t run = 0;
+    std::size_t sample = 0;
+    const RecursiveEstimator& estimator;
+};
+
+/// Which channels of a cable the estimator reads, by index.
+using ChannelSet = std::vector<std::size_t>;
+ChannelSet all_but(const SensedCable& cable, std::span<const std::size_t> left_out);
+
+struct TrackingSummary {
+    double log_evidence = 0.0;  ///< of the readings used (E38), all runs
+    long unverified = 0;        ///< closed-form steps that did not verify, over members
+    long steps = 0;
+};
+
+/// Runs the recursive estimator over every run, each from its own pretension, and shows each sample.
+TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const ModelTrust& trust,
+                      const TrackingOptions& options,
+                      const std::function<void(const TrackedSample&)>& show = {});
+
+/// The trust under which the readings used are most likely (E38), from a fixed grid: first the wander, then
+/// the error ratio, then the wander again. Looks at no other channel.
+ModelTrust most_likely_trust(const SensedCable& cable, const ChannelSet& used,
+                             const TrackingOptions& options);
+
+}  // namespace capstan::estimate

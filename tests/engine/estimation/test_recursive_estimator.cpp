@@ -1,0 +1,202 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/estimation/recursive_estimator.h"
+#include "capstan/sensing/random_stream.h"
+#include "example_cables.h"
+
+namespace capstan {
+namespace {
+
+constexpr int steps_per_cycle = 100;
+
+// The paper's motion: 1 cm at the proximal end, slack for an instant once a cycle.
+double proximal_m(const Cable& cable, int step) {
+    return pretensioned(cable).displacement_m.front() +
+           0.01 * std::sin(2.0 * std::numbers::pi * step / steps_per_cycle);
+}
+
+struct Trial {
+    std::vector<int> sensors;
+    NoiseLevel noise;
+    EndWander wander;            // what the estimator is told
+    double true_wander_m = 0.0;  // of the distal end
+    int cycles = 1;
+    std::uint32_t repetition = 0;
+};
+
+struct AtNode {
+    double error_N = 0.0;
+    double deviation_N = 0.0;
+};
+
+// Simulates the truth and the estimator side by side; `judge` sees every node of every step.
+void run_trial(const QuasiStaticStep& model, const Trial& trial, const std::function<void(AtNode)>& judge) {
+    CableState truth = pretensioned(model.cable());
+    RecursiveSettings settings;
+    settings.wander = trial.wander;
+    settings.seed = 100 + trial.repetition;
+    RecursiveEstimator estimator(model, truth, settings);
+    double distal_m = 0.0;
+    for (int step = 1; step <= trial.cycles * steps_per_cycle; ++step) {
+        const DrawAddress address{7, static_cast<std::uint32_t>(step), trial.repetition};
+        const RandomAddress motion{99, RandomPurpose::reading_noise, static_cast<std::uint32_t>(step),
+                                   trial.repetition, 1000};
+        distal_m += trial.true_wander_m * standard_normals(motion)[0];
+        const double near_m = proximal_m(model.cable(), step);
+        model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(distal_m)});
+        std::vector<double> all_N(truth.tension_N.size());
+        read_tensions(trial.noise, draw_readings(address, model.cable().nodes()), truth.tension_N, all_N);
+        std::vector<TensionReading> readings;
+        for (const int node : trial.sensors) {
+            readings.push_back(
+                {spot_of_node(model.cable(), node), all_N[static_cast<std::size_t>(node)], trial.noise});
+        }
+        estimator.step({near_m, 0.0}, readings);
+        for (std::size_t node = 0; node < truth.tension_N.size(); ++node) {
+            judge({estimator.mean_N()[node] - truth.tension_N[node], estimator.deviation_N()[node]});
+        }
+    }
+}
+
+struct Tally {
+    double mean_error_N = 0.0;
+    double coverage = 0.0;
+};
+
+Tally tally(const QuasiStaticStep& model, Trial trial, int repetitions) {
+    double errors_N = 0.0;
+    double within = 0.0;
+    double count = 0.0;
+    for (int repetition = 0; repetition < repetitions; ++repetition) {
+        trial.repetition = static_cast<std::uint32_t>(repetition);
+        run_trial(model, trial, [&](const AtNode& at) {
+            errors_N += std::abs(at.error_N);
+            within += std::abs(at.error_N) <= 1.96 * at.deviation_N + 1e-9;
+            ++count;
+        });
+    }
+    return {errors_N / count, within / count};
+}
+
+const QuasiStaticStep& paper_model() {
+    static const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
+    return model;
+}
+
+TEST(RecursiveEstimator, WithBothEndsKnownItIsTheModelWhateverTheReadingsSay) {
+    Trial trial;
+    trial.sensors = {3};
+    trial.noise.additive_N = 5.0;
+    trial.cycles = 2;
+    run_trial(paper_model(), trial, [](const AtNode& at) {
+        ASSERT_NEAR(at.error_N, 0.0, 1e-9);
+        ASSERT_NEAR(at.deviation_N, 0.0, 1e-9);
+    });
+}
+
+// A far end that moves unseen, and the readings are the answer. Not to the last bit: a gain counts only by how
+// far its correlation is beyond chance, so that a step takes a little less than the whole correction.
+TEST(RecursiveEstimator, WithoutNoiseAndASensorAtEveryNodeItIsRightToMillinewtons) {
+    Trial trial;
+    for (int node = 0; node <= 10; ++node) trial.sensors.push_back(node);
+    trial.wander.distal_m = 1e-4;
+    trial.true_wander_m = 1e-4;
+    EXPECT_LT(tally(paper_model(), trial, 4).mean_error_N, 5e-3);
+}
+
+// The truth is drawn from what the estimator is told. Members are few and the posterior is not normal: 93
+// to 97.
+TEST(RecursiveEstimator, The95PercentBandHoldsTheTruthOnSimulatedCycles) {
+    for (const std::vector<int>& sensors : {std::vector{10}, std::vector{4, 7, 10}, std::vector{0, 10}}) {
+        for (const double wander_m : {3e-5, 1e-4}) {
+            Trial trial;
+            trial.sensors = sensors;
+            trial.noise.multiplicative_ratio = 0.1;
+            trial.wander.distal_m = wander_m;
+            trial.true_wander_m = wander_m;
+            trial.cycles = 2;
+            const Tally result = tally(paper_model(), trial, 60);
+            EXPECT_GE(result.coverage, 0.93) << sensors.size() << " sensors, wander " << wander_m;
+            EXPECT_LE(result.coverage, 0.97) << sensors.size() << " sensors, wander " << wander_m;
+        }
+    }
+}
+
+TEST(RecursiveEstimator, ReadingsLowerTheErrorAndMoreReadingsLowerItMore) {
+    Trial trial;
+    trial.noise.multiplicative_ratio = 0.1;
+    trial.wander.distal_m = 1e-4;
+    trial.true_wander_m = 1e-4;
+    trial.cycles = 2;
+    const double none_N = tally(paper_model(), trial, 20).mean_error_N;
+    trial.sensors = {10};
+    const double one_N = tally(paper_model(), trial, 20).mean_error_N;
+    trial.sensors = {2, 6, 10};
+    const double three_N = tally(paper_model(), trial, 20).mean_error_N;
+    EXPECT_LT(one_N, 0.7 * none_N);
+    EXPECT_LT(three_N, one_N);
+}
+
+TEST(RecursiveEstimator, GivesTheSameBitsTwiceAndOthersForAnotherSeed) {
+    Trial trial;
+    trial.sensors = {10};
+    trial.noise.multiplicative_ratio = 0.1;
+    trial.wander = {1e-5, 1e-4};
+    const auto errors = [&](std::uint32_t repetition) {
+        trial.repetition = repetition;
+        std::vector<double> all;
+        run_trial(paper_model(), trial, [&](const AtNode& at) { all.push_back(at.error_N); });
+        return all;
+    };
+    EXPECT_EQ(errors(1), errors(1));
+    EXPECT_NE(errors(1), errors(2));
+}
+
+// What a member's tensions and displacements are after a correction is a state that the next step can take.
+TEST(RecursiveEstimator, TensionsStayPositiveWhereReadingsAreFarOff) {
+    const CableState start = pretensioned(paper_model().cable());
+    RecursiveSettings settings;
+    settings.wander.distal_m = 1e-4;
+    RecursiveEstimator estimator(paper_model(), start, settings);
+    for (int step = 1; step <= steps_per_cycle; ++step) {
+        TensionReading reading{spot_of_node(paper_model().cable(), 10), step % 2 ? -50.0 : 200.0, {}};
+        reading.noise.additive_N = 1.0;
+        estimator.step({proximal_m(paper_model().cable(), step), 0.0}, {&reading, 1});
+        for (const double mean_N : estimator.mean_N()) {
+            ASSERT_TRUE(std::isfinite(mean_N));
+            ASSERT_GE(mean_N, 0.0);
+        }
+    }
+}
+
+TEST(RecursiveEstimator, RefusesWhatItCannotUse) {
+    const CableState start = pretensioned(paper_model().cable());
+    RecursiveSettings settings;
+    settings.members = 30;
+    settings.wander.distal_m = -1.0;
+    try {
+        RecursiveEstimator(paper_model(), start, settings);
+        FAIL();
+    } catch (const InvalidInput& refusal) {
+        EXPECT_EQ(refusal.problems().size(), 2u) << refusal.what();
+    }
+    EXPECT_THROW(RecursiveEstimator(paper_model(), pretensioned(test::paper_cable(11)), {}), InvalidInput);
+
+    RecursiveEstimator estimator(paper_model(), start, {});
+    const std::vector<double> before(estimator.mean_N().begin(), estimator.mean_N().end());
+    const TensionReading no_number{
+        spot_of_node(paper_model().cable(), 3), std::numeric_limits<double>::quiet_NaN(), {}};
+    const TensionReading beyond{{10, 0.0}, 10.0, {}};
+    EXPECT_THROW(estimator.step({start.displacement_m.front(), 0.0}, {&no_number, 1}), InvalidInput);
+    EXPECT_THROW(estimator.step({start.displacement_m.front(), 0.0}, {&beyond, 1}), InvalidInput);
+    EXPECT_EQ(before, std::vector<double>(estimator.mean_N().begin(), estimator.mean_N().end()));
+}
+
+}  // namespace
+}  // namespace capstan

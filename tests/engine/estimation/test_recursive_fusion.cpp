@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/estimation/recursive_fusion.h"
+#include "example_cables.h"
+
+namespace capstan {
+namespace {
+
+double proximal_m(const Cable& cable, int step) {
+    return pretensioned(cable).displacement_m.front() + 0.006 * std::sin(2.0 * std::numbers::pi * step / 100);
+}
+
+// Mean error over the first quarter cycle and all nodes, distal end blocked, readings without noise.
+double mean_error_N(const FusionMethod& method, const std::vector<int>& sensors, double factor) {
+    const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
+    CableState truth = pretensioned(model.cable());
+    RecursiveFusion fusion(model, truth, method, DistalSide::excluded);
+    double sum_N = 0.0;
+    int count = 0;
+    for (int step = 1; step <= 25; ++step) {
+        const double near_m = proximal_m(model.cable(), step);
+        model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(0.0)});
+        std::vector<NodeReading> readings;
+        for (const int node : sensors)
+            readings.push_back({node, factor * truth.tension_N[static_cast<std::size_t>(node)]});
+        fusion.step(near_m, readings);
+        for (std::size_t node = 0; node < truth.tension_N.size(); ++node) {
+            sum_N += std::abs(fusion.estimate().tension_N[node] - truth.tension_N[node]);
+            ++count;
+        }
+    }
+    return sum_N / count;
+}
+
+TEST(RecursiveFusion, WithOneSensorMeanAndMeanRAreTheSame) {
+    EXPECT_EQ(mean_error_N(mean_method, {0}, 1.05), mean_error_N(mean_r_method, {0}, 1.05));
+}
+
+TEST(RecursiveFusion, ErrorsOfReadingsComeBackInTheEstimate) {
+    const double exact_N = mean_error_N(mean_method, {0, 1}, 1.0);
+    const double off_N = mean_error_N(mean_method, {0, 1}, 1.2);
+    EXPECT_GT(off_N, exact_N);
+}
+
+TEST(RecursiveFusion, RefusesWeightsNoReadingsAndNodesBeyondTheCable) {
+    const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
+    const CableState start = pretensioned(model.cable());
+    EXPECT_THROW(RecursiveFusion(model, start, weighted_mean_method, DistalSide::excluded), InvalidInput);
+    EXPECT_THROW(RecursiveFusion(model, start, posterior_mean_method, DistalSide::excluded), InvalidInput);
+    RecursiveFusion fusion(model, start, mean_method, DistalSide::excluded);
+    EXPECT_THROW(fusion.step(0.0, {}), InvalidInput);
+    const NodeReading beyond{11, 10.0};
+    EXPECT_THROW(fusion.step(0.0, {&beyond, 1}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace capstan
