@@ -50,7 +50,8 @@ StudyStatus status_of(const std::string& named) {
     }
     const bool merged = std::filesystem::exists(directory.merged_file());
     const bool begun = std::filesystem::exists(directory.merge_log());
-    status.merge = {state_of(merged, begun, queue.merge, status.slurm), {}, queue.merge};
+    status.merge.state = state_of(merged, begun, queue.merge, status.slurm);
+    status.merge.task = queue.merge;
     return status;
 }
 
