@@ -12,6 +12,10 @@ constexpr double contact_Nm_per_rad = 5e3;
 // Bristles of a pulley's bearing: as the cable's, at a radius of some centimetres.
 constexpr double bearing_presliding_rad = 1e-4;
 constexpr double bearing_speed_rad_per_s = 0.01;
+// Newmark's method, slightly damped, so that contact does not ring on.
+constexpr double newmark_damping = 0.05;
+constexpr double newmark_beta = 0.25 * (1.0 + newmark_damping) * (1.0 + newmark_damping);
+constexpr double newmark_gamma = 0.5 + newmark_damping;
 
 // Torque through a joint with lost motion, for an angle across it.
 double beyond_gap_rad(double angle_rad, double half_gap_rad) {
@@ -112,16 +116,13 @@ Torque BenchPulleys::load_balance(const BenchInputs& inputs, double angle_rad) c
     return {-lost.value_Nm - taken.value_Nm, -lost.per_rad - taken.per_rad};
 }
 
-// Slightly damped, so that contact does not ring on.
 BenchPulleys::Swing BenchPulleys::swung(const Pulley& pulley, double angle_rad, double time_step_s) {
-    constexpr double damping = 0.05;
-    constexpr double beta = 0.25 * (1.0 + damping) * (1.0 + damping);
-    constexpr double gamma = 0.5 + damping;
     const auto [speed, acceleration] = pulley.swing;
     const double h = time_step_s;
     const double now =
-        (angle_rad - pulley.angle_rad - h * speed - h * h * (0.5 - beta) * acceleration) / (beta * h * h);
-    return {speed + h * ((1.0 - gamma) * acceleration + gamma * now), now};
+        (angle_rad - pulley.angle_rad - h * speed - h * h * (0.5 - newmark_beta) * acceleration) /
+        (newmark_beta * h * h);
+    return {speed + h * ((1.0 - newmark_gamma) * acceleration + newmark_gamma * now), now};
 }
 
 // Of the motor's unmodelled inertia, at an angle that it finds for itself or is given.
@@ -131,10 +132,8 @@ Torque BenchPulleys::swing_torque(const BenchInputs& inputs, double angle_rad) c
     if (!motor_is_free(inputs))
         return {inertia_kg_m2 * ((angle_rad - motor_.angle_rad) / h - motor_.speed_rad_per_s) / h,
                 inertia_kg_m2 / (h * h)};
-    constexpr double damping = 0.05;
-    constexpr double beta = 0.25 * (1.0 + damping) * (1.0 + damping);
     return {inertia_kg_m2 * swung(motor_, angle_rad, h).acceleration_rad_per_s2,
-            inertia_kg_m2 / (beta * h * h)};
+            inertia_kg_m2 / (newmark_beta * h * h)};
 }
 
 void BenchPulleys::turn(Pulley& pulley, double angle_rad, double time_step_s) {
