@@ -108,19 +108,26 @@ std::vector<Effect> friction_places() {
     };
 }
 
-Effect load_pulley_friction(const std::string& variant, bool holds_at_rest) {
-    return {"pulley_friction",
-            variant,
-            "end friction",
-            "load_pulley",
-            "load",
-            "E27",
-            "friction of the load pulley's bearing",
-            {{"coulomb", "N m", 0.0, 10.0, 0.05}, {"viscous", "N m s", 0.0, 10.0, 1e-2}},
-            {0.0, 0.0},
-            [holds_at_rest](BenchEffects& effects, Values p) {
-                effects.load_friction = {p[0], p[1], holds_at_rest};
-            }};
+std::vector<Effect> load_pulley_friction() {
+    Effect fades = {"pulley_friction",
+                    "load",
+                    "end friction",
+                    "load_pulley",
+                    "load",
+                    "E27",
+                    "friction of the load pulley's bearing, which fades at rest",
+                    {{"coulomb", "N m", 0.0, 10.0, 0.05}, {"viscous", "N m s", 0.0, 10.0, 1e-2}},
+                    {0.0, 0.0},
+                    [](BenchEffects& effects, Values p) {
+                        effects.load_friction = {p[0], p[1]};
+                    }};
+    Effect holds = fades;
+    holds.variant = "load holding";
+    holds.meaning = "friction of the load pulley's bearing, which holds at rest";
+    holds.parameters.push_back({"presliding", "rad", 1e-5, 0.1, 2e-4});
+    holds.absent.push_back(2e-4);
+    holds.apply = [](BenchEffects& effects, Values p) { effects.load_friction = {p[0], p[1], p[2]}; };
+    return {fades, holds};
 }
 
 std::vector<Effect> ends() {
@@ -137,8 +144,8 @@ std::vector<Effect> ends() {
          [](BenchEffects& effects, Values p) {
              effects.motor_friction = {p[0], p[1]};
          }},
-        load_pulley_friction("load", false),
-        load_pulley_friction("load holding", true),
+        load_pulley_friction()[0],
+        load_pulley_friction()[1],
         {"motor_cogging",
          "",
          "actuator",

@@ -17,6 +17,10 @@ constexpr double newmark_damping = 0.05;
 constexpr double newmark_beta = 0.25 * (1.0 + newmark_damping) * (1.0 + newmark_damping);
 constexpr double newmark_gamma = 0.5 + newmark_damping;
 
+Presliding bristles_of(const PulleyFriction& friction) {
+    return {friction.presliding_rad > 0.0 ? friction.presliding_rad : bearing_presliding_rad, 0.0};
+}
+
 // Torque through a joint with lost motion, for an angle across it.
 double beyond_gap_rad(double angle_rad, double half_gap_rad) {
     return angle_rad > half_gap_rad    ? angle_rad - half_gap_rad
@@ -55,7 +59,7 @@ Torque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const PulleyF
     Bristle sign;  // of the motion, and how it goes with the angle
     switch (bearing) {
         case Bearing::finds_its_angle:
-            sign = Presliding{bearing_presliding_rad, 0.0}.after(pulley.bristle, turned_rad);
+            sign = bristles_of(friction).after(pulley.bristle, turned_rad);
             break;
         case Bearing::is_turned:
             sign.bend = std::tanh(speed / bearing_speed_rad_per_s);
@@ -71,7 +75,7 @@ Torque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const PulleyF
 // A pulley whose angle is prescribed cannot creep, and its encoder knows little of the first tenth of a
 // milliradian.
 BenchPulleys::Bearing BenchPulleys::bearing_of(bool free, const PulleyFriction& friction) {
-    return free || friction.holds_at_rest ? Bearing::finds_its_angle : Bearing::is_turned;
+    return free || friction.presliding_rad > 0.0 ? Bearing::finds_its_angle : Bearing::is_turned;
 }
 
 Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) const {
@@ -136,9 +140,10 @@ Torque BenchPulleys::swing_torque(const BenchInputs& inputs, double angle_rad) c
             inertia_kg_m2 / (newmark_beta * h * h)};
 }
 
-void BenchPulleys::turn(Pulley& pulley, double angle_rad, double time_step_s) {
+void BenchPulleys::turn(Pulley& pulley, const PulleyFriction& friction, double angle_rad,
+                        double time_step_s) {
     const double turned_rad = angle_rad - pulley.angle_rad;
-    pulley.bristle = Presliding{bearing_presliding_rad, 0.0}.after(pulley.bristle, turned_rad).bend;
+    pulley.bristle = bristles_of(friction).after(pulley.bristle, turned_rad).bend;
     pulley.swing = swung(pulley, angle_rad, time_step_s);
     pulley.speed_rad_per_s = turned_rad / time_step_s;
     pulley.angle_rad = angle_rad;
@@ -172,8 +177,8 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
                                            : pulleys_.load_radius_m * load_pull_N +
                                                  load_balance(inputs, angles.load_rad).value_Nm;
     load_.encoder_rad = held != nullptr ? held->angle_rad : angles.load_rad;
-    turn(motor_, angles.motor_rad, inputs.time_step_s);
-    turn(load_, angles.load_rad, inputs.time_step_s);
+    turn(motor_, effects_.motor_friction, angles.motor_rad, inputs.time_step_s);
+    turn(load_, effects_.load_friction, angles.load_rad, inputs.time_step_s);
 }
 
 }  // namespace capstan

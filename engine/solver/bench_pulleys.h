@@ -81,7 +81,7 @@ class BenchPulleys {
     static Bearing bearing_of(bool free, const PulleyFriction& friction);
     static Torque losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
                          double inertia_kg_m2, double angle_rad, double time_step_s);
-    static void turn(Pulley& pulley, double angle_rad, double time_step_s);
+    static void turn(Pulley& pulley, const PulleyFriction& friction, double angle_rad, double time_step_s);
     static Swing swung(const Pulley& pulley, double angle_rad, double time_step_s);
     Torque swing_torque(const BenchInputs& inputs, double angle_rad) const;
     double load_inertia_kg_m2(const BenchInputs& inputs) const;
