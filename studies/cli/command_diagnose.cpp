@@ -57,7 +57,8 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
     const gap::RankedEffect& first = diagnosis.ranked.front();
     if (first.effect == "none") return "No gap: what is left is noise and the model's own floor.";
     if (first.effect == "unknown")
-        return "There is a gap, and none of the known effects explains enough of it.";
+        return "There is a gap, and none of the known effects explains enough of it; below is what the best of "
+               "them does.";
     if (diagnosis.causes.size() > 1)
         return fmt::format("Two causes together: {} and {}.", diagnosis.causes[0].effect,
                            diagnosis.causes[1].effect);
@@ -69,13 +70,33 @@ std::string closed_in_words(const ChannelGap& channel) {
     return fmt::format("{:.2f} ({:.2f} to {:.2f})", channel.closed, channel.closed_low, channel.closed_high);
 }
 
+std::string explanation_in_words(const std::vector<std::string>& effects) {
+    return fmt::format("{}", fmt::join(effects, " with "));
+}
+
+// Which explanations remain, and what would decide between them; empty where the recording decides.
+std::string next_experiment_in_words(const gap::Indistinct& indistinct) {
+    if (indistinct.group.size() < 2) return "";
+    std::vector<std::string> group;
+    for (const auto& effects : indistinct.group) group.push_back(explanation_in_words(effects));
+    std::string text = fmt::format("This recording does not tell apart: {}.", fmt::join(group, "; "));
+    constexpr double helps = 0.8;
+    if (indistinct.experiments.empty() || indistinct.experiments.front().told_apart < helps)
+        return text + " None of the experiments tried in simulation would.";
+    const gap::ExperimentScore& best = indistinct.experiments.front();
+    return text + fmt::format(" Record next: {}. It would name the right one with probability {:.2f}.",
+                              best.description, best.told_apart);
+}
+
 std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis) {
     std::string text = fmt::format("{}: {}\n", recording.name, verdict_sentence(diagnosis));
     if (!diagnosis.component.empty() && diagnosis.component != "none")
         text += fmt::format("  where     {}\n", where_in_words(diagnosis));
-    for (const FittedCause& cause : diagnosis.causes)
+    for (const FittedCause& cause : diagnosis.causes) {
+        if (cause.numbers.empty()) continue;  // a wrong nominal number: the next line
         text += fmt::format("  fitted    {}{}{}: {}\n", cause.effect, cause.variant.empty() ? "" : ", ",
                             cause.variant, numbers_in_words(cause));
+    }
     text += fmt::format("  nominal   friction x {:.3f}, stiffness x {:.3f}, pretension x {:.3f}\n",
                         diagnosis.friction_ratio, diagnosis.stiffness_ratio, diagnosis.pretension_ratio);
     text += fmt::format("  largest   in run {}, channel {}\n\n  probability of each\n",
@@ -91,7 +112,9 @@ std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis
             fmt::format("  {:<14} {:>5} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3g}  {}\n", channel.channel,
                         channel.unit, channel.noise, channel.before_rms, channel.after_rms,
                         channel.held_out_rms, channel.runner_up_rms, closed_in_words(channel));
-    return text + "\n" + wrapped(gap::gap_sentence(diagnosis.gap.map), 100, "  ", "  ") + "\n";
+    text += "\n" + wrapped(gap::gap_sentence(diagnosis.gap.map), 100, "  ", "  ") + "\n";
+    const std::string next = next_experiment_in_words(diagnosis.indistinct);
+    return next.empty() ? text : text + "\n" + wrapped(next, 100, "  ", "  ") + "\n";
 }
 
 ordered_json number_or_null(double value) {
@@ -142,6 +165,12 @@ ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis
                                       {"nominal_price", each.nominal_price},
                                       {"visibility", each.visibility},
                                       {"evidence", each.evidence}});
+    json["indistinct"] = {{"group", diagnosis.indistinct.group}, {"experiments", ordered_json::array()}};
+    for (const gap::ExperimentScore& each : diagnosis.indistinct.experiments)
+        json["indistinct"]["experiments"].push_back({{"kind", each.kind},
+                                                     {"name", each.name},
+                                                     {"description", each.description},
+                                                     {"told_apart", each.told_apart}});
     json["channels"] = ordered_json::array();
     for (const ChannelGap& channel : diagnosis.gap.channels)
         json["channels"].push_back({{"channel", channel.channel},

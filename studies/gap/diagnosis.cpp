@@ -7,6 +7,7 @@
 #include <map>
 
 #include "capstan/gap/cause_fit.h"
+#include "capstan/gap/next_experiment.h"
 #include "capstan/gap/screening.h"
 
 namespace capstan::gap {
@@ -167,7 +168,10 @@ class Diagnoser {
         std::vector<ScoredFit> fits = singles;
         fits.insert(fits.end(), pairs.begin(), pairs.end());
         Diagnosis diagnosis;
-        diagnosis.ranked = evidence_.rank(causes_, fits, nominal_misfit_);
+        const std::vector<WeighedHypothesis> weighed = evidence_.weigh(fits, nominal_misfit_);
+        diagnosis.ranked = Evidence::rank(causes_, weighed);
+        tell("looking for the next experiment", 0.9);
+        diagnosis.indistinct = told_apart_by(recording_, screener_, indistinct(weighed), options_.threads);
         diagnosis.independent_samples = fitter_.independent_samples();
         for (const std::vector<ScoredFit>* group : {&pairs, &singles}) {
             for (const ScoredFit& each : *group) {

@@ -8,6 +8,7 @@
 #include "capstan/gap/candidate_cause.h"
 #include "capstan/gap/evidence.h"
 #include "capstan/gap/gap_measure.h"
+#include "capstan/gap/next_experiment.h"
 #include "capstan/gap/recording.h"
 
 namespace capstan::gap {
@@ -62,6 +63,7 @@ struct Diagnosis {
     double misfit_after = 0.0;
     double independent_samples = 0.0;
     std::vector<CandidateScore> candidates;  ///< that were fitted, best first
+    Indistinct indistinct;                   ///< what it cannot decide, and the experiment that would
     int evaluations = 0;                     ///< simulations of the whole recording
 };
 

@@ -31,8 +31,7 @@ constexpr double faint_price = 60.0;
 // A cause nobody has thought of is granted to leave this share of the gap, at the price of as many numbers.
 constexpr double share_left_by_unknown = 0.1;
 constexpr std::size_t numbers_of_unknown = 4;
-// Evidence overstates what it knows by this factor; and something else may always be the matter.
-constexpr double overstated = 1.3;
+// Something else may always be the matter.
 constexpr double anything_share = 0.02;
 
 using Effects = std::vector<std::string>;  // of a hypothesis, sorted
@@ -74,28 +73,42 @@ double Evidence::of_unknown(double nominal_misfit) const {
            unknown_price;
 }
 
-std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& causes,
-                                         const std::vector<ScoredFit>& fits, double nominal_misfit) const {
-    std::map<Effects, double> hypotheses = {{{"unknown"}, of_unknown(nominal_misfit)}};
+std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fits,
+                                               double nominal_misfit) const {
+    std::vector<WeighedHypothesis> weighed = {{{"unknown"}, 0.0, of_unknown(nominal_misfit), nullptr}};
     for (const ScoredFit& each : fits) {
-        const auto [known, added] = hypotheses.emplace(effects_of(each.fit), each.evidence);
-        if (!added) known->second = std::max(known->second, each.evidence);
+        const Effects effects = effects_of(each.fit);
+        const auto same = std::find_if(weighed.begin(), weighed.end(), [&](const WeighedHypothesis& other) {
+            return other.effects == effects;
+        });
+        if (same == weighed.end()) {
+            weighed.push_back({effects, 0.0, each.evidence, &each});
+        } else if (each.evidence > same->evidence) {
+            *same = {effects, 0.0, each.evidence, &each};
+        }
     }
-    double most = hypotheses.at({"unknown"});
-    for (const auto& [effects, evidence] : hypotheses) most = std::max(most, evidence);
+    std::stable_sort(weighed.begin(), weighed.end(),
+                     [](const WeighedHypothesis& a, const WeighedHypothesis& b) {
+                         return a.evidence != b.evidence ? a.evidence > b.evidence : a.effects < b.effects;
+                     });
+    const double most = weighed.front().evidence;
     double sum = 0.0;
-    for (const auto& [effects, evidence] : hypotheses) sum += std::exp((evidence - most) / overstated);
+    for (const WeighedHypothesis& each : weighed) sum += std::exp((each.evidence - most) / overstated);
+    for (WeighedHypothesis& each : weighed)
+        each.probability = std::exp((each.evidence - most) / overstated) / sum;
+    return weighed;
+}
 
-    std::map<std::string, double> probability;
+std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& causes,
+                                         const std::vector<WeighedHypothesis>& weighed) {
+    std::map<std::string, double> probability = {{"unknown", 0.0}};
+    for (const CandidateCause& cause : causes) probability[cause.effect] = 0.0;
     // Of two effects with hardly any, the one with the better hypothesis goes first.
     std::map<std::string, double> best;
-    for (const CandidateCause& cause : causes) probability[cause.effect] = 0.0;
-    for (const auto& [effects, evidence] : hypotheses) {
-        for (const std::string& effect : effects) {
-            probability[effect] +=
-                std::exp((evidence - most) / overstated) / sum / static_cast<double>(effects.size());
-            const auto [known, added] = best.emplace(effect, evidence);
-            if (!added) known->second = std::max(known->second, evidence);
+    for (const WeighedHypothesis& each : weighed) {
+        for (const std::string& effect : each.effects) {
+            probability[effect] += each.probability / static_cast<double>(each.effects.size());
+            best.emplace(effect, each.evidence);
         }
     }
     std::vector<RankedEffect> ranked;

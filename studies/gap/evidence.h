@@ -23,6 +23,14 @@ struct ScoredFit {
     double evidence = 0.0;           ///< logarithm, up to a constant
 };
 
+/// An explanation and how probable it is; its best fit where several variants were tried.
+struct WeighedHypothesis {
+    std::vector<std::string> effects;  ///< sorted; `unknown` alone for what nobody has thought of
+    double probability = 0.0;
+    double evidence = 0.0;
+    const ScoredFit* fit = nullptr;  ///< none of `unknown`
+};
+
 /// Weighs what is left of residuals that hang together in time.
 ///
 /// A hypothesis is nothing, one cause, two causes, or one that nobody has thought of. Its evidence is the
@@ -38,10 +46,17 @@ class Evidence {
     /// Of a cause that nobody has thought of, granted to leave some of a gap that the nominal model leaves.
     double of_unknown(double nominal_misfit) const;
 
+    /// Every explanation that was tried, and `unknown`, best first. `fits` must outlive the result.
+    std::vector<WeighedHypothesis> weigh(const std::vector<ScoredFit>& fits, double nominal_misfit) const;
+
     /// Effects of all hypotheses, best first; each of two causes has half of what both together have.
     /// Probabilities sum to 1.
-    std::vector<RankedEffect> rank(const std::vector<CandidateCause>& causes,
-                                   const std::vector<ScoredFit>& fits, double nominal_misfit) const;
+    static std::vector<RankedEffect> rank(const std::vector<CandidateCause>& causes,
+                                          const std::vector<WeighedHypothesis>& weighed);
+
+    /// Evidence is taken for this many times less than it says: what is left is not quite as independent as
+    /// assumed.
+    static constexpr double overstated = 1.3;
 
   private:
     double of(double misfit, std::size_t open_numbers) const;

@@ -31,6 +31,11 @@ ScoredFit fitted(const Evidence& evidence, std::vector<const CandidateCause*> ca
     return fit;
 }
 
+std::vector<RankedEffect> ranked_by(const Evidence& evidence, const std::vector<CandidateCause>& causes,
+                                    const std::vector<ScoredFit>& fits, double nominal_misfit) {
+    return Evidence::rank(causes, evidence.weigh(fits, nominal_misfit));
+}
+
 double probability(const std::vector<RankedEffect>& ranked, const std::string& effect) {
     for (const RankedEffect& each : ranked) {
         if (each.effect == effect) return each.probability;
@@ -42,8 +47,8 @@ const Evidence evidence(200.0);
 
 TEST(Evidence, OfNothingToExplainIsForNone) {
     const Known known;
-    const auto ranked = evidence.rank(
-        {known.none, known.drag, known.gain},
+    const auto ranked = ranked_by(
+        evidence, {known.none, known.drag, known.gain},
         {fitted(evidence, {&known.none}, 0.9, {0.0}), fitted(evidence, {&known.drag}, 0.88, {0.3})}, 0.95);
     EXPECT_EQ(ranked.front().effect, "none");
     EXPECT_GT(ranked.front().probability, 0.9);
@@ -51,19 +56,19 @@ TEST(Evidence, OfNothingToExplainIsForNone) {
 
 TEST(Evidence, OfACauseThatLeavesNoiseIsForIt) {
     const Known known;
-    const auto ranked = evidence.rank(
-        {known.none, known.drag, known.gain},
-        {fitted(evidence, {&known.none}, 5.0, {0.0}), fitted(evidence, {&known.drag}, 1.0, {4.0}),
-         fitted(evidence, {&known.gain}, 3.0, {3.0})},
-        6.0);
+    const auto ranked =
+        ranked_by(evidence, {known.none, known.drag, known.gain},
+                  {fitted(evidence, {&known.none}, 5.0, {0.0}), fitted(evidence, {&known.drag}, 1.0, {4.0}),
+                   fitted(evidence, {&known.gain}, 3.0, {3.0})},
+                  6.0);
     EXPECT_EQ(ranked.front().effect, "viscous_friction");
     EXPECT_EQ(ranked[1].effect, "unknown");
 }
 
 TEST(Evidence, OfStructureThatNobodyExplainsIsForUnknown) {
     const Known known;
-    const auto ranked = evidence.rank(
-        {known.none, known.drag},
+    const auto ranked = ranked_by(
+        evidence, {known.none, known.drag},
         {fitted(evidence, {&known.none}, 9.0, {0.0}), fitted(evidence, {&known.drag}, 7.0, {3.0})}, 10.0);
     EXPECT_EQ(ranked.front().effect, "unknown");
 }
@@ -75,14 +80,14 @@ TEST(Evidence, OfTwoCausesLeadsOnlyIfBothAreSeen) {
     const ScoredFit faint = fitted(evidence, {&known.drag, &known.gain}, 1.0, {6.0, 0.2});
     EXPECT_GT(both.evidence, single.evidence);
     EXPECT_LT(faint.evidence, both.evidence - 40.0);
-    const auto ranked = evidence.rank({known.none, known.drag, known.gain}, {single, both}, 40.0);
+    const auto ranked = ranked_by(evidence, {known.none, known.drag, known.gain}, {single, both}, 40.0);
     EXPECT_NEAR(probability(ranked, "viscous_friction"), probability(ranked, "sensor_gain"), 0.01);
 }
 
 TEST(Evidence, ProbabilitiesSumToOneAndNothingIsImpossible) {
     const Known known;
-    const auto ranked = evidence.rank(
-        {known.none, known.drag, known.gain},
+    const auto ranked = ranked_by(
+        evidence, {known.none, known.drag, known.gain},
         {fitted(evidence, {&known.none}, 50.0, {0.0}), fitted(evidence, {&known.drag}, 0.9, {9.0})}, 60.0);
     double sum = 0.0;
     for (const RankedEffect& each : ranked) {

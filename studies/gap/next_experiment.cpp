@@ -1,0 +1,125 @@
+#include "capstan/gap/next_experiment.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "capstan/gap/possible_experiments.h"
+
+namespace capstan::gap {
+
+namespace {
+
+constexpr double decided = 0.95;
+constexpr double least_probability = 0.05;
+constexpr std::size_t largest_group = 3;
+
+// The coordinates of a hypothesis, each moved a little: a column each, the first as it is.
+Eigen::MatrixXd moved_a_little(const Eigen::VectorXd& coordinates, double step) {
+    Eigen::MatrixXd moved = coordinates.replicate(1, coordinates.size() + 1);
+    for (Eigen::Index k = 0; k < coordinates.size(); ++k) moved(k, k + 1) += step;
+    return moved;
+}
+
+Eigen::MatrixXd differences(const Eigen::MatrixXd& residuals, double step) {
+    return (residuals.rightCols(residuals.cols() - 1).colwise() - residuals.col(0)) / step;
+}
+
+// What the recording at hand says of one explanation's numbers.
+struct Known {
+    Hypothesis hypothesis;
+    Eigen::VectorXd residuals;  // data and priors, in parts that count as one independent sample
+    Eigen::MatrixXd jacobian;
+};
+
+constexpr double step = 1e-2;  // of a coordinate
+
+Known known_of(const CauseFitter& fitter, const CauseFit& fit) {
+    const double weight = std::sqrt(fitter.independent_samples() / static_cast<double>(fitter.data_rows()));
+    const Eigen::MatrixXd residuals =
+        weight * fitter.residuals(fit.causes, moved_a_little(fit.coordinates, step));
+    return {fit.hypothesis(), residuals.col(0), differences(residuals, step)};
+}
+
+double least_sum(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
+    const Eigen::VectorXd best = jacobian.colPivHouseholderQr().solve(-residuals);
+    return (residuals + jacobian * best).squaredNorm();
+}
+
+// Chi-square that an explanation still has to pay for data that another one made.
+double not_imitated(const Known& imitator, const CauseFitter& planned, const Hypothesis& truth) {
+    const double weight = std::sqrt(planned.independent_samples() / static_cast<double>(planned.data_rows()));
+    const Eigen::MatrixXd moved = moved_a_little(imitator.hypothesis.coordinates, step);
+    std::vector<Hypothesis> all = {truth};
+    for (Eigen::Index column = 0; column < moved.cols(); ++column)
+        all.push_back({imitator.hypothesis.causes, moved.col(column)});
+    const Eigen::MatrixXd residuals = weight * planned.data_residuals(all);
+    const Eigen::MatrixXd imitated = residuals.rightCols(moved.cols());
+
+    const Eigen::Index before = imitator.residuals.size();
+    Eigen::MatrixXd jacobian(before + imitated.rows(), imitator.jacobian.cols());
+    jacobian << imitator.jacobian, differences(imitated, step);
+    Eigen::VectorXd off(jacobian.rows());
+    off << imitator.residuals, imitated.col(0) - residuals.col(0);
+    return std::max(0.0, least_sum(jacobian, off) - least_sum(imitator.jacobian, imitator.residuals));
+}
+
+// What the bench would answer, noise apart: it sets how far the model can be trusted.
+Recording answered(Recording recording, const EffectsTwinOptions& options, const BenchNumbers& numbers) {
+    EffectsTwinOptions every_sample = options;
+    every_sample.stride = 1;
+    const TwinRun run = EffectsTwin(recording, every_sample).run(0, numbers);
+    for (std::size_t channel = 0; channel < run.values.size(); ++channel) {
+        if (!run.values[channel].empty()) recording.runs.front().values[channel] = run.values[channel];
+    }
+    return recording;
+}
+
+}  // namespace
+
+std::vector<WeighedHypothesis> indistinct(std::span<const WeighedHypothesis> weighed) {
+    if (weighed.empty() || weighed.front().probability >= decided) return {};
+    std::vector<WeighedHypothesis> group;
+    for (const WeighedHypothesis& each : weighed) {
+        if (each.fit != nullptr && each.probability >= least_probability && group.size() < largest_group)
+            group.push_back(each);
+    }
+    if (group.size() < 2) group.clear();
+    return group;
+}
+
+Indistinct told_apart_by(const Recording& recording, const CauseFitter& fitter,
+                         std::span<const WeighedHypothesis> group, int threads) {
+    Indistinct result;
+    std::vector<Known> known;
+    for (const WeighedHypothesis& each : group) {
+        result.group.push_back(each.effects);
+        known.push_back(known_of(fitter, each.fit->fit));
+    }
+    if (group.size() < 2) return result;
+    const Hypothesis& leader = known.front().hypothesis;
+    for (const Experiment& experiment : possible_experiments(recording)) {
+        const EffectsTwinOptions options = fitter.twin().options();
+        const Recording planned =
+            answered(experiment.recording, options, CauseFitter::numbers(leader.causes, leader.coordinates));
+        const CauseFitter planned_fitter(planned, options, threads);
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t truth = 0; truth < known.size(); ++truth) {
+            for (std::size_t imitator = 0; imitator < known.size(); ++imitator) {
+                if (imitator == truth) continue;
+                least =
+                    std::min(least, not_imitated(known[imitator], planned_fitter, known[truth].hypothesis));
+            }
+        }
+        const double apart = std::sqrt(least / Evidence::overstated);
+        result.experiments.push_back({experiment.kind, experiment.name, experiment.description,
+                                      0.5 * std::erfc(-0.5 * apart / std::sqrt(2.0))});
+    }
+    std::stable_sort(
+        result.experiments.begin(), result.experiments.end(),
+        [](const ExperimentScore& a, const ExperimentScore& b) { return a.told_apart > b.told_apart; });
+    return result;
+}
+
+}  // namespace capstan::gap
