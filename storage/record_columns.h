@@ -60,9 +60,11 @@ struct Columns<ScenarioNodeRecord> {
 
 template <>
 struct Columns<NoiseLevelRecord> {
-    static constexpr std::string_view names = "label, multiplicative_ratio, additive_N, bias_N";
+    static constexpr std::string_view names =
+        "label, multiplicative_ratio, additive_N, bias_N, quantisation_N, range_N";
     static auto fields(auto& row) {
-        return std::tie(row.label, row.multiplicative_ratio, row.additive_N, row.bias_N);
+        return std::tie(row.label, row.multiplicative_ratio, row.additive_N, row.bias_N, row.quantisation_N,
+                        row.range_N);
     }
 };
 

@@ -64,6 +64,8 @@ struct NoiseLevelRecord {  // its position is its noise_index
     double multiplicative_ratio = 0;
     double additive_N = 0;
     double bias_N = 0;
+    std::optional<double> quantisation_N{};  // nothing: stored before version 3
+    std::optional<double> range_N{};
     bool operator==(const NoiseLevelRecord&) const = default;
 };
 

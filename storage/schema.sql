@@ -1,8 +1,9 @@
--- The results database of capstan, version 2. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 3. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a share or a ratio has no unit and says so in its
--- name; nodes are numbered from 1 (proximal, motor) to segments + 1 (distal, load); there is no clock in any
--- table, so the same program, configuration and seed give the same bits.
+-- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
+-- segments + 1 (distal, load); there is no clock in any table, so the same program, configuration and seed give the
+-- same bits.
 
 CREATE TABLE study (
     study_id        INTEGER PRIMARY KEY,
@@ -60,7 +61,8 @@ CREATE TABLE scenario_node (
 ) STRICT, WITHOUT ROWID;
 
 -- reading = tension * (1 + multiplicative_ratio * e1) + additive_N * e2 + bias_N * e3, e1, e2, e3 standard normal;
--- e3 is drawn once per sensor and repetition, and is the same at every instant.
+-- e3 is drawn once per sensor and repetition, and is the same at every instant. The reading is then rounded to whole
+-- steps of quantisation_N and ends at range_N.
 CREATE TABLE noise_level (
     noise_level_id       INTEGER PRIMARY KEY,
     study_id             INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
@@ -69,6 +71,8 @@ CREATE TABLE noise_level (
     multiplicative_ratio REAL    NOT NULL CHECK (multiplicative_ratio >= 0),
     additive_N           REAL    NOT NULL CHECK (additive_N >= 0),
     bias_N               REAL    NOT NULL CHECK (bias_N >= 0),
+    quantisation_N       REAL    CHECK (quantisation_N >= 0),  -- 0: none; NULL: stored before version 3, see config_toml
+    range_N              REAL    CHECK (range_N > 0),          -- the largest reading; NULL as above
     UNIQUE (study_id, noise_index)
 ) STRICT;
 
@@ -261,6 +265,108 @@ CREATE TABLE paper_comparison (
     PRIMARY KEY (study_id, row_index)
 ) STRICT, WITHOUT ROWID;
 
+-- What `capstan diagnose` found in one recording.
+CREATE TABLE diagnosis (
+    diagnosis_id        INTEGER PRIMARY KEY,
+    recording           TEXT    NOT NULL,          -- its name, as in the sidecar
+    log_file            TEXT    NOT NULL,          -- as it was named to the command; '' where it had no file
+    log_sha256          TEXT    NOT NULL CHECK (length(log_sha256) IN (0, 64)),  -- of the log's bytes; '': not known
+    program_version     TEXT    NOT NULL,
+    runs                TEXT    NOT NULL CHECK (json_valid(runs)),  -- that were diagnosed: '[1,2]'
+    verdict             TEXT    NOT NULL,          -- an effect, two as 'a + b', 'none' or 'unknown'
+    confidence_share    REAL    NOT NULL CHECK (confidence_share BETWEEN 0 AND 1),  -- probability of the first effect
+    component           TEXT    NOT NULL,          -- what the cause sits in: 'cable_a', 'motor', ...; '': nothing
+    cable_end           TEXT    NOT NULL,          -- which end of it; '': neither, or not known
+    position_m          REAL,                      -- along the cable from the motor; NULL: not a place on a cable
+    worst_run           INTEGER NOT NULL,          -- where the gap is largest against noise
+    worst_channel       TEXT    NOT NULL,
+    friction_ratio      REAL    NOT NULL,          -- nominal numbers as fitted with the causes, of those stated
+    stiffness_ratio     REAL    NOT NULL,
+    pretension_ratio    REAL    NOT NULL,
+    misfit_before_ratio REAL    NOT NULL,          -- mean square residual over that of noise and model floor
+    misfit_after_ratio  REAL    NOT NULL,
+    independent_samples_count REAL NOT NULL,       -- instants that tell something new
+    sentence            TEXT    NOT NULL,          -- the verdict in words
+    gap_sentence        TEXT    NOT NULL           -- where the gap is denser than elsewhere, in words
+) STRICT;
+
+-- How probable each effect is, `none` and `unknown` among them; sums to 1 in a diagnosis.
+CREATE TABLE diagnosis_effect (
+    diagnosis_id      INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
+    place             INTEGER NOT NULL CHECK (place > 0),  -- 1: the most probable
+    effect            TEXT    NOT NULL,
+    probability_share REAL    NOT NULL CHECK (probability_share BETWEEN 0 AND 1),
+    PRIMARY KEY (diagnosis_id, place)
+) STRICT, WITHOUT ROWID;
+
+-- The causes that the verdict names, none to two.
+CREATE TABLE diagnosis_cause (
+    diagnosis_id INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
+    cause_index  INTEGER NOT NULL,
+    effect       TEXT    NOT NULL,
+    variant      TEXT    NOT NULL,                 -- '' where the effect has one form only
+    component    TEXT    NOT NULL,
+    cable_end    TEXT    NOT NULL,
+    position_m   REAL,                             -- along the cable from the motor; NULL: not a place on a cable
+    PRIMARY KEY (diagnosis_id, cause_index)
+) STRICT, WITHOUT ROWID;
+
+-- How severe a cause is: its numbers, as they were fitted.
+CREATE TABLE diagnosis_number (
+    diagnosis_id  INTEGER NOT NULL,
+    cause_index   INTEGER NOT NULL,
+    name          TEXT    NOT NULL,
+    value_in_unit REAL    NOT NULL,
+    unit          TEXT    NOT NULL,                -- '': a ratio
+    PRIMARY KEY (diagnosis_id, cause_index, name),
+    FOREIGN KEY (diagnosis_id, cause_index) REFERENCES diagnosis_cause ON DELETE CASCADE
+) STRICT, WITHOUT ROWID;
+
+-- Every hypothesis that got a full fit: first two causes together, then one or none; each best first.
+CREATE TABLE diagnosis_candidate (
+    diagnosis_id       INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
+    candidate_index    INTEGER NOT NULL,
+    effects            TEXT    NOT NULL CHECK (json_valid(effects)),   -- '["backlash"]'; '["none"]': nothing
+    variants           TEXT    NOT NULL CHECK (json_valid(variants)),  -- of each effect
+    open_numbers       INTEGER NOT NULL,           -- that the fit chose, beyond the nominal ones
+    misfit_ratio       REAL    NOT NULL,           -- mean square residual over that of noise and model floor
+    nominal_price_log  REAL    NOT NULL,           -- what the nominal numbers' going far costs, in evidence
+    -- How much each cause changes the channel where it is clearest, over noise and model floor: '[3.1]'.
+    visibility_ratios  TEXT    NOT NULL CHECK (json_valid(visibility_ratios)),
+    evidence_log       REAL    NOT NULL,           -- natural logarithm, up to a constant of the diagnosis
+    PRIMARY KEY (diagnosis_id, candidate_index)
+) STRICT, WITHOUT ROWID;
+
+-- RMS of measured less modelled in each channel that no run drives.
+CREATE TABLE diagnosis_channel (
+    diagnosis_id          INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
+    channel_index         INTEGER NOT NULL,
+    channel               TEXT    NOT NULL,
+    unit                  TEXT    NOT NULL,
+    noise_in_unit         REAL    NOT NULL,        -- of one sample
+    rms_before_in_unit    REAL    NOT NULL,        -- nominal model
+    rms_after_in_unit     REAL    NOT NULL,        -- with the causes
+    rms_held_out_in_unit  REAL    NOT NULL,        -- each run with numbers fitted to the others
+    rms_runner_up_in_unit REAL    NOT NULL,        -- with the best cause that the verdict does not name
+    closed_share          REAL,                    -- of the mean square beyond noise, held out; NULL: no gap to close
+    closed_low_share      REAL,                    -- its 95% interval
+    closed_high_share     REAL,
+    PRIMARY KEY (diagnosis_id, channel_index)
+) STRICT, WITHOUT ROWID;
+
+-- Where the gap lies: the share of its energy in each part of the recording.
+CREATE TABLE diagnosis_gap (
+    diagnosis_id  INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
+    part_index    INTEGER NOT NULL,
+    divided_by    TEXT    NOT NULL,                -- 'run', 'channel', 'regime', 'speed', ...
+    part          TEXT    NOT NULL,
+    energy_share  REAL    NOT NULL,
+    low_share     REAL    NOT NULL,                -- its 95% interval
+    high_share    REAL    NOT NULL,
+    samples_share REAL    NOT NULL,                -- of the compared samples: what chance would give
+    PRIMARY KEY (diagnosis_id, part_index)
+) STRICT, WITHOUT ROWID;
+
 CREATE INDEX scenario_of_study ON scenario (study_id, regime);
 CREATE INDEX layout_of_set ON layout (sensor_set_id);
 CREATE INDEX cell_of_set ON cell (sensor_set_id);
@@ -316,3 +422,12 @@ SELECT r.recommendation_id, r.study_id, t.name AS study, n.label AS noise, r.sco
        ss.nodes, r.sensor_count, f.title AS method_title, r.error_N, r.interval_low_N, r.interval_high_N, r.sentence
 FROM recommendation r JOIN study t USING (study_id) JOIN noise_level n USING (noise_level_id)
 JOIN sensor_set ss USING (sensor_set_id) JOIN fusion_method f ON f.study_id = r.study_id AND f.method = r.method;
+
+-- The diagnoses, each with the channel that it is judged by: the load's torque, else its first.
+CREATE VIEW v_diagnosis AS
+SELECT d.diagnosis_id, d.recording, d.verdict, d.confidence_share, d.component, d.cable_end, d.position_m,
+       c.channel, c.unit, c.rms_before_in_unit, c.rms_after_in_unit, c.rms_held_out_in_unit,
+       c.closed_share, c.closed_low_share, c.closed_high_share, d.sentence
+FROM diagnosis d LEFT JOIN diagnosis_channel c ON c.diagnosis_id = d.diagnosis_id AND c.channel_index = (
+    SELECT channel_index FROM diagnosis_channel j WHERE j.diagnosis_id = d.diagnosis_id
+    ORDER BY j.channel <> 'load_torque', j.channel_index LIMIT 1);

@@ -13,12 +13,14 @@
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/page_diagnosis.h"
+#include "capstan/cli/stored_diagnosis.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/cli/wrapped_text.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "capstan/gap/estimated_noise.h"
 #include "capstan/gap/recording_reader.h"
+#include "capstan/storage/diagnosis_store.h"
 
 namespace capstan::cli {
 
@@ -232,6 +234,15 @@ gap::Recording recorded_bench(const Invocation& invocation) {
     return gap::equivalent_bench(diagnosed, fitted_to);
 }
 
+void store(const Invocation& invocation, const gap::Recording& recording, const Diagnosis& diagnosis) {
+    storage::DiagnosisRecord record = diagnosis_record(recording, diagnosis, invocation.argument("LOG"));
+    record.sentence = verdict_sentence(diagnosis);
+    storage::Database database = storage::Database::open_or_create(invocation.text("db"));
+    const std::int64_t id = storage::write_diagnosis(database, record);
+    if (invocation.text("progress") != "none")
+        fmt::print(stderr, "Stored as diagnosis {} in {}.\n", id, invocation.text("db"));
+}
+
 ExitCode run(const Invocation& invocation) {
     const gap::Recording recording = recorded_bench(invocation);
     gap::DiagnosisOptions options;
@@ -250,6 +261,7 @@ ExitCode run(const Invocation& invocation) {
     }
     const Diagnosis diagnosis = gap::diagnose(recording, options);
     if (on_a_terminal && invocation.text("progress") == "auto") fmt::print(stderr, "\r\033[K");
+    if (invocation.has("db")) store(invocation, recording, diagnosis);
     deliver_page(invocation, [&] {
         return reports::experiment_page_html(
             diagnosis_page(recording, diagnosis, verdict_sentence(diagnosis)));
@@ -265,6 +277,9 @@ const Option runs_option{"runs", '\0', OptionKind::text, "LIST", "Diagnose these
 const Option calibrate_on_option{
     "calibrate-on", '\0', OptionKind::text, "LIST",
     "Runs that a drive or band of unknown geometry gets its numbers from. Default: those diagnosed."};
+const Option keep_option{"db", '\0', OptionKind::text, "FILE",
+                         "Also keep the diagnosis in this results database; `capstan query \"SELECT * FROM "
+                         "v_diagnosis\"` lists them."};
 
 Command diagnose_command() {
     return {
@@ -276,10 +291,10 @@ Command diagnose_command() {
         "where only noise is left and `unknown` where the best known cause leaves much of the gap. For recordings of "
         "pull_pull and single_cable benches.",
         {log_argument},
-        {runs_option, calibrate_on_option, jobs_option, output_option, json_option, page_option,
+        {runs_option, calibrate_on_option, keep_option, jobs_option, output_option, json_option, page_option,
          progress_option, help_option},
         {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
-         "capstan diagnose bench.csv --html bench.html"},
+         "capstan diagnose bench.csv --html bench.html", "capstan diagnose bench.csv --db bench.db"},
         run};
 }
 

@@ -51,7 +51,7 @@ Command query_command() {
         "query",
         "Ask the database in SQL; it can only be read.",
         "Runs one SELECT on the results and prints the rows. The views v_error_by_layout, v_best_method, "
-        "v_single_sensor_matrix, v_recommendation and v_progress answer the usual questions; --schema explains "
+        "v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer the usual questions; --schema explains "
         "every table, column and unit. Nothing can be changed, and after ten seconds a query is stopped.",
         {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
         {{"format",

@@ -64,6 +64,10 @@ std::string in_words(std::int64_t id, const StudyDescription& study, std::size_t
     return text;
 }
 
+ordered_json number_or_null(const std::optional<double>& number) {
+    return number ? ordered_json(*number) : ordered_json(nullptr);
+}
+
 ordered_json in_json(std::int64_t id, const StudyDescription& study, std::size_t pending) {
     const auto& head = study.study;
     ordered_json json = {{"study_id", id},
@@ -92,7 +96,9 @@ ordered_json in_json(std::int64_t id, const StudyDescription& study, std::size_t
                                         {"label", level.label},
                                         {"multiplicative_ratio", level.multiplicative_ratio},
                                         {"additive_N", level.additive_N},
-                                        {"bias_N", level.bias_N}});
+                                        {"bias_N", level.bias_N},
+                                        {"quantisation_N", number_or_null(level.quantisation_N)},
+                                        {"range_N", number_or_null(level.range_N)}});
     }
     json["config_toml"] = head.config_toml;
     return json;

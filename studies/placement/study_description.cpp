@@ -59,8 +59,9 @@ storage::StudyDescription describe(const PreparedStudy& study, const std::string
         description.scenarios.push_back(scenario_record(study, scenario));
     }
     for (const NamedNoise& noise : plan.noise_levels) {
-        description.noise_levels.push_back(
-            {noise.label, noise.level.multiplicative_ratio, noise.level.additive_N, noise.level.bias_N});
+        description.noise_levels.push_back({noise.label, noise.level.multiplicative_ratio,
+                                            noise.level.additive_N, noise.level.bias_N,
+                                            noise.level.quantisation_N, noise.level.range_N});
     }
     for (const FusionMethod* method : study.methods) {
         description.fusion_methods.push_back({std::string(method->name), std::string(method->title),

@@ -63,7 +63,8 @@ StudyDescription example_study(const ExampleSize& size) {
                                          scenario_nodes(size.nodes, value)});
     }
     for (int i = 0; i < size.noise_levels; ++i) {
-        description.noise_levels.push_back({"level " + std::to_string(i), 0.1 * i, 0.2, 0.3});
+        description.noise_levels.push_back(
+            {"level " + std::to_string(i), 0.1 * i, 0.2, 0.3, 0.01 * i, 200.0});
     }
     description.fusion_methods = {
         {"w_mean_r", "W Mean-R", "direction_unknown", "weighted, of the sensors' kind"},

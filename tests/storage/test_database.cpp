@@ -108,7 +108,7 @@ TEST(OpeningADatabase, ANewerSchemaIsRefusedUntouchedAndBothVersionsAreNamed) {
     const TemporaryFolder folder;
     Database::open_or_create(folder / "results.db");
     run_plain_sqlite(folder / "results.db", "PRAGMA user_version = 42");
-    expect_refused_untouched(folder, "results.db", "version 42, newer than version 2");
+    expect_refused_untouched(folder, "results.db", "version 42, newer than version 3");
 }
 
 TEST(OpeningADatabase, AFolderIsRefused) {
@@ -261,6 +261,42 @@ TEST(Migrating, AVersionWithoutAWayIsRefused) {
     expect_says(error_of([&] { migrate(database, {}, schema_version + 1); }), "knows no way");
 }
 
+// What version 3 added.
+const std::string back_to_version_2 = R"sql(
+DROP VIEW v_diagnosis; DROP TABLE diagnosis_gap; DROP TABLE diagnosis_channel; DROP TABLE diagnosis_candidate;
+DROP TABLE diagnosis_number; DROP TABLE diagnosis_cause; DROP TABLE diagnosis_effect; DROP TABLE diagnosis;
+ALTER TABLE noise_level DROP COLUMN quantisation_N; ALTER TABLE noise_level DROP COLUMN range_N;
+PRAGMA user_version = 2;)sql";
+
+// Each table's columns and each view, as queries see them.
+std::vector<std::vector<QueryValue>> shape_of(const std::filesystem::path& path) {
+    Database database = Database::open_read_only(path);
+    return run_read_only(database,
+                         "SELECT t.type, t.name, c.cid, c.name, c.type, c.\"notnull\", c.pk "
+                         "FROM sqlite_schema t, pragma_table_info(t.name) c ORDER BY t.name, c.cid")
+        .rows;
+}
+
+TEST(Migrating, AFileOfVersion2IsOpenedWithItsStudiesAndLooksLikeANewOne) {
+    const TemporaryFolder folder;
+    StudyDescription description = example_study();
+    {
+        Database database = Database::open_or_create(folder / "results.db");
+        description.study.study_id = begin_study(database, description);
+        write_unit(database, 1, 0);
+        database.execute(back_to_version_2, "make an older file");
+    }
+    Database database = Database::open_existing(folder / "results.db");
+    // What the sensors' step and range were stands in the configuration alone.
+    for (NoiseLevelRecord& level : description.noise_levels)
+        level.quantisation_N = level.range_N = std::nullopt;
+    EXPECT_EQ(load_study(database, 1), description);
+    EXPECT_EQ(list_studies(database).at(0).units_done, 1);
+    Database::open_or_create(folder / "new.db");
+    EXPECT_EQ(shape_of(folder / "results.db"), shape_of(folder / "new.db"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "results.db.version2"));
+}
+
 // What version 2 added is taken away again.
 TEST(Migrating, AFileOfVersion1IsOpenedWithItsStudies) {
     const TemporaryFolder folder;
@@ -268,7 +304,8 @@ TEST(Migrating, AFileOfVersion1IsOpenedWithItsStudies) {
         Database database = Database::open_or_create(folder / "results.db");
         begin_study(database, example_study());
         write_unit(database, 1, 0);
-        database.execute("DROP TABLE shard; PRAGMA user_version = 1", "make an older file");
+        database.execute(back_to_version_2 + "DROP TABLE shard; PRAGMA user_version = 1",
+                         "make an older file");
     }
     Database database = Database::open_existing(folder / "results.db");
     EXPECT_EQ(number_from(database, "PRAGMA user_version"), schema_version);

@@ -1,0 +1,23 @@
+#pragma once
+// Diagnoses of recordings, written once and read back. They stand beside the studies: neither refers to the
+// other.
+
+#include <cstdint>
+#include <vector>
+
+#include "capstan/storage/database.h"
+#include "capstan/storage/diagnosis_records.h"
+
+namespace capstan::storage {
+
+// One transaction. Returns the diagnosis_id; that of the record is not read. An Error names a value that is
+// not a number.
+std::int64_t write_diagnosis(Database& database, const DiagnosisRecord& diagnosis);
+
+// All of them with everything that belongs to them, oldest first.
+std::vector<DiagnosisRecord> load_diagnoses(Database& database);
+
+// One of them; an Error when there is none of that number.
+DiagnosisRecord load_diagnosis(Database& database, std::int64_t diagnosis_id);
+
+}  // namespace capstan::storage

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "capstan/gap/diagnosis.h"
+#include "capstan/gap/recording.h"
+#include "capstan/storage/diagnosis_records.h"
+
+namespace capstan::cli {
+
+/// The names of the causes: 'backlash', 'backlash + drift', 'none' or 'unknown'.
+std::string verdict_name(const gap::Diagnosis& diagnosis);
+
+/// A diagnosis as the database keeps it, but for its words (`sentence`), which the caller has. `log` is
+/// hashed.
+storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const gap::Diagnosis& diagnosis,
+                                          const std::filesystem::path& log);
+
+}  // namespace capstan::cli

@@ -1,0 +1,95 @@
+// A diagnosis that goes in comes out, in every field.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "capstan/storage/diagnosis_store.h"
+#include "capstan/storage/study_store.h"
+#include "example_study.h"
+#include "temporary_results.h"
+
+namespace capstan::storage {
+namespace {
+
+DiagnosisRecord example_diagnosis() {
+    DiagnosisRecord record;
+    record.recording = "bench";
+    record.log_file = "it's/bench.csv";
+    record.log_sha256 = std::string(64, 'a');
+    record.program_version = "0.1.0";
+    record.runs = "[1,3]";
+    record.verdict = "backlash + drift";
+    record.confidence_share = 0.48;
+    record.component = "cable_a";
+    record.cable_end = "motor";
+    record.position_m = 0.25;
+    record.worst_run = 3;
+    record.worst_channel = "load_torque";
+    record.friction_ratio = 1.01;
+    record.stiffness_ratio = 0.99;
+    record.pretension_ratio = 1.02;
+    record.misfit_before_ratio = 12.5;
+    record.misfit_after_ratio = 1.25;
+    record.independent_samples_count = 431.5;
+    record.sentence = "Two causes.";
+    record.gap_sentence = "Mostly after reversals.";
+    record.effects = {{"backlash", 0.48}, {"drift", 0.47}, {"unknown", 0.05}};
+    record.causes = {
+        {"backlash", "", "motor", "", std::nullopt, {{"half_width", 0.01, "rad"}}},
+        {"drift", "linear", "sensor", "motor", 0.25, {{"ratio", 0.5, ""}, {"slope", 2.0, "N/s"}}}};
+    record.candidates = {{R"(["backlash","drift"])", R"(["","linear"])", 3, 1.25, 0.5, "[3.0,2.5]", -40.0},
+                         {R"(["none"])", R"([""])", 0, 12.5, 0.0, "[]", -900.0}};
+    record.channels = {{"motor_angle", "rad", 1e-4, 2e-4, 1e-4, 1.1e-4, 1.5e-4, {}, {}, {}},
+                       {"load_torque", "N m", 0.01, 0.5, 0.02, 0.03, 0.2, 0.98, 0.95, 0.99}};
+    record.gap = {{"run", "1", 0.25, 0.1, 0.4, 0.5}, {"run", "3", 0.75, 0.6, 0.9, 0.5}};
+    return record;
+}
+
+class Diagnoses : public testing::Test {
+  protected:
+    TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+};
+
+TEST_F(Diagnoses, ComeBackAsTheyWereWritten) {
+    DiagnosisRecord first = example_diagnosis();
+    DiagnosisRecord second = example_diagnosis();
+    second.recording = "another";
+    second.causes.clear();
+    first.diagnosis_id = write_diagnosis(database, first);
+    second.diagnosis_id = write_diagnosis(database, second);
+    EXPECT_EQ(load_diagnoses(database), (std::vector{first, second}));
+    EXPECT_EQ(load_diagnosis(database, 2), second);
+}
+
+TEST_F(Diagnoses, OfAnUnknownNumberAreRefused) {
+    expect_says(error_of([&] { load_diagnosis(database, 7); }), "holds no diagnosis 7");
+}
+
+TEST_F(Diagnoses, AreJudgedByTheLoadTorqueInTheirView) {
+    write_diagnosis(database, example_diagnosis());
+    DiagnosisRecord without_load = example_diagnosis();
+    without_load.channels.pop_back();
+    write_diagnosis(database, without_load);
+    Database reader = Database::open_read_only(folder / "results.db");
+    const QueryResult result =
+        run_read_only(reader, "SELECT channel, closed_share FROM v_diagnosis ORDER BY diagnosis_id");
+    EXPECT_EQ(result.rows, (std::vector<std::vector<QueryValue>>{{std::string("load_torque"), 0.98},
+                                                                 {std::string("motor_angle"), {}}}));
+}
+
+TEST_F(Diagnoses, WithAValueThatIsNotANumberLeaveNothing) {
+    DiagnosisRecord record = example_diagnosis();
+    record.gap.back().energy_share = std::numeric_limits<double>::quiet_NaN();
+    expect_says(error_of([&] { write_diagnosis(database, record); }), "diagnosis_gap.energy_share");
+    EXPECT_TRUE(load_diagnoses(database).empty());
+}
+
+TEST_F(Diagnoses, StandBesideStudies) {
+    write_diagnosis(database, example_diagnosis());
+    delete_study(database, begin_study(database, example_study()));
+    EXPECT_EQ(load_diagnoses(database).size(), 1u);
+}
+
+}  // namespace
+}  // namespace capstan::storage
