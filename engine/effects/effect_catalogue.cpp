@@ -286,4 +286,29 @@ const std::vector<Effect>& effect_catalogue() {
     return all;
 }
 
+EffectValues absent_effects() {
+    EffectValues absent;
+    for (const Effect& effect : effect_catalogue()) absent.push_back(effect.absent);
+    return absent;
+}
+
+BenchEffects effects_with(const EffectValues& values) {
+    BenchEffects effects;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const Effect& effect = effect_catalogue()[k];
+        if (values[k] != effect.absent) effect.apply(effects, values[k]);
+    }
+    return effects;
+}
+
+std::vector<std::string> effects_there(const EffectValues& values) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const Effect& effect = effect_catalogue()[k];
+        if (values[k] == effect.absent) continue;
+        names.push_back(effect.variant.empty() ? effect.name : effect.name + " (" + effect.variant + ")");
+    }
+    return names;
+}
+
 }  // namespace capstan

@@ -36,4 +36,11 @@ struct Effect {
 /// All of them, grouped by family.
 const std::vector<Effect>& effect_catalogue();
 
+/// Parameters of every effect in the catalogue: effects x parameters.
+using EffectValues = std::vector<std::vector<double>>;
+EffectValues absent_effects();
+BenchEffects effects_with(const EffectValues& values);
+/// Catalogue names of the effects that are there, variants in brackets.
+std::vector<std::string> effects_there(const EffectValues& values);
+
 }  // namespace capstan

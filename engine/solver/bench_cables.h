@@ -45,6 +45,10 @@ class BenchCables {
     double load_tension_N(int cable, int bench) const { return load_tension_N_[cable].of[bench]; }
     /// Share of a bench's nodes whose friction is fully built up: 1 in mass motion.
     double sliding_share(int bench) const;
+    /// Positive towards the load end.
+    double displacement_m(int cable, int bench, int node) const {
+        return arrays_[cable].before_m[static_cast<std::size_t>(node)].of[bench];
+    }
     /// Between the segments' middles, where a segment's tension stands.
     double tension_at_N(int cable, int bench, double position_m) const;
 

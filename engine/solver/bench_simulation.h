@@ -92,6 +92,10 @@ class BenchSimulation {
     double tension_at_N(int cable, double position_m) const {
         return benches_.tension_at_N(0, cable, position_m);
     }
+    /// Of a cable's node, positive towards the load end.
+    double displacement_m(int cable, int node) const {
+        return benches_.cables().displacement_m(cable, 0, node);
+    }
     /// At the pulleys.
     double motor_tension_N(int cable) const { return benches_.cables().motor_tension_N(cable, 0); }
     double load_tension_N(int cable) const { return benches_.cables().load_tension_N(cable, 0); }

@@ -33,29 +33,4 @@ PullPullInputs BenchPlan::inputs_at(double time_s) const {
     return inputs;
 }
 
-std::vector<std::vector<double>> no_effects() {
-    std::vector<std::vector<double>> absent;
-    for (const Effect& effect : effect_catalogue()) absent.push_back(effect.absent);
-    return absent;
-}
-
-std::vector<std::string> effects_there(const BenchPlan& plan) {
-    std::vector<std::string> names;
-    for (std::size_t k = 0; k < plan.effects.size(); ++k) {
-        const Effect& effect = effect_catalogue()[k];
-        if (plan.effects[k] == effect.absent) continue;
-        names.push_back(effect.variant.empty() ? effect.name : effect.name + " (" + effect.variant + ")");
-    }
-    return names;
-}
-
-BenchEffects effects_of(const BenchPlan& plan) {
-    BenchEffects effects;
-    for (std::size_t k = 0; k < plan.effects.size(); ++k) {
-        const Effect& effect = effect_catalogue()[k];
-        if (plan.effects[k] != effect.absent) effect.apply(effects, plan.effects[k]);
-    }
-    return effects;
-}
-
 }  // namespace capstan::bench

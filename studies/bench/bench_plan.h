@@ -19,8 +19,6 @@ enum class LoadKind {
     spring,  ///< a spring to a wall that may move
 };
 
-/// Every effect absent: effect catalogue x parameters.
-std::vector<std::vector<double>> no_effects();
 
 /// A pull-pull bench and what is done with it.
 struct BenchPlan {
@@ -35,15 +33,12 @@ struct BenchPlan {
     double sample_rate_Hz = 0.0;
     double duration_s = 0.0;
     /// effect catalogue x parameters; as the catalogue's `absent` where an effect is not there.
-    std::vector<std::vector<double>> effects = no_effects();
+    EffectValues effects = absent_effects();
     std::string config_toml;
 
     int samples() const;  ///< beyond the first, which is at rest
     PullPullInputs inputs_at(double time_s) const;
 };
 
-/// Catalogue names of the effects that are there, variants in brackets.
-std::vector<std::string> effects_there(const BenchPlan& plan);
-BenchEffects effects_of(const BenchPlan& plan);
 
 }  // namespace capstan::bench

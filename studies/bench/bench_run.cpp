@@ -40,7 +40,7 @@ std::vector<double> node_tensions_N(const BenchSimulation& simulation, int cable
 }
 
 void simulate_with_effects(const BenchPlan& plan, const Cable& cable, const Each& each) {
-    BenchSimulation simulation({cable, true, plan.pulleys, {}}, effects_of(plan));
+    BenchSimulation simulation({cable, true, plan.pulleys, {}}, effects_with(plan.effects));
     const auto instant = [&](double time_s, bool solved) {
         return BenchInstant{time_s,
                             simulation.motor_torque_Nm(),
@@ -65,7 +65,7 @@ void simulate_with_effects(const BenchPlan& plan, const Cable& cable, const Each
 
 void simulate_bench(const BenchPlan& plan, const Each& each) {
     const Cable cable(plan.cable);
-    if (effects_there(plan).empty()) {
+    if (effects_there(plan.effects).empty()) {
         simulate_closed_form(plan, PullPull(cable, cable, plan.pulleys), each);
     } else {
         simulate_with_effects(plan, cable, each);

@@ -2,6 +2,7 @@
 
 #include "capstan/bench/bench_plan.h"
 #include "capstan/cli/config_cable_keys.h"
+#include "capstan/cli/config_effect_keys.h"
 
 namespace capstan::cli {
 
@@ -209,40 +210,8 @@ void add_load_keys(BenchKeys& keys) {
     add_waveform_times(keys, "load", &BenchPlan::load, moves);
 }
 
-// ---- [effect.*]: the engine's catalogue
-
-// "local_bend", "cable A" -> "local_bend_cable_A"; "N m s/rad" -> "Nm_s_per_rad".
-std::string in_key_letters(std::string text) {
-    const auto replace = [&](const std::string& what, const std::string& by) {
-        for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-            text.replace(at, what.size(), by);
-    };
-    replace("N m", "Nm");
-    replace("(", "");
-    replace(")", "");
-    replace("/", "_per_");
-    replace(" ", "_");
-    return text;
-}
-
-std::string effect_section(const Effect& effect) {
-    return "effect." +
-           in_key_letters(effect.variant.empty() ? effect.name : effect.name + " " + effect.variant);
-}
-
-void add_effect_keys(BenchKeys& keys) {
-    for (std::size_t e = 0; e < effect_catalogue().size(); ++e) {
-        const Effect& effect = effect_catalogue()[e];
-        for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-            const EffectParameter& parameter = effect.parameters[p];
-            const std::string unit = parameter.unit.empty() ? "" : "_" + in_key_letters(parameter.unit);
-            keys.push_back(real<BenchPlan>(
-                {effect_section(effect), parameter.name + unit, parameter.unit,
-                 "Typical of a mild case: " + std::to_string(parameter.typical).substr(0, 7) + "."},
-                {parameter.low, true, parameter.high}, effect.absent[p],
-                [ e, p ](auto& plan, int) -> auto& { return plan.effects[e][p]; }));
-        }
-    }
+bool every_effect(const Effect&) {
+    return true;
 }
 
 std::vector<ConfigSection<BenchPlan>> bench_sections() {
@@ -261,8 +230,7 @@ std::vector<ConfigSection<BenchPlan>> bench_sections() {
          "What the ideal model leaves out. As long as every effect is absent, as by default, the closed-form "
          "step simulates the bench; else the slower simulation with effects does."},
     };
-    for (const Effect& effect : effect_catalogue())
-        sections.push_back({effect_section(effect), effect.meaning + " (" + effect.equation + ")."});
+    add_effect_sections(sections, "effect", every_effect);
     return sections;
 }
 
@@ -271,7 +239,8 @@ BenchKeys bench_keys() {
     add_bench_keys(keys);
     add_motor_keys(keys);
     add_load_keys(keys);
-    add_effect_keys(keys);
+    add_effect_keys(
+        keys, "effect", every_effect, [](auto& plan) -> auto& { return plan.effects; });
     return keys;
 }
 

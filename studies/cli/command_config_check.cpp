@@ -90,7 +90,7 @@ nlohmann::ordered_json in_json(const StudyPlan& plan, const std::vector<StudyPla
 std::string bench_in_words(const std::string& file, const bench::BenchPlan& plan) {
     std::string text = fmt::format("{}: ok\n  a bench: {} segments to a cable, {} samples", file,
                                    plan.cable.segments, plan.samples());
-    for (const std::string& effect : bench::effects_there(plan)) text += ", " + effect;
+    for (const std::string& effect : effects_there(plan.effects)) text += ", " + effect;
     return text + "\n";
 }
 
@@ -100,7 +100,7 @@ nlohmann::ordered_json bench_in_json(const bench::BenchPlan& plan) {
             {"name", plan.name},
             {"segments", plan.cable.segments},
             {"samples", plan.samples()},
-            {"effects", bench::effects_there(plan)}};
+            {"effects", effects_there(plan.effects)}};
 }
 
 // Builds the cable, which refuses what no key alone shows.

@@ -9,6 +9,8 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
+#include "capstan/cli/config_truth.h"
+#include "capstan/cli/corrected_model.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
@@ -266,6 +268,9 @@ ExitCode run(const Invocation& invocation) {
         return reports::experiment_page_html(
             diagnosis_page(recording, diagnosis, verdict_sentence(diagnosis)));
     });
+    if (invocation.has("corrected"))
+        write_file(invocation.text("corrected"),
+                   corrected_model_text(recording, diagnosis, verdict_sentence(diagnosis)));
     deliver(invocation, invocation.has("json") ? json_text(in_json(recording, diagnosis))
                                                : in_words(recording, diagnosis));
     return ExitCode::success;
@@ -281,6 +286,10 @@ const Option keep_option{"db", '\0', OptionKind::text, "FILE",
                          "Also keep the diagnosis in this results database; `capstan query \"SELECT * FROM "
                          "v_diagnosis\"` lists them."};
 
+const Option corrected_option{
+    "corrected", '\0', OptionKind::text, "FILE",
+    "Write the corrected model of the cable to FILE, for capstan study run --truth."};
+
 Command diagnose_command() {
     return {
         "diagnose",
@@ -288,13 +297,15 @@ Command diagnose_command() {
         "Moves the bench's model with the recording's driven channels, fits every effect of the catalogue, wrong "
         "parameters and sensor faults to what is left in the other channels, and says which explains it: where it "
         "sits, how probable each is, how far the gap shrinks, also on runs that the fit has not seen. Says `none` "
-        "where only noise is left and `unknown` where the best known cause leaves much of the gap. For recordings of "
-        "pull_pull and single_cable benches.",
+        "where only noise is left and `unknown` where the best known cause leaves much of the gap. Where explanations "
+        "cannot be told apart it says which, and which experiment would decide. Benches are pull_pull, single_cable, or "
+        "a drive or band of unknown geometry.",
         {log_argument},
-        {runs_option, calibrate_on_option, keep_option, jobs_option, output_option, json_option, page_option,
-         progress_option, help_option},
+        {runs_option, calibrate_on_option, keep_option, corrected_option, jobs_option, output_option,
+         json_option, page_option, progress_option, help_option},
         {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
-         "capstan diagnose bench.csv --html bench.html", "capstan diagnose bench.csv --db bench.db"},
+         "capstan diagnose bench.csv --html bench.html", "capstan diagnose bench.csv --db bench.db",
+         "capstan diagnose bench.csv --corrected corrected.toml"},
         run};
 }
 

@@ -3,8 +3,12 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/config_studies.h"
+#include "capstan/cli/config_writer.h"
+#include "capstan/cli/json_text.h"
+#include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/shard_option.h"
+#include "capstan/cli/truth_comparison.h"
 #include "capstan/cli/watched_run.h"
 
 namespace capstan::cli {
@@ -62,19 +66,61 @@ ExitCode run_part(const Invocation& invocation, const std::string& name,
         });
 }
 
+// The same study twice: once with the estimators' model as the truth, once with what --truth says.
+ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_truth) {
+    StudyPlan model = with_truth;
+    model.truth = {};
+    StudyPlan truth = with_truth;
+    truth.name += ", truth " + std::filesystem::path(invocation.text("truth")).stem().string();
+    for (StudyPlan* plan : {&model, &truth}) plan->config_toml = config_text(*plan, Comments::none);
+    const std::string file = invocation.text("db");
+    storage::Database database = storage::Database::open_or_create(file);
+    refuse_shard_file(database);
+    std::int64_t ids[2] = {0, 0};
+    const ExitCode code = watch(invocation, truth.name, [&](const RunOptions& options) -> WatchedEnd {
+        RunOutcome outcome;
+        StudyTimes times;
+        for (const StudyPlan* plan : {&model, &truth}) {
+            outcome = run_study(database, *plan, program_version(), options);
+            ids[plan == &truth ? 1 : 0] = outcome.study_id;
+            times = outcome.times;
+            if (outcome.end == RunEnd::stopped) break;
+        }
+        const std::string words =
+            outcome.end == RunEnd::complete
+                ? fmt::format("Studies {} (the model is the truth) and {} ({}) are complete in {}.", ids[0],
+                              ids[1], truth.name, file)
+                : fmt::format(
+                      "Stopped; every finished unit is kept. Go on with: capstan study resume {} --db {}",
+                      outcome.study_id, file);
+        return {outcome.end, times, words, outcome.study_id};
+    });
+    if (code != ExitCode::success) return code;
+    const auto advice = advice_under_truth(database, ids[0], ids[1]);
+    deliver(invocation, invocation.has("json") ? json_text(in_json(advice)) : in_words(advice));
+    return code;
+}
+
 ExitCode run(const Invocation& invocation) {
     const ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = runnable_studies(config);
+    if (invocation.has("truth") && !invocation.has("shard") && plans.size() == 1)
+        return run_both_truths(invocation, plans.front());
     if (invocation.has("shard")) return run_part(invocation, config.plan.name, plans);
     if (plans.size() > 1) return run_sweep(invocation, config.plan.name, plans);
     return run_one(invocation, plans.front());
 }
 
+const Option truth_option{
+    "truth", '\0', OptionKind::text, "FILE",
+    "The true cable is not the model: it differs as the [truth] in FILE says, which capstan diagnose --corrected "
+    "writes. Runs the study with either truth and says whether the advice changes."};
+
 }  // namespace
 
 Command study_run_command() {
     std::vector<Option> options = watched_run_options();
-    options.insert(options.begin() + 2, {seed_option, repetitions_option, shard_option});
+    options.insert(options.begin() + 2, {seed_option, repetitions_option, truth_option, shard_option});
     return {
         "study run",
         "Run a study and recommend sensors.",
@@ -87,6 +133,7 @@ Command study_run_command() {
         std::move(options),
         {"capstan study run configs/quick.toml", "capstan study run configs/paper.toml --db paper.db --stats",
          "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
+         "capstan study run my.toml --truth corrected.toml",
          "capstan study run my.toml --shard 2/8 --db part-2.db"},
         run};
 }

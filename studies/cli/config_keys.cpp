@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "capstan/cli/config_cable_keys.h"
+#include "capstan/cli/config_truth.h"
 #include "capstan/estimation/direction_pattern.h"
 #include "capstan/estimation/fusion_method.h"
 
@@ -431,11 +432,12 @@ std::vector<StudyKey> all_keys() {
         zero_or_more, 0.02, [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));
     add_placement_keys(keys);
     add_sweep_keys(keys);
+    for (StudyKey& key : truth_keys()) keys.push_back(std::move(key));
     return keys;
 }
 
 std::vector<ConfigSection<StudyPlan>> all_sections() {
-    return {
+    std::vector<ConfigSection<StudyPlan>> sections = {
         {"", "The study."},
         {"transmission", "The cable in its conduit."},
         // The paper's: 2 m of conduit at its bend radius.
@@ -472,6 +474,8 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
          "Many studies from one file: one for every combination of the values given here. `capstan study plan` says "
          "what it costs, `capstan study submit` runs it on a cluster."},
     };
+    for (ConfigSection<StudyPlan>& section : truth_sections()) sections.push_back(std::move(section));
+    return sections;
 }
 
 }  // namespace

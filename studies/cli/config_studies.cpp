@@ -2,6 +2,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/command.h"
+#include "capstan/cli/config_truth.h"
 #include "capstan/cli/config_writer.h"
 #include "capstan/placement/study_sweep.h"
 
@@ -30,6 +31,7 @@ ReadConfig read_config_of(const Invocation& invocation) {
     StudyPlan& plan = config.plan;
     if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
     if (invocation.has("repetitions")) plan.repetitions = static_cast<int>(invocation.whole("repetitions"));
+    if (invocation.has("truth")) plan.truth = read_truth(invocation.text("truth"));
     plan.config_toml = config_text(plan, Comments::none);
     return config;
 }

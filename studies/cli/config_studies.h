@@ -10,7 +10,7 @@ namespace capstan::cli {
 /// checked. Throws ConfigError or InvalidInput with what is wrong with any of them.
 std::vector<StudyPlan> runnable_studies(const ReadConfig& config);
 
-/// A configuration of the command line, with --seed and --repetitions in place of its own.
+/// A configuration of the command line, with --seed, --repetitions and --truth in place of its own.
 ReadConfig read_config_of(const class Invocation& invocation);
 
 }  // namespace capstan::cli

@@ -116,7 +116,7 @@ void BenchPage::add_tensions(const BenchInstant& now) {
 }
 
 std::string BenchPage::ways() const {
-    const std::vector<std::string> effects = bench::effects_there(plan_);
+    const std::vector<std::string> effects = effects_there(plan_.effects);
     std::string text = fmt::format("{} segments to a cable, {} samples at {:.4g} Hz", plan_.cable.segments,
                                    plan_.samples(), plan_.sample_rate_Hz);
     if (effects.empty()) return text + ", by the closed-form step.";

@@ -49,6 +49,7 @@ double usual_normal_force_N_per_m(const Recording& recording) {
 // given.
 CandidateCause load_dependent_friction(CandidateCause cause, double reference_N_per_m) {
     cause.numbers.resize(1);
+    cause.given = {{"reference", "N/m", reference_N_per_m}};
     cause.apply = [reference_N_per_m](BenchNumbers& numbers, Values values) {
         numbers.effects.load_dependent_friction = {values[0], reference_N_per_m};
     };

@@ -45,6 +45,12 @@ struct CandidateCause {
     std::string component;
     std::string end;
     std::vector<OpenNumber> numbers;
+    struct GivenNumber {
+        std::string name;
+        std::string unit;
+        double value = 0.0;
+    };
+    std::vector<GivenNumber> given;  ///< parameters of the effect that the recording itself decides
     std::function<void(BenchNumbers&, std::span<const double> values)> apply;
     /// How far friction, stiffness and pretension may be from their nominal values (logarithms, standard
     /// deviation): one of them far, if that is the cause.

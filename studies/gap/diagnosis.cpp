@@ -221,6 +221,8 @@ class Diagnoser {
                 fitted.numbers.push_back({number.name, number.unit, number.value(fit.coordinates[next++])});
                 if (number.kind == OpenNumber::Kind::place) fitted.position_m = fitted.numbers.back().value;
             }
+            for (const auto& given : cause->given)
+                fitted.numbers.push_back({given.name, given.unit, given.value});
             diagnosis.causes.push_back(fitted);
         }
         if (!diagnosis.causes.empty()) {

@@ -15,14 +15,14 @@ struct Sampled {
     CableState truth;
 };
 
-std::map<int, Sampled> simulate_instants(const QuasiStaticStep& step, const StudyPlan& plan) {
+std::map<int, Sampled> simulate_instants(const StudyPlan& plan) {
     std::map<int, Sampled> instants;
     for (const RegimeInstants& regime : plan.regimes) {
         for (const int sample : regime.samples) instants[sample];
     }
-    simulate(step, plan.motion, [&](const TrueSample& sample) {
-        const auto wanted = instants.find(sample.sample);
-        if (wanted != instants.end()) wanted->second = {sample.previous, sample.now};
+    simulate_truth(plan, [&](int sample, const CableState& previous, const CableState& now) {
+        const auto wanted = instants.find(sample);
+        if (wanted != instants.end()) wanted->second = {previous, now};
     });
     return instants;
 }
@@ -70,7 +70,7 @@ PreparedStudy prepare(const StudyPlan& plan) {
     PreparedStudy study{
         plan, QuasiStaticStep(Cable(plan.transmission.cable), plan.transmission.rules), {}, {}, {}, {}};
 
-    const auto instants = simulate_instants(study.step, plan);
+    const auto instants = simulate_instants(plan);
     for (const RegimeInstants& regime : plan.regimes) {
         for (const int sample : regime.samples) {
             study.scenarios.push_back(

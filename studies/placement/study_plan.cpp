@@ -258,6 +258,7 @@ std::vector<std::string> problems_of(const StudyPlan& plan) {
     for (std::string& problem : problems_of(plan.placement, plan.transmission.cable.segments + 1)) {
         problems.push_back(std::move(problem));
     }
+    for (std::string& problem : problems_of_truth(plan)) problems.push_back(std::move(problem));
     if (problems.empty()) check_instants(plan, problems);
     return problems;
 }

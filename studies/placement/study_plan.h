@@ -8,6 +8,7 @@
 #include "capstan/cable/cable.h"
 #include "capstan/estimation/single_sensor.h"
 #include "capstan/placement/placement_plan.h"
+#include "capstan/placement/true_cable.h"
 #include "capstan/sensing/layout.h"
 #include "capstan/sensing/noise.h"
 #include "capstan/solver/model_rules.h"
@@ -94,6 +95,7 @@ struct StudyPlan {
 
     Transmission transmission;
     TrueMotion motion;
+    TrueCable truth;
     std::vector<RegimeInstants> regimes;
     std::vector<NamedNoise> noise_levels;
 

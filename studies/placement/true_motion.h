@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "capstan/cable/cable_state.h"
 #include "capstan/placement/study_plan.h"
@@ -23,6 +25,17 @@ struct TrueSample {
 /// Simulates samples 1 to motion.samples and shows each.
 void simulate(const QuasiStaticStep& step, const TrueMotion& motion,
               const std::function<void(const TrueSample&)>& show);
+
+/// One sample of a trajectory with effects, which has no report.
+using ShowStates = std::function<void(int sample, const CableState& previous, const CableState& now)>;
+
+/// The plan's true cable over samples 1 to motion.samples: by the closed-form step, or where it has effects
+/// by BenchSimulation on a grid fine enough, read off at the plan's nodes. Throws InvalidInput with
+/// problems_of_truth(plan).
+void simulate_truth(const StudyPlan& plan, const ShowStates& show);
+
+/// What keeps the plan's true cable from being simulated; empty if nothing.
+std::vector<std::string> problems_of_truth(const StudyPlan& plan);
 
 /// The regime a motion pattern belongs to; none at rest or slack.
 std::optional<Regime> regime_of(const MotionPattern& pattern);

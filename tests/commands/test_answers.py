@@ -28,6 +28,31 @@ class Configurations(CapstanTest):
         self.run_capstan("study", "run", "my.toml", "--repetitions", 10)
 
 
+class Truth(CapstanTest):
+    """A study whose true cable is not the one that the estimators believe in."""
+
+    def test_says_whether_the_advice_changes_and_keeps_both_studies(self):
+        self.write("bend.toml", "[truth]\n[truth.local_bend_cable_A]\nangle_rad = 1.5\nmiddle_m = 1.1\n")
+        run = self.run_capstan("study", "run", CONFIGS / "paper.toml", "--repetitions", 50, "--truth", "bend.toml",
+                               "--db", "both.db", "--json")
+        advice = json.loads(run.stdout)
+        self.assertEqual({each["regime"] for each in advice}, {"mass", "partial_proximal"})
+        for each in advice:
+            # The model does not know what it is in for, and nobody does better than the best.
+            self.assertGreater(each["model"]["true_error_N"], each["model"]["expected_error_N"])
+            self.assertGreaterEqual(each["model"]["true_error_N"], each["truth"]["error_N"] - 1e-12)
+        names = [study["name"] for study in json.loads(self.run_capstan("study", "list", "--db", "both.db",
+                                                                         "--json").stdout)]
+        self.assertEqual(sorted(names), ["paper", "paper, truth bend"])
+
+    def test_the_model_as_truth_changes_nothing(self):
+        self.write("same.toml", "[truth]\nfriction_ratio = 1.0\n")
+        run = self.run_capstan("study", "run", CONFIGS / "quick.toml", "--truth", "same.toml", "--json")
+        for each in json.loads(run.stdout):
+            self.assertTrue(each["advice_stays"])
+            self.assertEqual(each["model"]["true_error_N"], each["model"]["expected_error_N"])
+
+
 class Answers(CapstanTest):
     def setUp(self):
         super().setUp()

@@ -101,7 +101,7 @@ TEST(BenchRun, AnEffectSwitchesToTheSimulationThatHasIt) {
     std::vector<double>& drag = plan.effects[static_cast<std::size_t>(viscous - effects.begin())];
     // So little that only the simulation itself could make a difference.
     drag[0] = 1e-6;
-    EXPECT_EQ(effects_there(plan), std::vector<std::string>{"viscous_friction"});
+    EXPECT_EQ(effects_there(plan.effects), std::vector<std::string>{"viscous_friction"});
     const auto hardly = run(plan);
     drag[0] = 20.0;
     const auto much = run(plan);

@@ -37,7 +37,7 @@ TEST(BenchKeys, TheDefaultIsThePapersRampsWithoutEffects) {
     EXPECT_EQ(plan.motor_drive, bench::MotorDrive::torque);
     EXPECT_DOUBLE_EQ(plan.motor.at(1.0), 0.1);
     EXPECT_EQ(plan.load_kind, bench::LoadKind::locked);
-    EXPECT_THAT(bench::effects_there(plan), IsEmpty());
+    EXPECT_THAT(effects_there(plan.effects), IsEmpty());
 }
 
 TEST(BenchKeys, PrintedDefaultReadsBackAsTheDefault) {
@@ -87,7 +87,7 @@ TEST(BenchKeys, EveryEffectOfTheCatalogueHasItsKeys) {
     for (const auto& key : config_schema<BenchPlan>().keys) keys += key.section.starts_with("effect.");
     EXPECT_EQ(keys, parameters);
     const BenchPlan plan = plan_of("[effect.local_bend_cable_A]\nangle_rad = 0.5\n");
-    EXPECT_THAT(bench::effects_there(plan), ElementsAre("local_bend (cable A)"));
+    EXPECT_THAT(effects_there(plan.effects), ElementsAre("local_bend (cable A)"));
     EXPECT_THAT(problems_in("[effect.backlash_motor]\nhalf_gap_rad = 2\n"),
                 ElementsAre(HasSubstr("is 2 rad, but must be 0 to 1")));
 }

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/cable/cable.h"
+#include "capstan/effects/effect_catalogue.h"
+
+namespace capstan {
+
+/// How the true cable differs from the one that the estimators believe in; as it stands, not at all.
+struct TrueCable {
+    // In parts of the model's.
+    double friction_ratio = 1.0;
+    double stiffness_ratio = 1.0;
+    double pretension_ratio = 1.0;
+    EffectValues effects = absent_effects();
+
+    bool has_effects() const { return effects != absent_effects(); }
+    bool is_the_model() const {
+        return friction_ratio == 1.0 && stiffness_ratio == 1.0 && pretension_ratio == 1.0 && !has_effects();
+    }
+};
+
+/// Whether an effect changes the cable in its conduit: pulleys, hands and sensors do not belong to a study.
+bool is_of_the_cable(const Effect& effect);
+
+/// The model's cable with the ratios.
+CableSpecification true_specification(CableSpecification model, const TrueCable& truth);
+
+}  // namespace capstan
