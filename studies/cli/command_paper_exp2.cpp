@@ -9,6 +9,7 @@
 #include "capstan/cli/paper_experiment.h"
 #include "capstan/cli/paper_pages.h"
 #include "capstan/cli/viscous_answer.h"
+#include "capstan/cli/viscous_recording.h"
 #include "capstan/cli/wrapped_text.h"
 #include "capstan/paper/error_reduction_tunnel.h"
 
@@ -103,7 +104,11 @@ ExitCode run(const Invocation& invocation) {
     const CableSetting& setting = paper::cable_settings().back();
     paper::ViscousBench bench;
     bench.drag_N_s_per_m2 = invocation.real("viscous-drag");
+    const double part = invocation.real("remainder");
+    bench.remainder *= part;
+    bench.load_friction_Nm *= part;
     const auto viscous = paper::compare_viscous_models(setting, setting.pretensions_N.back(), bench, {});
+    if (invocation.has("recording")) write_viscous_recording(invocation.text("recording"), setting, viscous);
     deliver_page(invocation, [&] { return reports::experiment_page_html(exp2_page(runs, viscous)); });
     return deliver_experiment(invocation, in_csv(runs),
                               invocation.has("json") ? json_text(in_json(runs, viscous))
@@ -122,6 +127,22 @@ const Option viscous_drag_option{
     0.1,
     100};
 
+const Option remainder_option{
+    "remainder",
+    '\0',
+    OptionKind::real_number,
+    "PART",
+    "What the simulated bench of Fig. 6 has beyond viscous friction, in parts of what leaves half of the residual: 0 is "
+    "nothing.",
+    "1",
+    {},
+    0.0,
+    10.0};
+
+const Option recording_option{
+    "recording", '\0', OptionKind::text, "FILE",
+    "Also write the simulated bench of Fig. 6 as a recording, FILE.csv with its sidecar, for capstan diagnose."};
+
 }  // namespace
 
 Command paper_exp2_command() {
@@ -136,9 +157,10 @@ Command paper_exp2_command() {
         "Fig. 6: what a viscous friction term takes of the residual, on a bench that is simulated too, with viscous "
         "friction, noise and a remainder that no model has.",
         {},
-        {viscous_drag_option, trajectories_option, page_option, json_option, help_option},
+        {viscous_drag_option, remainder_option, recording_option, trajectories_option, page_option,
+         json_option, help_option},
         {"capstan paper exp2", "capstan paper exp2 --html exp2.html",
-         "capstan paper exp2 --json -o tunnel.csv"},
+         "capstan paper exp2 --json -o tunnel.csv", "capstan paper exp2 --recording fig6.csv"},
         run};
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 struct TorqueRun {
     std::vector<double> load_torque_Nm;  // samples
+    std::vector<double> motor_angle_rad;
     int unsolved_steps = 0;
 };
 
@@ -30,6 +31,7 @@ struct Tunnel {
                                      time_step_s, time_s};
             if (!bench.advance(inputs).converged) ++run.unsolved_steps;
             run.load_torque_Nm.push_back(bench.load_torque_Nm());
+            run.motor_angle_rad.push_back(bench.motor_angle_rad());
         }
         return run;
     }
@@ -121,7 +123,8 @@ ViscousComparison compare_viscous_models(const CableSetting& setting, double pre
         const auto at = static_cast<std::size_t>(step - 1);
         comparison.samples.push_back({time_s, angle_rad, turned_rad / resolution.time_step_s,
                                       tunnel_torque_Nm(angle_rad), measured.load_torque_Nm[at],
-                                      without.load_torque_Nm[at], with.load_torque_Nm[at]});
+                                      measured.motor_angle_rad[at], without.load_torque_Nm[at],
+                                      with.load_torque_Nm[at]});
     }
     comparison.without_term = residual_line(comparison.samples, &ViscousSample::without_term_Nm);
     comparison.with_term = residual_line(comparison.samples, &ViscousSample::with_term_Nm);

@@ -28,6 +28,7 @@ struct ViscousSample {
     double load_speed_rad_per_s = 0.0;
     double motor_torque_Nm = 0.0;
     double bench_torque_Nm = 0.0;  ///< on the load, as the torque cell reads it
+    double bench_motor_angle_rad = 0.0;
     double without_term_Nm = 0.0;  ///< the same of the model without viscous friction
     double with_term_Nm = 0.0;     ///< and with the fitted one
 };

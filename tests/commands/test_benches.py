@@ -118,5 +118,18 @@ RECORDING = {
 }
 
 
+
+class PapersGap(CapstanTest):
+    """Exp. 2 of the paper on a bench with viscous friction, which the model that is to explain it does not have."""
+
+    def test_is_found_to_be_viscous_friction(self):
+        self.run_capstan("paper", "exp2", "--viscous-drag", 4, "--remainder", 0, "--recording", "fig6.csv")
+        answer = json.loads(self.run_capstan("diagnose", "fig6.csv", "--json", "--progress", "none").stdout)
+        self.assertEqual(answer["ranked"][0]["effect"], "viscous_friction")
+        self.assertAlmostEqual(answer["causes"][0]["numbers"]["drag"]["value"], 4.0, delta=0.1)
+        # At least half of the energy goes, as in the paper's Fig. 6; its bench had more that no model has.
+        self.assertLess(answer["rms_after"], answer["rms_before"] / 2**0.5)
+
+
 if __name__ == "__main__":
     unittest.main()
