@@ -4,73 +4,22 @@
 #include <cmath>
 #include <map>
 
+#include "capstan/gap/same_benches.h"
 #include "capstan/parallel/parallel_for.h"
 
 namespace capstan::gap {
 
 namespace {
 
-// Where the quasi-static model itself ends, for a channel that varies by `spread` in a run: ringing after
-// motion has run through, breakaway, the discretisation. Measured on recordings without a gap: about 1% of a
-// torque or tension, and of a motor angle 2% where it only stretches the cables, less where it turns with the
-// load.
-double model_floor(const std::string& channel, double spread) {
-    constexpr double turning_rad = 0.13;
-    if (channel == "motor_angle") return 0.02 * spread / (1.0 + spread / turning_rad);
-    return 0.012 * spread;
-}
-
 // Residuals hang together for about this long.
 constexpr double correlation_time_s = 0.25;
-
-double standard_deviation(const std::vector<double>& values) {
-    double mean = 0.0;
-    for (const double value : values) mean += value / static_cast<double>(values.size());
-    double squares = 0.0;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-// Sample by which what moves the bench has been near both its extremes: until then friction remembers how the
-// bench was put together. At most half the run.
-int end_of_first_loading(const Recording& recording, const RecordedRun& run) {
-    constexpr double near = 0.2;  // in parts of the span
-    const bool turned = run.drives("motor_angle");
-    const bool locked = run.output != OutputKind::handle;
-    const auto channel = recording.channel(turned ? "motor_angle" : locked ? "motor_torque" : "load_angle");
-    if (!channel || !run.drives(recording.channels[static_cast<std::size_t>(*channel)].name)) return 0;
-    const std::vector<double>& samples = run.values[static_cast<std::size_t>(*channel)];
-    const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
-    const double margin = near * (*most - *least);
-    bool been_low = false;
-    bool been_high = false;
-    const int half = static_cast<int>(samples.size() / 2);
-    for (int sample = 0; sample < half; ++sample) {
-        been_low |= samples[static_cast<std::size_t>(sample)] < *least + margin;
-        been_high |= samples[static_cast<std::size_t>(sample)] > *most - margin;
-        if (been_low && been_high) return sample;
-    }
-    return half;
-}
 
 }  // namespace
 
 CauseFitter::CauseFitter(const Recording& recording, const EffectsTwinOptions& options, int threads)
     : recording_(recording), twin_(recording, options), threads_(threads) {
-    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
-        const TwinRun nominal = twin_.run(run, {});
-        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
-            if (nominal.values[channel].empty()) continue;
-            const Channel& described = recording.channels[channel];
-            const double floor =
-                model_floor(described.name, standard_deviation(recording.runs[run].values[channel]));
-            const double scale = std::hypot(sample_noise(described), floor);
-            const int first = end_of_first_loading(recording, recording.runs[run]) / options.stride;
-            const std::size_t rows = nominal.values[channel].size() - static_cast<std::size_t>(first);
-            series_.push_back({run, channel, first, scale > 0.0 ? scale : 1.0, data_rows_, rows});
-            data_rows_ += rows;
-        }
-    }
+    series_ = residual_series(recording, twin_);
+    for (const ResidualSeries& series : series_) data_rows_ += series.rows;
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel)
         lattice_.push_back(unstated_step(recording, channel));
     // Priors weigh against independent samples, not against all of them.
@@ -124,75 +73,11 @@ void CauseFitter::write_residuals(std::size_t run, const TwinRun& twin,
     }
 }
 
-namespace {
-
-// Hypotheses that differ in sensor faults only: one bench is moved for all of them.
-struct SameBench {
-    Hypothesis mechanical;
-    BenchNumbers numbers;
-    std::vector<std::size_t> hypotheses;
-};
-
-Hypothesis without_sensors(const Hypothesis& hypothesis) {
-    Hypothesis mechanical{{}, hypothesis.coordinates.head(nominal_coordinates)};
-    Eigen::Index next = nominal_coordinates;
-    for (const CandidateCause* cause : hypothesis.causes) {
-        const auto count = static_cast<Eigen::Index>(cause->numbers.size());
-        if (cause->family != "sensor" && count > 0) {
-            mechanical.causes.push_back(cause);
-            const Eigen::Index known = mechanical.coordinates.size();
-            mechanical.coordinates.conservativeResize(known + count);
-            mechanical.coordinates.tail(count) = hypothesis.coordinates.segment(next, count);
-        }
-        next += count;
-    }
-    return mechanical;
-}
-
-std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses) {
-    std::vector<SameBench> benches;
-    for (std::size_t k = 0; k < hypotheses.size(); ++k) {
-        const Hypothesis mechanical = without_sensors(hypotheses[k]);
-        const auto same = std::find_if(benches.begin(), benches.end(), [&](const SameBench& bench) {
-            return bench.mechanical.causes == mechanical.causes &&
-                   bench.mechanical.coordinates == mechanical.coordinates;
-        });
-        if (same != benches.end()) {
-            same->hypotheses.push_back(k);
-        } else {
-            benches.push_back(
-                {mechanical, CauseFitter::numbers(mechanical.causes, mechanical.coordinates), {k}});
-        }
-    }
-    return benches;
-}
-
-using BenchGroup = std::vector<SameBench>;
-
-// To be moved at once: those that ring apart from those that do not.
-std::vector<BenchGroup> in_groups(const std::vector<SameBench>& benches) {
-    std::vector<BenchGroup> groups;
-    for (const bool rings : {false, true}) {
-        BenchGroup group;
-        for (const SameBench& bench : benches) {
-            if (bench.numbers.rings() != rings) continue;
-            group.push_back(bench);
-            if (group.size() < bench_lanes) continue;
-            groups.push_back(group);
-            group.clear();
-        }
-        if (!group.empty()) groups.push_back(group);
-    }
-    return groups;
-}
-
-}  // namespace
-
 Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypotheses,
                                             std::optional<LeftOut> left_out) const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data_rows_),
                                                 static_cast<Eigen::Index>(hypotheses.size()));
-    const std::vector<BenchGroup> groups = in_groups(by_bench(hypotheses));
+    const std::vector<BenchGroup> groups = to_be_moved_at_once(by_bench(hypotheses));
     const std::size_t runs = recording_.runs.size();
     parallel_for_each_index(static_cast<int>(runs * groups.size()), threads_, [&](int task) {
         const std::size_t run = static_cast<std::size_t>(task) % runs;

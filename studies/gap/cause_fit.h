@@ -10,18 +10,9 @@
 #include "capstan/gap/candidate_cause.h"
 #include "capstan/gap/effects_twin.h"
 #include "capstan/gap/least_squares.h"
+#include "capstan/gap/residual_series.h"
 
 namespace capstan::gap {
-
-/// Residuals of one channel in one run.
-struct ResidualSeries {
-    std::size_t run = 0;
-    std::size_t channel = 0;
-    int first_sample = 0;       ///< of those predicted; before it lies the first loading from rest
-    double scale = 1.0;         ///< noise and the model's floor together, in the channel's unit
-    std::size_t first_row = 0;  // in a vector of all residuals
-    std::size_t rows = 0;
-};
 
 /// Causes with their numbers, to be looked at together.
 struct Hypothesis {

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "capstan/gap/block_bootstrap.h"
 #include "capstan/gap/sample_conditions.h"
 
 namespace capstan::gap {
 
 namespace {
 
-constexpr int bootstrap_draws = 400;
-constexpr double block_s = 1.0;
 // A part of a recording is named if the gap is this much denser there than on average, and holds this share.
 constexpr double worth_naming_density = 1.3;
 constexpr double worth_naming_share = 0.4;
@@ -51,7 +49,7 @@ class Tally {
   private:
     void count(const RunResiduals& run) {
         const int samples = recording_.runs[run.run].samples();
-        const int block = std::max(1, static_cast<int>(block_s * recording_.sample_rate_Hz));
+        const int block = bootstrap_block_samples(recording_);
         for (int first = run.first_sample; first < samples; first += block) {
             blocks_.push_back(
                 {run.run, std::vector<double>(parts_.size(), 0.0), std::vector<double>(parts_.size(), 0.0)});
@@ -121,26 +119,25 @@ std::vector<GapShare> gap_map(const Recording& recording, const std::vector<RunR
     }
     if (!(sum > 0.0)) return {};
 
-    std::mt19937_64 random(20221);  // its numbers are the same everywhere
-    std::vector<std::vector<double>> drawn(parts.size());
-    for (int draw = 0; draw < bootstrap_draws; ++draw) {
+    std::vector<std::vector<double>> drawn_shares(parts.size());
+    for_each_bootstrap_draw(tally.blocks().size(), 20221, [&](std::span<const std::size_t> drawn) {
         std::vector<double> sums(parts.size(), 0.0);
-        for (std::size_t block = 0; block < tally.blocks().size(); ++block) {
-            const Block& any = tally.blocks()[random() % tally.blocks().size()];
-            for (std::size_t part = 0; part < parts.size(); ++part) sums[part] += any.energy[part];
+        for (const std::size_t block : drawn) {
+            for (std::size_t part = 0; part < parts.size(); ++part)
+                sums[part] += tally.blocks()[block].energy[part];
         }
         const std::vector<double> shares = shares_of(parts, sums);
-        for (std::size_t part = 0; part < parts.size(); ++part) drawn[part].push_back(shares[part]);
-    }
+        for (std::size_t part = 0; part < parts.size(); ++part) drawn_shares[part].push_back(shares[part]);
+    });
 
     const std::vector<double> shares = shares_of(parts, energy);
     const std::vector<double> of_samples = shares_of(parts, samples);
     std::vector<GapShare> map;
     for (std::size_t part = 0; part < parts.size(); ++part) {
         if (samples[part] == 0.0) continue;
-        std::sort(drawn[part].begin(), drawn[part].end());
-        map.push_back({parts[part].by, parts[part].name, shares[part], drawn[part][bootstrap_draws / 40],
-                       drawn[part][bootstrap_draws - 1 - bootstrap_draws / 40], of_samples[part]});
+        const BootstrapInterval interval = middle_95(std::move(drawn_shares[part]));
+        map.push_back(
+            {parts[part].by, parts[part].name, shares[part], interval.low, interval.high, of_samples[part]});
     }
     return map;
 }

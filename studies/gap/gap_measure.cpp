@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
+
+#include "capstan/gap/block_bootstrap.h"
 
 namespace capstan::gap {
 
 namespace {
-
-constexpr int bootstrap_draws = 400;
-constexpr double block_s = 1.0;
 
 // Sums of squares over a block of time, or over all of a channel.
 struct Squares {
@@ -52,17 +50,17 @@ ChannelGap summarised(const Channel& channel, const std::vector<Squares>& blocks
     gap.held_out_rms = rms(all.held_out, all.samples);
     gap.runner_up_rms = rms(all.runner_up, all.samples);
     gap.closed = closed_share(all, gap.noise);
-    std::mt19937_64 random(20222);  // its numbers are the same everywhere
-    std::vector<double> drawn;
-    for (int draw = 0; draw < bootstrap_draws; ++draw) {
+    std::vector<double> closed;
+    for_each_bootstrap_draw(blocks.size(), 20222, [&](std::span<const std::size_t> drawn) {
         Squares sum;
-        for (std::size_t block = 0; block < blocks.size(); ++block) sum += blocks[random() % blocks.size()];
-        const double closed = closed_share(sum, gap.noise);
-        if (!std::isnan(closed)) drawn.push_back(closed);
-    }
-    std::sort(drawn.begin(), drawn.end());
-    gap.closed_low = drawn.empty() ? gap.closed : drawn[drawn.size() / 40];
-    gap.closed_high = drawn.empty() ? gap.closed : drawn[drawn.size() - 1 - drawn.size() / 40];
+        for (const std::size_t block : drawn) sum += blocks[block];
+        const double share = closed_share(sum, gap.noise);
+        if (!std::isnan(share)) closed.push_back(share);
+    });
+    const BootstrapInterval interval =
+        closed.empty() ? BootstrapInterval{gap.closed, gap.closed} : middle_95(std::move(closed));
+    gap.closed_low = interval.low;
+    gap.closed_high = interval.high;
     return gap;
 }
 
@@ -102,7 +100,7 @@ GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, co
     GapMeasure measure;
     std::vector<RunResiduals> nominal_residuals;
     std::vector<std::vector<Squares>> blocks(recording.channels.size());
-    const int block = std::max(1, static_cast<int>(block_s * recording.sample_rate_Hz));
+    const int block = bootstrap_block_samples(recording);
     double worst = -1.0;
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
         std::vector<TwinRun> twins =
