@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/cli/diagnosis_words.h"
 #include "capstan/cli/program.h"
 
 namespace capstan::cli {
@@ -150,6 +151,17 @@ NumberTable fitted_table(const Diagnosis& diagnosis) {
     return table;
 }
 
+NumberTable experiments_table(const gap::Indistinct& indistinct) {
+    constexpr std::size_t shown_experiments = 6;
+    NumberTable table{
+        "Probability that the right explanation would be named", {"Experiment", "Probability"}, {}};
+    for (const gap::ExperimentScore& each : indistinct.experiments) {
+        if (table.rows.size() < shown_experiments)
+            table.rows.push_back({each.description, fmt::format("{:.2f}", each.told_apart)});
+    }
+    return table;
+}
+
 }  // namespace
 
 reports::ExperimentPage diagnosis_page(const Recording& recording, const Diagnosis& diagnosis,
@@ -171,6 +183,15 @@ reports::ExperimentPage diagnosis_page(const Recording& recording, const Diagnos
         {"where", "Where it lies", gap::gap_sentence(diagnosis.gap.map), {}, ""},
         {"runs", "Measured, nominal, corrected", "Long runs are thinned evenly for drawing.", {}, ""},
         {"loops", "Loops", "", {}, ""}};
+    if (const std::string next = next_experiment_in_words(diagnosis.indistinct); !next.empty())
+        page.sections.insert(
+            page.sections.begin() + 1,
+            {"next",
+             "What to record next",
+             next,
+             {experiments_table(diagnosis.indistinct)},
+             "Each experiment is simulated with every explanation as it was fitted; the others may move all "
+             "their numbers to imitate it. 0.5 is a guess."});
     page.tables = {ranking_table(diagnosis),  map_table(diagnosis),       std::move(curves.run),
                    std::move(curves.channel), std::move(curves.residual), std::move(curves.loop)};
     page.program_version = program_version();
