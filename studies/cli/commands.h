@@ -8,6 +8,7 @@ namespace capstan::cli {
 // One file each: command_<name>.cpp.
 Command study_run_command();
 Command study_resume_command();
+Command study_extend_command();
 Command study_list_command();
 Command study_show_command();
 Command study_replay_command();
