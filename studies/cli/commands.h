@@ -19,6 +19,7 @@ Command study_submit_command();
 Command study_status_command();
 Command recommend_command();
 Command place_command();
+Command sensitivity_command();
 Command duty_command();
 Command estimate_command();
 Command query_command();
