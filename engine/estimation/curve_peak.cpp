@@ -37,18 +37,52 @@ int first_index_of(const double* HWY_RESTRICT value, int points, hn::Vec<Tag> la
     return 0;  // only where a value is not a number
 }
 
+// Of the lanes of two running maxima the first index at which the largest value was met.
+int first_of(hn::Vec<Tag> largest, hn::Vec<Tag> at, hn::Vec<Tag> other_largest, hn::Vec<Tag> other_at) {
+    const Tag d;
+    const auto top = hn::MaxOfLanes(d, hn::Max(largest, other_largest));
+    const auto nowhere = hn::Set(d, 1e300);
+    const auto first = hn::Min(hn::IfThenElse(hn::Eq(largest, top), at, nowhere),
+                               hn::IfThenElse(hn::Eq(other_largest, top), other_at, nowhere));
+    const double index = hn::GetLane(hn::MinOfLanes(d, first));
+    return index < 1e300 ? static_cast<int>(index) : 0;  // 0 only where a value is not a number
+}
+
+// Nothing is looked for in a second pass and no branch depends on where the peak is: two running maxima, each
+// with the index at which it was met.
 int add_rows_and_find(const double* HWY_RESTRICT before, const double* HWY_RESTRICT sensor, int points,
                       double* HWY_RESTRICT sum) {
     const Tag d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    auto largest = hn::Add(hn::LoadU(d, before), hn::LoadU(d, sensor));
-    hn::StoreU(largest, d, sum);
-    for (int k = lanes; k < points; k += lanes) {
+    const auto add = [&](int k) {
         const auto here = hn::Add(hn::LoadU(d, before + k), hn::LoadU(d, sensor + k));
         hn::StoreU(here, d, sum + k);
-        largest = hn::Max(largest, here);
+        return here;
+    };
+    const auto step = hn::Set(d, 2.0 * lanes);
+    auto even = add(0);
+    auto even_index = hn::Iota(d, 0.0);
+    auto even_at = even_index;
+    auto odd = even;
+    auto odd_index = hn::Iota(d, static_cast<double>(lanes));
+    auto odd_at = even_at;
+    int k = lanes;
+    for (; k + lanes < points; k += 2 * lanes) {
+        const auto left = add(k);
+        const auto right = add(k + lanes);
+        even_index = hn::Add(even_index, step);
+        odd_at = hn::IfThenElse(hn::Gt(left, odd), odd_index, odd_at);
+        odd = hn::Max(odd, left);
+        odd_index = hn::Add(odd_index, step);
+        even_at = hn::IfThenElse(hn::Gt(right, even), even_index, even_at);
+        even = hn::Max(even, right);
     }
-    return first_index_of(sum, points, largest);
+    if (k < points) {
+        const auto left = add(k);
+        odd_at = hn::IfThenElse(hn::Gt(left, odd), odd_index, odd_at);
+        odd = hn::Max(odd, left);
+    }
+    return first_of(even, even_at, odd, odd_at);
 }
 
 int first_largest(const double* HWY_RESTRICT value, int points) {

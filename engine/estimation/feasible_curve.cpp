@@ -89,19 +89,23 @@ void maximum_likelihood(const FeasibleCurve& curve, std::span<const double> log_
     maximum_likelihood_around(curve, log_likelihood, most_likely_point(log_likelihood), tension_N);
 }
 
-void maximum_likelihood_around(const FeasibleCurve& curve, std::span<const double> log_likelihood, int best,
-                               std::span<double> tension_N) {
-    const int last = curve.points() - 1;
+CurvePlace most_likely_place(std::span<const double> log_likelihood, int best) {
+    const int last = static_cast<int>(log_likelihood.size()) - 1;
     double offset = 0.0;  // in grid steps from `best`
     if (best > 0 && best < last) {
         const double left = log_likelihood[best - 1] - log_likelihood[best];
         const double right = log_likelihood[best + 1] - log_likelihood[best];
         if (left + right < 0.0) offset = 0.5 * (left - right) / (left + right);
     }
-    const int neighbour = offset < 0.0 ? std::max(best - 1, 0) : std::min(best + 1, last);
+    return {best, offset < 0.0 ? std::max(best - 1, 0) : std::min(best + 1, last), std::abs(offset)};
+}
+
+void maximum_likelihood_around(const FeasibleCurve& curve, std::span<const double> log_likelihood, int best,
+                               std::span<double> tension_N) {
+    const CurvePlace place = most_likely_place(log_likelihood, best);
     for (int node = 0; node < curve.nodes(); ++node) {
         const auto along = curve.tension_N(node);
-        tension_N[node] = along[best] + std::abs(offset) * (along[neighbour] - along[best]);
+        tension_N[node] = along[best] + place.share * (along[place.neighbour] - along[best]);
     }
 }
 

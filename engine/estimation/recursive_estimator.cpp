@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/estimation/recursive_sums.h"
 #include "capstan/estimation/stratified_scores.h"
 #include "capstan/sensing/random_stream.h"
 
@@ -27,6 +29,13 @@ std::array<double, 2> uniforms(std::uint64_t seed, std::uint32_t step, std::uint
 
 bool is_slack(const CableState& state) {
     return state.last_motion.kind == MotionKind::slack;
+}
+
+// No tension is negative (nor a negative zero) and not all are zero: read off the bits, many at a time.
+bool pulls_everywhere(const std::vector<double>& tension_N) {
+    std::uint64_t any = 0;
+    for (const double node_N : tension_N) any |= std::bit_cast<std::uint64_t>(node_N);
+    return any != 0 && any >> 63 == 0;
 }
 
 std::vector<std::string> problems_of(const QuasiStaticStep& model, const CableState& start,
@@ -62,6 +71,7 @@ RecursiveEstimator::RecursiveEstimator(const QuasiStaticStep& model, const Cable
     known_ = {start.displacement_m.front(), start.displacement_m.back()};
     normal_scores_ = normal_scores(settings.members);
     members_.assign(members, start);
+    rows_N_.assign(members, nullptr);
     sensed_N_.assign(members, 0.0);
     mean_N_ = start.tension_N;
     deviation_N_.assign(start.tension_N.size(), 0.0);
@@ -134,25 +144,11 @@ void RecursiveEstimator::correct(const TensionReading& reading, RecursiveReport&
     report.log_evidence += -0.5 * (innovation_N * innovation_N / total + std::log(total));
     if (variance <= 0.0 || (saturated && innovation_N <= 0.0)) return;
 
-    std::fill(gain_.begin(), gain_.end(), 0.0);
-    for (std::size_t j = 0; j < members_.size(); ++j) {
-        const double* tension_N = members_[j].tension_N.data();
-        for (std::size_t node = 0; node < gain_.size(); ++node) gain_[node] += sensed_N_[j] * tension_N[node];
-    }
     const double share = 1.0 / (1.0 + std::sqrt(noise_N * noise_N / total));
-    for (std::size_t node = 0; node < gain_.size(); ++node) {
-        const double covariance = gain_[node] / (count - 1.0);
-        const double node_variance = deviation_N_[node] * deviation_N_[node];
-        const double squared = covariance * covariance;
-        const double chance = (variance * node_variance - squared) * chance_variances / (count - 2.0);
-        const double gain =
-            squared > chance ? std::min(1.0 - chance / squared, 1.0) * covariance / total : 0.0;
-        gain_[node] = gain;
-        // What the next reading starts from; take_moments() sees to what slack members do not follow.
-        const double pull = share * gain;
-        const double left = node_variance - 2.0 * pull * covariance + pull * pull * variance;
-        deviation_N_[node] = std::sqrt(std::max(left, 0.0));
-    }
+    weighted_member_sums(rows_N_, sensed_N_, gain_);
+    // The deviations are what the next reading starts from; take_moments() sees to what slack members do not
+    // follow.
+    gains_of_sums({count, variance, total, share, chance_variances}, gain_, deviation_N_);
     // Elongations change with tensions (E2's mean of both ends, whatever the rules say of sliding segments).
     const double half_compliance = 0.5 * model_.cable().segment_compliance_m_per_N();
     for (std::size_t node = 0; node + 1 < gain_.size(); ++node)
@@ -160,12 +156,8 @@ void RecursiveEstimator::correct(const TensionReading& reading, RecursiveReport&
     for (std::size_t j = 0; j < members_.size(); ++j) {
         if (is_slack(members_[j])) continue;
         const double pull_N = innovation_N - share * sensed_N_[j];
-        double* tension_N = members_[j].tension_N.data();
-        double* displacement_m = members_[j].displacement_m.data();
-        for (std::size_t node = 0; node < gain_.size(); ++node) {
-            tension_N[node] += gain_[node] * pull_N;
-            displacement_m[node] += gain_m_per_N_[node] * pull_N;
-        }
+        add_pull(gain_, pull_N, members_[j].tension_N.data());
+        add_pull(gain_m_per_N_, pull_N, members_[j].displacement_m.data());
     }
 }
 
@@ -173,7 +165,7 @@ void RecursiveEstimator::correct(const TensionReading& reading, RecursiveReport&
 void RecursiveEstimator::forbid_pushing() {
     const double half_compliance = 0.5 * model_.cable().segment_compliance_m_per_N();
     for (CableState& member : members_) {
-        if (is_slack(member)) continue;
+        if (is_slack(member) || pulls_everywhere(member.tension_N)) continue;
         double raised_before_N = 0.0;
         double moved_m = 0.0;
         double largest_N = 0.0;
@@ -193,20 +185,9 @@ void RecursiveEstimator::forbid_pushing() {
 }
 
 void RecursiveEstimator::take_moments() {
-    const double count = static_cast<double>(members_.size());
-    std::fill(mean_N_.begin(), mean_N_.end(), 0.0);
-    std::fill(deviation_N_.begin(), deviation_N_.end(), 0.0);
-    for (const CableState& member : members_) {
-        for (std::size_t node = 0; node < mean_N_.size(); ++node) mean_N_[node] += member.tension_N[node];
-    }
-    for (double& mean_N : mean_N_) mean_N /= count;
-    for (const CableState& member : members_) {
-        for (std::size_t node = 0; node < mean_N_.size(); ++node) {
-            const double off_N = member.tension_N[node] - mean_N_[node];
-            deviation_N_[node] += off_N * off_N;
-        }
-    }
-    for (double& deviation_N : deviation_N_) deviation_N = std::sqrt(deviation_N / (count - 1.0));
+    // A step may have given a member other memory.
+    for (std::size_t j = 0; j < members_.size(); ++j) rows_N_[j] = members_[j].tension_N.data();
+    member_moments(rows_N_, mean_N_, deviation_N_);
 }
 
 RecursiveEstimator::Moments RecursiveEstimator::at(const SensorSpot& spot) const {

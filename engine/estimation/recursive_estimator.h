@@ -79,6 +79,7 @@ class RecursiveEstimator {
     std::uint32_t steps_ = 0;
     std::vector<double> normal_scores_;  // members
     std::vector<CableState> members_;
+    std::vector<double*> rows_N_;       // members: their tensions
     std::vector<double> sensed_N_;      // members: tension at the sensor, then its distance from the mean
     std::vector<double> gain_;          // nodes: tension per tension
     std::vector<double> gain_m_per_N_;  // nodes: displacement per tension, 0 at the proximal end

@@ -5,6 +5,7 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/recommendation_words.h"
+#include "capstan/cli/stored_study.h"
 #include "capstan/placement/recommendation.h"
 #include "capstan/storage/study_store.h"
 
@@ -17,7 +18,10 @@ ExitCode run(const Invocation& invocation) {
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     Conclusions conclusions = read_conclusions(database, id);
     if (invocation.has("worthwhile-gain")) {
-        conclusions.recommendations = recommend(database, id, {invocation.real("worthwhile-gain")});
+        const StoredStudy stored = load_stored_study(database, id);
+        conclusions.recommendations =
+            recommend(database, id, {invocation.real("worthwhile-gain")},
+                      fresh_errors(database, id, stored.plan, static_cast<int>(invocation.whole("jobs"))));
     }
     deliver(invocation, invocation.has("json") ? json_text(in_json(conclusions)) : in_words(conclusions));
     return ExitCode::success;
@@ -30,7 +34,9 @@ Command recommend_command() {
         "recommend",
         "Say which sensors to use, where, and how to fuse them.",
         "Says what follows from a study, per noise level: for each motion regime, to be safe in every regime "
-        "(minimax regret), and over the duty cycle; each with its interval and the choices that are as good. "
+        "(minimax regret), and over the duty cycle; each with its interval and the choices that are as good. The best of "
+        "many looks better than it is on the draws that chose it, so its error is that of fresh draws, and how much the "
+        "choice flattered it is said. "
         "Studies that repeat the paper's experiment show its numbers beside ours.",
         {study_argument},
         {{"worthwhile-gain",
@@ -43,6 +49,7 @@ Command recommend_command() {
           0,
           1e6},
          database_option,
+         jobs_option,
          output_option,
          json_option,
          help_option},

@@ -8,6 +8,7 @@ namespace capstan::cli {
 // One file each: command_<name>.cpp.
 Command study_run_command();
 Command study_resume_command();
+Command study_extend_command();
 Command study_list_command();
 Command study_show_command();
 Command study_replay_command();
@@ -18,6 +19,7 @@ Command study_submit_command();
 Command study_status_command();
 Command recommend_command();
 Command place_command();
+Command sensitivity_command();
 Command duty_command();
 Command estimate_command();
 Command query_command();

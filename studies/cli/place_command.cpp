@@ -6,11 +6,10 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/config_reader.h"
 #include "capstan/cli/json_text.h"
-#include "capstan/cli/nearest_name.h"
+#include "capstan/cli/noise_option.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/page_place.h"
 #include "capstan/cli/place_words.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/duty/duty_cycle.h"
 #include "capstan/gap/recording_reader.h"
 #include "capstan/placement/sensor_placement.h"
@@ -18,17 +17,6 @@
 namespace capstan::cli {
 
 namespace {
-
-int noise_index(const StudyPlan& plan, const Invocation& invocation) {
-    if (!invocation.has("noise")) return 0;
-    std::vector<std::string> labels;
-    for (std::size_t k = 0; k < plan.noise_levels.size(); ++k) {
-        labels.push_back(plan.noise_levels[k].label);
-        if (labels.back() == invocation.text("noise")) return static_cast<int>(k);
-    }
-    throw UsageError(fmt::format("--noise: the configuration has no noise level \"{}\"{}",
-                                 invocation.text("noise"), suggestion(invocation.text("noise"), labels)));
-}
 
 // Duty shares out of a recording, in place of the configuration's.
 void take_duty(const Invocation& invocation, StudyPlan& plan) {
@@ -57,7 +45,7 @@ ExitCode run(const Invocation& invocation) {
     require_runnable(config);
     PlacementOptions options;
     options.jobs = static_cast<int>(invocation.whole("jobs"));
-    options.noise_index = noise_index(config.plan, invocation);
+    options.noise_index = noise_index_of(config.plan, invocation);
     options.runners_up = static_cast<int>(invocation.whole("runners-up"));
     if (invocation.has("until-resolved")) options.resolve_to_N = invocation.real("until-resolved");
     options.on_progress = [](const std::string& message) { fmt::print(stderr, "{}\n", message); };
@@ -85,8 +73,7 @@ Command place_command() {
         "best of many looks better than it is, so its error is estimated again on fresh draws. The section "
         "[placement] of CONFIG says what is allowed and which error counts.",
         {config_argument},
-        {{"noise", '\0', OptionKind::text, "LABEL",
-          "Which of the configuration's noise levels; the first if not given."},
+        {noise_option,
          {"runners-up",
           '\0',
           OptionKind::whole_number,

@@ -65,6 +65,16 @@ int indifferent_sets(const CountAnswer& count) {
     return static_cast<int>(sets.size());
 }
 
+// What branch and bound says of the D-optimal layouts of a long cable.
+std::string d_optimal_words(const PlacementAnswer& answer) {
+    double gap_nats = 0.0;
+    for (const CountAnswer& count : answer.scopes.front().counts)
+        gap_nats = std::max(gap_nats, count.d_optimal_gap_nats);
+    return gap_nats <= 0.0
+               ? "proven to tell most of all layouts of that count."
+               : fmt::format("no layout of that count tells more by more than {:.3f} nats.", gap_nats);
+}
+
 std::size_t widest(const ScopeAnswer& scope, std::size_t at_least, const auto& text_of) {
     for (const CountAnswer& count : scope.counts) at_least = std::max(at_least, text_of(count).size());
     return at_least;
@@ -128,7 +138,8 @@ ordered_json count_json(const CountAnswer& count) {
                          {"allowed_layouts", count.allowed_layouts},
                          {"optimum", layout_json(count.optimum)},
                          {"optimism_N", count.optimism_N},
-                         {"none_better_by_more_than_N", count.at_most_better_N}};
+                         {"none_better_by_more_than_N", count.at_most_better_N},
+                         {"d_optimal_gap_nats", count.d_optimal_gap_nats}};
     json["runners_up"] = ordered_json::array();
     for (const JudgedLayout& layout : count.runners_up) json["runners_up"].push_back(layout_json(layout));
     json["beside"] = ordered_json::array();
@@ -177,7 +188,10 @@ std::string in_words(const StudyPlan& plan, const PlacementAnswer& answer) {
     const std::string reliability =
         answer.search == SearchKind::exhaustive
             ? "as good: other layouts that these draws cannot tell from the best, all comparisons together at 95%."
-            : "gap: no layout of that count is better by more than this, if one sensor more never hurts.";
+            : fmt::format(
+                  "gap: no layout of that count is better by more than this, if one sensor more never "
+                  "hurts. D-opt: {}",
+                  d_optimal_words(answer));
     const std::string legend = fmt::format(
         "m: number of sensors; > where one more no longer gains {:g} N. error: of {} fresh draws that the search has "
         "not seen; luck: how much better the search's own draws made it look. {} 1 lost: error without the sensor "

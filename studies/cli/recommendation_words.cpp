@@ -6,6 +6,7 @@
 
 #include "capstan/cli/text_table.h"
 #include "capstan/cli/wrapped_text.h"
+#include "capstan/placement/recommendation.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
 
@@ -39,12 +40,14 @@ ordered_json recommendation_json(const storage::StudyDescription& study,
     json.update(choice_json(study, r.set_index, r.method));
     json["error_N"] = r.error_N;
     json["interval_95_N"] = {r.interval_low_N, r.interval_high_N};
+    json["error_on_search_draws_N"] = searched_error_N(r);
+    json["optimism_N"] = r.error_N - searched_error_N(r);
     json["sentence"] = r.sentence;
     json["best_at_each_count"] = ordered_json::array();
     for (const auto& count : r.counts) {
         ordered_json entry = {{"sensor_count", count.sensor_count}};
         entry.update(choice_json(study, count.set_index, count.method));
-        entry["error_N"] = count.error_N;
+        entry["error_on_search_draws_N"] = count.error_N;
         entry["interval_95_N"] = {count.interval_low_N, count.interval_high_N};
         json["best_at_each_count"].push_back(std::move(entry));
     }

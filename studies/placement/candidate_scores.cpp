@@ -1,7 +1,6 @@
 #include "capstan/placement/candidate_scores.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace capstan {
@@ -17,11 +16,10 @@ std::vector<PlacementCandidate> placement_candidates(const storage::StudyDescrip
         const auto [found, is_new] = place.try_emplace({cell.set_index, cell.method}, candidates.size());
         if (is_new) {
             const int count = static_cast<int>(study.sensor_sets[cell.set_index].nodes.size());
-            candidates.push_back({cell.set_index, count, cell.method, {}, {}, {}});
+            candidates.push_back({cell.set_index, count, cell.method, {}, {}});
         }
         PlacementCandidate& candidate = candidates[found->second];  // cells come in scenario order
         candidate.error_N.push_back(cell.mean_abs_error_N);
-        candidate.standard_error_N.push_back(cell.standard_error_N);
         candidate.block_error_N.push_back(cell.block_mean_abs_error_N);
     }
     return candidates;
@@ -33,43 +31,45 @@ std::vector<Score> weighted_scores(const std::vector<PlacementCandidate>& candid
     for (const PlacementCandidate& candidate : candidates) {
         Score score;
         score.block_objective_N.assign(candidate.block_error_N.front().size(), 0.0);
-        double variance = 0.0;  // scenarios are drawn independently
         for (std::size_t s = 0; s < share.size(); ++s) {
             score.objective_N += share[s] * candidate.error_N[s];
-            variance += std::pow(share[s] * candidate.standard_error_N[s], 2);
             for (std::size_t b = 0; b < score.block_objective_N.size(); ++b) {
                 score.block_objective_N[b] += share[s] * candidate.block_error_N[s][b];
             }
         }
-        score.standard_error_N = std::sqrt(variance);
         scores.push_back(std::move(score));
     }
     return scores;
 }
 
-std::vector<Score> regret_scores(const std::vector<PlacementCandidate>& candidates,
+std::vector<int> best_of_regimes(const std::vector<PlacementCandidate>& candidates,
                                  const std::vector<std::vector<double>>& regime_share) {
+    std::vector<int> best;
+    for (const std::vector<double>& share : regime_share) {
+        const std::vector<Score> scores = weighted_scores(candidates, share);
+        const auto least = std::min_element(scores.begin(), scores.end(), [](const Score& a, const Score& b) {
+            return a.objective_N < b.objective_N;
+        });
+        best.push_back(static_cast<int>(least - scores.begin()));
+    }
+    return best;
+}
+
+std::vector<Score> regret_scores(const std::vector<PlacementCandidate>& candidates,
+                                 const std::vector<std::vector<double>>& regime_share,
+                                 const std::vector<int>& reference) {
     std::vector<Score> worst(candidates.size());
     for (std::size_t regime = 0; regime < regime_share.size(); ++regime) {
         const std::vector<Score> scores = weighted_scores(candidates, regime_share[regime]);
-        const Score& best =
-            *std::min_element(scores.begin(), scores.end(),
-                              [](const Score& a, const Score& b) { return a.objective_N < b.objective_N; });
+        const Score& best = scores[reference[regime]];
         for (std::size_t c = 0; c < scores.size(); ++c) {
             const double regret_N = scores[c].objective_N - best.objective_N;
             if (regime > 0 && regret_N <= worst[c].objective_N) continue;
             worst[c] = scores[c];
             worst[c].objective_N = regret_N;
-            double squares = 0.0;
-            const std::size_t blocks = best.block_objective_N.size();
-            for (std::size_t b = 0; b < blocks; ++b) {
+            for (std::size_t b = 0; b < best.block_objective_N.size(); ++b) {
                 worst[c].block_objective_N[b] -= best.block_objective_N[b];
-                squares += std::pow(worst[c].block_objective_N[b] - regret_N, 2);
             }
-            worst[c].standard_error_N =
-                blocks > 1
-                    ? std::sqrt(squares / static_cast<double>(blocks - 1) / static_cast<double>(blocks))
-                    : 0.0;
         }
     }
     return worst;

@@ -14,7 +14,6 @@ struct PlacementCandidate {
     int sensor_count = 0;
     std::string method;
     std::vector<double> error_N;                     // scenarios
-    std::vector<double> standard_error_N;            // scenarios
     std::vector<std::vector<double>> block_error_N;  // scenarios x blocks
 };
 
@@ -25,17 +24,23 @@ std::vector<PlacementCandidate> placement_candidates(const storage::StudyDescrip
 /// What a scope judges a candidate by: the smaller the better.
 struct Score {
     double objective_N = 0.0;
-    double standard_error_N = 0.0;
-    std::vector<double> block_objective_N;  // blocks: of which the objective is, to first order, the mean
+    /// blocks: of which the objective is, to first order, the mean. A block has the same repetitions in every
+    /// scenario, so what scenarios share (a sensor's bias) is in their spread.
+    std::vector<double> block_objective_N;
 };
 
 /// Mean error over scenarios with the given shares, which sum to one.
 std::vector<Score> weighted_scores(const std::vector<PlacementCandidate>& candidates,
                                    const std::vector<double>& share);  // scenarios
 
-/// Largest regret over regimes: how much worse than the best candidate of each regime, at any count.
-/// `regime_share` is regimes x scenarios, the shares of a regime's own scenarios.
-std::vector<Score> regret_scores(const std::vector<PlacementCandidate>& candidates,
+/// The best candidate of each regime, at any count. `regime_share` is regimes x scenarios, the shares of a
+/// regime's own scenarios.
+std::vector<int> best_of_regimes(const std::vector<PlacementCandidate>& candidates,
                                  const std::vector<std::vector<double>>& regime_share);
+
+/// Largest regret over regimes: how much worse than the candidate `reference` of each regime.
+std::vector<Score> regret_scores(const std::vector<PlacementCandidate>& candidates,
+                                 const std::vector<std::vector<double>>& regime_share,
+                                 const std::vector<int>& reference);
 
 }  // namespace capstan

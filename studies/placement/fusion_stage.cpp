@@ -244,7 +244,9 @@ storage::FusionResult fuse_readings(const PreparedStudy& study, const StudyPoint
         const int end = blocks.end(block);
         for (int first = blocks.first(block); first < end; first += at_a_time) {
             const int past = std::min(first + at_a_time, end);
-            fusion.paper_methods(first, past, [&](SetEstimates& estimates) { sum_up(estimates, false); });
+            if (study.uses(Knowledge::direction_known) || study.uses(Knowledge::direction_unknown)) {
+                fusion.paper_methods(first, past, [&](SetEstimates& estimates) { sum_up(estimates, false); });
+            }
             if (study.uses(Knowledge::feasible_curve)) {
                 fusion.curve_methods(first, past, [&](SetEstimates& estimates) { sum_up(estimates, true); });
             }

@@ -16,6 +16,10 @@ class SetInformation {
 
     double nats(const std::vector<int>& nodes) const;  ///< nodes from 0
 
+    int nodes() const { return nodes_; }
+    /// Of D^-1/2 C D^-1/2.
+    double scaled_covariance(int node, int other) const { return scaled_covariance_[node * nodes_ + other]; }
+
   private:
     int nodes_;
     std::vector<double> scaled_covariance_;  // nodes x nodes: D^-1/2 C D^-1/2

@@ -6,6 +6,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/fusion_stage.h"
+#include "capstan/placement/information_search.h"
 #include "capstan/placement/placement_constraints.h"
 #include "capstan/placement/repetition_blocks.h"
 #include "capstan/placement/sensor_weights.h"
@@ -169,6 +170,19 @@ class GreedySearch {
     Nodes usable_;
 };
 
+// What layouts tell over the duty cycle.
+AverageInformation information_of(const PreparedStudy& study, int noise_index) {
+    AverageInformation information;
+    for (const PreparedScenario& scenario : study.scenarios) {
+        information.scenarios.emplace_back(scenario, study.plan.noise_levels[noise_index].level);
+        for (const RegimeInstants& regime : study.plan.regimes) {
+            if (regime.regime == scenario.regime)
+                information.share.push_back(regime.duty_share / static_cast<double>(regime.samples.size()));
+        }
+    }
+    return information;
+}
+
 JudgedLayout judged(const std::string& how, const Nodes& nodes, LayoutRater& searched,
                     const PlacementConstraints& constraints) {
     JudgedLayout layout;
@@ -213,6 +227,7 @@ PlacementAnswer search_long_cable(const StudyPlan& plan, const PlacementOptions&
     LayoutRater fresh(plan, options, fresh_draws);
     GreedySearch search(searched, plan.placement);
     const int most = std::min(search.constraints().most_sensors(), most_searched_sensors);
+    const AverageInformation information = information_of(searched.study(), options.noise_index);
     Nodes layout = plan.placement.required_nodes;
     std::sort(layout.begin(), layout.end());
 
@@ -224,9 +239,16 @@ PlacementAnswer search_long_cable(const StudyPlan& plan, const PlacementOptions&
         if (!layout.empty() && search.constraints().allow(layout)) {
             CountAnswer count;
             count.sensors = static_cast<int>(layout.size());
-            const Nodes best = search.improved(layout);
+            const MostInformative informative =
+                most_informative_layout(information, search.constraints(), count.sensors);
+            // From two starts, so that a wrong first sensor need not stay.
+            Nodes best = search.improved(layout);
+            const Nodes other = search.improved(informative.nodes);
+            if (searched.rate(other).error_N < searched.rate(best).error_N) best = other;
             count.optimum = judged("optimum", best, searched, search.constraints());
             count.beside.push_back(judged("greedy_forward", layout, searched, search.constraints()));
+            count.beside.push_back(judged("d_optimal", informative.nodes, searched, search.constraints()));
+            count.d_optimal_gap_nats = informative.at_most_nats - informative.nats;
             for (const LayoutFamily& family : layout_families()) {
                 const Nodes nodes = family.layouts(count.sensors, searched.study().nodes()).front().nodes;
                 count.beside.push_back(

@@ -41,6 +41,9 @@ struct CountAnswer {
     std::vector<IndifferentLayout> indifferent;
     /// With 95% certainty no candidate is better than the optimum by more than this [N].
     double at_most_better_N = 0.0;
+    /// Greedy search only: no layout of that count tells more than the D-optimal one beside it by more than
+    /// this [nats]; 0: it is proven to be the D-optimal one.
+    double d_optimal_gap_nats = 0.0;
 };
 
 /// The answer to one question.

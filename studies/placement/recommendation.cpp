@@ -4,8 +4,9 @@
 #include <map>
 
 #include "capstan/placement/candidate_scores.h"
-#include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/paired_comparison.h"
+#include "capstan/placement/placement_questions.h"
+#include "capstan/placement/placement_scope.h"
 #include "capstan/placement/recommendation_sentence.h"
 #include "capstan/storage/study_store.h"
 
@@ -37,13 +38,21 @@ int count_where_gain_flattens(const std::map<int, int>& best, const std::vector<
     return best.rbegin()->first;
 }
 
-storage::RecommendationCountRecord count_record(const PlacementCandidate& candidate, const Score& score) {
-    return {candidate.sensor_count,
-            candidate.set_index,
-            candidate.method,
-            score.objective_N,
-            score.objective_N - normal_95 * score.standard_error_N,
-            score.objective_N + normal_95 * score.standard_error_N};
+// The best of each count, judged on the draws that made it the best: the interval holds for all choices of
+// the count together, so it holds for whichever of them looks best.
+std::vector<storage::RecommendationCountRecord> count_records(
+    const std::vector<PlacementCandidate>& candidates, const std::vector<Score>& scores,
+    const std::map<int, int>& best) {
+    std::map<int, int> choices;  // by count
+    for (const PlacementCandidate& candidate : candidates) ++choices[candidate.sensor_count];
+    std::vector<storage::RecommendationCountRecord> records;
+    for (const auto& [sensors, c] : best) {
+        const double error_N = scores[c].objective_N;
+        const double reach_N = simultaneous_reach_N(scores[c].block_objective_N, choices[sensors]);
+        records.push_back({sensors, candidates[c].set_index, candidates[c].method, error_N, error_N - reach_N,
+                           error_N + reach_N});
+    }
+    return records;
 }
 
 // Who at the recommended count cannot be told from the recommended one.
@@ -66,76 +75,74 @@ std::vector<storage::RecommendationAlternativeRecord> indifferent_set(
     return alternatives;
 }
 
-// What is asked, and how each candidate answers.
-struct Question {
-    std::string scope;
-    std::string regime;
-    std::vector<Score> scores;  // candidates
+// A question's answer on the study's own draws.
+struct Choice {
+    int candidate = 0;
+    storage::RecommendationRecord record;
 };
 
-storage::RecommendationRecord answer(const storage::StudyDescription& study, int noise_index,
-                                     const std::vector<PlacementCandidate>& candidates,
-                                     const Question& question, const RecommendationPolicy& policy) {
+Choice choose(int noise_index, const std::vector<PlacementCandidate>& candidates,
+              const PlacementQuestion& question, const RecommendationPolicy& policy) {
     const std::map<int, int> best = best_by_count(candidates, question.scores);
     const int count = count_where_gain_flattens(best, question.scores, policy.worthwhile_gain_N);
-    const int chosen = best.at(count);
-    const storage::RecommendationCountRecord at_count =
-        count_record(candidates[chosen], question.scores[chosen]);
-    storage::RecommendationRecord record;
+    Choice choice{best.at(count), {}};
+    storage::RecommendationRecord& record = choice.record;
     record.noise_index = noise_index;
     record.scope = question.scope;
     record.regime = question.regime;
-    record.set_index = at_count.set_index;
-    record.method = at_count.method;
+    record.set_index = candidates[choice.candidate].set_index;
+    record.method = candidates[choice.candidate].method;
     record.sensor_count = count;
-    record.error_N = at_count.error_N;
-    record.interval_low_N = at_count.interval_low_N;
-    record.interval_high_N = at_count.interval_high_N;
-    for (const auto& [sensors, c] : best)
-        record.counts.push_back(count_record(candidates[c], question.scores[c]));
-    record.alternatives = indifferent_set(candidates, question.scores, chosen);
-    record.sentence = recommendation_sentence(study, record, policy.worthwhile_gain_N);
-    return record;
-}
-
-// Shares of a regime's own scenarios, equal and summing to one; zero elsewhere.
-std::vector<double> scenario_shares(const storage::StudyDescription& study, const std::string& regime) {
-    std::vector<double> share;
-    double total = 0.0;
-    for (const storage::ScenarioRecord& scenario : study.scenarios) {
-        share.push_back(scenario.regime == regime ? 1.0 : 0.0);
-        total += share.back();
-    }
-    for (double& s : share) s /= total;
-    return share;
+    record.counts = count_records(candidates, question.scores, best);
+    record.alternatives = indifferent_set(candidates, question.scores, choice.candidate);
+    return choice;
 }
 
 }  // namespace
 
-std::vector<storage::RecommendationRecord> recommend(storage::Database& database, std::int64_t study_id,
-                                                     const RecommendationPolicy& policy) {
-    const storage::StudyDescription study = storage::load_study(database, study_id);
-    std::vector<std::vector<double>> regime_share;
-    std::vector<double> duty_share(study.scenarios.size(), 0.0);
-    for (const storage::RegimeRecord& regime : study.regimes) {
-        regime_share.push_back(scenario_shares(study, regime.regime));
-        for (std::size_t s = 0; s < duty_share.size(); ++s) {
-            duty_share[s] += regime.duty_share * regime_share.back()[s];
-        }
+double searched_error_N(const storage::RecommendationRecord& recommendation) {
+    for (const storage::RecommendationCountRecord& count : recommendation.counts) {
+        if (count.sensor_count == recommendation.sensor_count) return count.error_N;
     }
+    return recommendation.error_N;
+}
+
+std::vector<storage::RecommendationRecord> recommend(storage::Database& database, std::int64_t study_id,
+                                                     const RecommendationPolicy& policy,
+                                                     const FreshErrors& fresh_errors) {
+    const storage::StudyDescription study = storage::load_study(database, study_id);
+    const ScenarioShares shares = scenario_shares(study);
     std::vector<storage::RecommendationRecord> recommendations;
     for (int noise = 0; noise < static_cast<int>(study.noise_levels.size()); ++noise) {
         const auto candidates =
             placement_candidates(study, storage::read_cell_summaries(database, study_id, noise));
         if (candidates.empty()) continue;  // only methods that are told the direction
-        const auto ask = [&](const Question& question) {
-            recommendations.push_back(answer(study, noise, candidates, question, policy));
-        };
-        for (std::size_t r = 0; r < study.regimes.size(); ++r) {
-            ask({"regime", study.regimes[r].regime, weighted_scores(candidates, regime_share[r])});
+        const std::vector<int> reference = best_of_regimes(candidates, shares.regime);
+        std::vector<Choice> choices;
+        for (const PlacementQuestion& question : placement_questions(candidates, study, shares, reference))
+            choices.push_back(choose(noise, candidates, question, policy));
+
+        // On fresh draws: what was chosen, in the order of the questions, then what regrets are measured
+        // from.
+        std::vector<PlacementCandidate> chosen;
+        for (const Choice& choice : choices) chosen.push_back(candidates[choice.candidate]);
+        std::vector<int> chosen_reference;
+        for (const int each : reference) {
+            chosen_reference.push_back(static_cast<int>(chosen.size()));
+            chosen.push_back(candidates[each]);
         }
-        ask({"minimax_regret", "", regret_scores(candidates, regime_share)});
-        ask({"duty_cycle", "", weighted_scores(candidates, duty_share)});
+        const auto asked_afresh =
+            placement_questions(fresh_errors(noise, chosen), study, shares, chosen_reference);
+        for (std::size_t q = 0; q < choices.size(); ++q) {
+            storage::RecommendationRecord& record = choices[q].record;
+            const Score& score = asked_afresh[q].scores[q];
+            const IntervalEstimate error = interval_of(score.objective_N, score.block_objective_N);
+            record.error_N = error.value_N;
+            record.interval_low_N = error.low_N;
+            record.interval_high_N = error.high_N;
+            record.sentence = recommendation_sentence(study, record, policy.worthwhile_gain_N);
+            recommendations.push_back(std::move(record));
+        }
     }
     return recommendations;
 }

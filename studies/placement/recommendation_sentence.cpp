@@ -1,6 +1,9 @@
 #include "capstan/placement/recommendation_sentence.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "capstan/placement/recommendation.h"
 
 namespace capstan {
 
@@ -56,11 +59,18 @@ std::string error_words(const storage::RecommendationRecord& r) {
     return "the mean tension error is " + with_digits(r.error_N, 3) + " N (" + interval + ")";
 }
 
+// Draws that chose the best of many flatter it.
+std::string optimism_words(const storage::RecommendationRecord& r) {
+    const double optimism_N = r.error_N - searched_error_N(r);
+    return "This is from fresh draws; on those that chose it, it looked " +
+           with_digits(std::abs(optimism_N), 4) + (optimism_N < 0.0 ? " N worse." : " N better.");
+}
+
 std::string gain_words(const storage::RecommendationRecord& r, double worthwhile_gain_N) {
     const auto next = std::find_if(r.counts.begin(), r.counts.end(),
                                    [&](const auto& count) { return count.sensor_count > r.sensor_count; });
     if (next == r.counts.end()) return "No larger count was studied.";
-    const double gain_N = r.error_N - next->error_N;
+    const double gain_N = searched_error_N(r) - next->error_N;
     const int added = next->sensor_count - r.sensor_count;
     const std::string more = added == 1 ? "One more sensor" : std::to_string(added) + " more sensors";
     if (gain_N <= 0.0) return more + " would gain nothing.";
@@ -85,8 +95,8 @@ std::string recommendation_sentence(const storage::StudyDescription& study,
         std::to_string(r.sensor_count) + (r.sensor_count == 1 ? " sensor at " : " sensors at ");
     return scope_words(r) + " (noise " + study.noise_levels[r.noise_index].label + "): put " + count +
            node_words(study.sensor_sets[r.set_index].nodes) + layout_words(study, r.set_index) +
-           " and fuse by " + method->title + "; " + error_words(r) + ". " + gain_words(r, worthwhile_gain_N) +
-           " " + alternative_words(r);
+           " and fuse by " + method->title + "; " + error_words(r) + ". " + optimism_words(r) + " " +
+           gain_words(r, worthwhile_gain_N) + " " + alternative_words(r);
 }
 
 }  // namespace capstan

@@ -88,24 +88,44 @@ storage::SingleSensorRecord summarise_unknown(const PreparedStudy& study, const 
 
 }  // namespace
 
+namespace {
+
+SolvedReadings room_for(int repetitions, int nodes) {
+    const std::size_t size = static_cast<std::size_t>(repetitions) * nodes;
+    return {nodes, std::vector<double>(size), std::vector<std::uint16_t>(size),
+            std::vector<std::uint8_t>(size)};
+}
+
+void read_repetition(const PreparedStudy& study, const StudyPoint& point, int r, SolvedReadings& solved) {
+    const NoiseLevel& noise = study.plan.noise_levels[point.noise_index].level;
+    const ReadingDraws draws =
+        draw_readings({study.plan.seed, static_cast<std::uint32_t>(point.scenario_index),
+                       point.first_draw + static_cast<std::uint32_t>(r)},
+                      solved.nodes, noise);
+    const std::span<double> readings(solved.reading_N.data() + solved.at(r, 0), solved.nodes);
+    read_tensions(noise, draws, study.scenarios[point.scenario_index].truth.tension_N, readings);
+}
+
+}  // namespace
+
 void solve_block(const PreparedStudy& study, const StudyPoint& point, int first, int end,
                  SolvedReadings& solved) {
     const PreparedScenario& scenario = study.scenarios[point.scenario_index];
-    const NoiseLevel& noise = study.plan.noise_levels[point.noise_index].level;
     for (int r = first; r < end; ++r) {
-        const ReadingDraws draws =
-            draw_readings({study.plan.seed, static_cast<std::uint32_t>(point.scenario_index),
-                           point.first_draw + static_cast<std::uint32_t>(r)},
-                          solved.nodes, noise);
-        const std::span<double> readings(solved.reading_N.data() + solved.at(r, 0), solved.nodes);
-        read_tensions(noise, draws, scenario.truth.tension_N, readings);
+        read_repetition(study, point, r, solved);
         for (int node = 0; node < solved.nodes; ++node) {
-            const auto choice = scenario.estimator.choose(node, readings[node]);
+            const auto choice = scenario.estimator.choose(node, solved.reading_N[solved.at(r, node)]);
             solved.branch[solved.at(r, node)] = static_cast<std::uint16_t>(choice.branch);
             solved.verifying[solved.at(r, node)] =
                 static_cast<std::uint8_t>(std::min(choice.verifying_patterns, 255));
         }
     }
+}
+
+SolvedReadings only_readings(const PreparedStudy& study, const StudyPoint& point) {
+    SolvedReadings solved = room_for(study.plan.repetitions, study.nodes());
+    for (int r = 0; r < study.plan.repetitions; ++r) read_repetition(study, point, r, solved);
+    return solved;
 }
 
 SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& point, int jobs,
@@ -115,12 +135,7 @@ SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& poin
 
 SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& point, int repetitions, int jobs,
                               double& processor_time_s) {
-    SolvedReadings solved;
-    solved.nodes = study.nodes();
-    const std::size_t size = static_cast<std::size_t>(repetitions) * solved.nodes;
-    solved.reading_N.resize(size);
-    solved.branch.resize(size);
-    solved.verifying.resize(size);
+    SolvedReadings solved = room_for(repetitions, study.nodes());
     const RepetitionBlocks blocks{repetitions};
     std::vector<double> block_time_s(blocks.count());
     parallel_for_each_index(blocks.count(), jobs, [&](int block) {

@@ -43,6 +43,9 @@ SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& poin
 SolvedReadings solve_readings(const PreparedStudy& study, const StudyPoint& point, int jobs,
                               double& processor_time_s);
 
+/// The readings alone of all repetitions, none solved: enough for methods on the feasible curve.
+SolvedReadings only_readings(const PreparedStudy& study, const StudyPoint& point);
+
 /// Single-sensor errors and profiles (the paper's e_ij and its Fig. 8), direction known and unknown.
 storage::SingleSensorResult summarise_sensors(const PreparedStudy& study, const StudyPoint& point,
                                               const SolvedReadings& solved, int jobs);

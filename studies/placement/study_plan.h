@@ -8,6 +8,7 @@
 #include "capstan/cable/cable.h"
 #include "capstan/estimation/single_sensor.h"
 #include "capstan/placement/placement_plan.h"
+#include "capstan/placement/sensitivity_plan.h"
 #include "capstan/placement/true_cable.h"
 #include "capstan/sensing/layout.h"
 #include "capstan/sensing/noise.h"
@@ -113,8 +114,9 @@ struct StudyPlan {
     double worthwhile_gain_N = 0.02;  ///< one more sensor must lower the error by this to be recommended
     bool compare_with_paper = false;  ///< the plan holds what the paper's table needs
 
-    PlacementPlan placement;  ///< for the search over all layouts
-    Sweep sweep;              ///< studies_in_sweep() makes the studies; each of them has none
+    PlacementPlan placement;      ///< for the search over all layouts
+    SensitivityPlan sensitivity;  ///< for the sensitivity of what it advises
+    Sweep sweep;                  ///< studies_in_sweep() makes the studies; each of them has none
 };
 
 /// Everything wrong with the plan, each with what to try; empty when it can run. Simulates the motion to see

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "capstan/estimation/curve_peak.h"
+#include "capstan/estimation/sensor_vote.h"
 
 namespace capstan {
 
@@ -12,6 +13,8 @@ SubsetCurves::SubsetCurves(const CandidateList& candidates, const FeasibleCurve&
     for (std::size_t m = 0; m < candidates.methods.size(); ++m) {
         if (candidates.methods[m]->knowledge == Knowledge::feasible_curve)
             methods_.push_back(static_cast<int>(m));
+        if (candidates.methods[m]->name == maximum_likelihood_method.name)
+            maximum_likelihood_ = static_cast<int>(m);
     }
     // Sets that are wanted, and those that they begin with.
     const SensorSubsets& subsets = candidates.subsets;
@@ -27,7 +30,25 @@ SubsetCurves::SubsetCurves(const CandidateList& candidates, const FeasibleCurve&
     per_sensor_.resize(candidates.subsets.usable_nodes().size() * points);
     stack_.resize((candidates.subsets.most_sensors() + 1) * points, 0.0);
     log_likelihood_.resize(points);
-    tension_N_.resize(measure.truth_N.size());
+    stride_ = padded_nodes(curve.nodes());
+    tension_N_.resize(stride_);
+    profile_N_.resize(points * stride_, 0.0);
+    for (int node = 0; node < curve.nodes(); ++node) {
+        const auto along_N = curve.tension_N(node);
+        for (std::size_t k = 0; k < points; ++k) profile_N_[k * stride_ + node] = along_N[k];
+    }
+}
+
+// maximum_likelihood_around() on profiles whose nodes lie side by side.
+void SubsetCurves::score_maximum_likelihood(std::span<const double> log_likelihood, int peak,
+                                            double* error_N) {
+    const CurvePlace place = most_likely_place(log_likelihood, peak);
+    const double* here_N = profile_N_.data() + static_cast<std::ptrdiff_t>(place.point) * stride_;
+    const double* there_N = profile_N_.data() + static_cast<std::ptrdiff_t>(place.neighbour) * stride_;
+    double* tension_N = tension_N_.data();
+    for (int node = 0; node < stride_; ++node)
+        tension_N[node] = here_N[node] + place.share * (there_N[node] - here_N[node]);
+    measure_.write([tension_N](int node) { return tension_N[node]; }, error_N);
 }
 
 void SubsetCurves::score(std::span<const double> reading_N, std::span<double> error_N) {
@@ -45,6 +66,7 @@ void SubsetCurves::score(std::span<const double> reading_N, std::span<double> er
     FusionInput input;
     input.curve = &curve_;
     input.log_likelihood = log_likelihood_;
+    const std::span<double> fused_N = std::span<double>(tension_N_).first(curve_.nodes());
     for (const int s : walk_) {
         const int size = subsets.sensors(s);
         const std::span<double> here = row(stack_, size);
@@ -53,14 +75,14 @@ void SubsetCurves::score(std::span<const double> reading_N, std::span<double> er
         for (const int method : methods_) {
             const int candidate = candidates_.of(s, method);
             if (!candidates_.wants(candidate)) continue;
-            if (candidates_.methods[method]->name == maximum_likelihood_method.name) {
-                maximum_likelihood_around(curve_, here, peak, tension_N_);
-            } else {
-                std::copy(here.begin(), here.end(), log_likelihood_.begin());
-                candidates_.methods[method]->fuse(input, tension_N_);
+            double* const slot = error_N.data() + static_cast<std::ptrdiff_t>(candidate) * measure_.width;
+            if (method == maximum_likelihood_) {
+                score_maximum_likelihood(here, peak, slot);
+                continue;
             }
-            measure_.write([&](int node) { return tension_N_[node]; },
-                           error_N.data() + static_cast<std::ptrdiff_t>(candidate) * measure_.width);
+            std::copy(here.begin(), here.end(), log_likelihood_.begin());
+            candidates_.methods[method]->fuse(input, fused_N);
+            measure_.write([&](int node) { return tension_N_[node]; }, slot);
         }
     }
 }

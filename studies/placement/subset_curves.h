@@ -21,11 +21,16 @@ class SubsetCurves {
                std::span<double> error_N);         // candidates x width
 
   private:
+    void score_maximum_likelihood(std::span<const double> log_likelihood, int peak, double* error_N);
+
     const CandidateList& candidates_;
     const FeasibleCurve& curve_;
     const CurveLikelihood& likelihood_;
     const ErrorMeasure& measure_;
     std::vector<int> methods_;            // indices of the candidates' methods on the curve
+    int maximum_likelihood_ = -1;         // its index among the candidates' methods; -1: not asked for
+    int stride_ = 0;                      // padded nodes
+    std::vector<double> profile_N_;       // points x stride: the curve, what belongs to a point side by side
     std::vector<int> walk_;               // subsets, depth first
     std::vector<double> per_sensor_;      // places x points
     std::vector<double> stack_;           // sizes x points

@@ -1,6 +1,7 @@
 #include "capstan/placement/subset_means.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "capstan/estimation/fusion_method.h"
 
@@ -31,7 +32,7 @@ SubsetMeans::SubsetMeans(const CandidateList& candidates, std::span<const double
       w_mean_r_(index_of(candidates, weighted_mean_r_method)),
       truth_N_(measure.truth_N.begin(), measure.truth_N.end()),
       votes_(candidates.subsets.usable_nodes()),
-      fused_N_(measure.truth_N.size()) {
+      fused_N_(measure.truth_N.size() + 4) {
     const SensorSubsets& subsets = candidates.subsets;
     const int nodes = static_cast<int>(truth_N_.size());
     truth_N_.resize(padded_nodes(nodes), 0.0);
@@ -56,25 +57,30 @@ void SubsetMeans::write_average(const SubsetSums& sums, int used, double* error_
     measure_.write([&](int node) { return average_N[node]; }, error_N);
 }
 
-// Mean-R: at each node the average of those who agree there; of all where nobody does.
-void SubsetMeans::write_renormalised(int used, double* error_N) {
-    for (const SubsetVotes::NodeRun& run : runs_) {
-        const int agreeing = run.agreeing != 0 ? candidates_.subsets.at(run.agreeing) : used;
-        const double* average_N = equal_.average_of(agreeing);
-        for (int node = run.first; node < run.end; ++node) fused_N_[node] = average_N[node];
+// Of each run the row of its set, four nodes at a time: what is written beyond a run is the next one's, which
+// comes later.
+void SubsetMeans::gather(const double* rows_N, int stride) {
+    double* fused_N = fused_N_.data();
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+        const double* row_N = rows_N + static_cast<std::ptrdiff_t>(agreeing_[k]) * stride;
+        for (int node = runs_[k].first; node < runs_[k].end; node += 4)
+            std::memcpy(fused_N + node, row_N + node, 4 * sizeof(double));
     }
-    measure_.write([&](int node) { return fused_N_[node]; }, error_N);
+}
+
+// Mean-R: at each node the average of those who agree there; of all where nobody does.
+void SubsetMeans::write_renormalised(double* error_N) {
+    gather(equal_.average_N.data(), equal_.stride);
+    const double* fused_N = fused_N_.data();
+    measure_.write([fused_N](int node) { return fused_N[node]; }, error_N);
 }
 
 // W Mean-R: the weight of those left out is not shared out.
 void SubsetMeans::write_reduced(int used, double* error_N) {
-    for (const SubsetVotes::NodeRun& run : runs_) {
-        const int agreeing = run.agreeing != 0 ? candidates_.subsets.at(run.agreeing) : used;
-        const double* sum_N = weighted_.sum_N(agreeing);
-        for (int node = run.first; node < run.end; ++node) fused_N_[node] = sum_N[node];
-    }
+    gather(weighted_.tension_N.data(), weighted_.stride);
+    const double* fused_N = fused_N_.data();
     const double weight = weighted_.weight[used];
-    measure_.write([&](int node) { return fused_N_[node] / weight; }, error_N);
+    measure_.write([fused_N, weight](int node) { return fused_N[node] / weight; }, error_N);
 }
 
 void SubsetMeans::score(const SensorEstimates& estimates, std::span<double> error_N) {
@@ -110,7 +116,10 @@ void SubsetMeans::score(const SensorEstimates& estimates, std::span<double> erro
             continue;
         }
         runs_ = votes_.agreement(set, used_places);
-        if (wants_r) write_renormalised(used, slot(mean_r_));
+        agreeing_.clear();
+        for (const SubsetVotes::NodeRun& run : runs_)
+            agreeing_.push_back(run.agreeing != 0 ? subsets.at(run.agreeing) : used);
+        if (wants_r) write_renormalised(slot(mean_r_));
         if (wants_wr) write_reduced(used, slot(w_mean_r_));
     }
 }

@@ -23,7 +23,8 @@ class SubsetMeans {
 
   private:
     void write_average(const SubsetSums& sums, int used, double* error_N) const;
-    void write_renormalised(int used, double* error_N);
+    void gather(const double* rows_N, int stride);
+    void write_renormalised(double* error_N);
     void write_reduced(int used, double* error_N);
 
     const CandidateList& candidates_;
@@ -34,7 +35,8 @@ class SubsetMeans {
     SubsetSums weighted_;
     SubsetVotes votes_;
     std::span<const SubsetVotes::NodeRun> runs_;  // of the set at hand
-    std::vector<double> fused_N_;                 // nodes
+    std::vector<int> agreeing_;                   // runs: the set whose sensors agree there
+    std::vector<double> fused_N_;                 // nodes, and room for a group of four beyond
 };
 
 }  // namespace capstan

@@ -69,7 +69,8 @@ SubsetSums make_subset_sums(const SensorSubsets& subsets, std::vector<double> fa
     for (int s = 1; s < subsets.count(); ++s) {
         sums.weight[s] = sums.weight[subsets.without_last(s)] + sums.factor[subsets.last_place(s)];
     }
-    sums.tension_N.assign(static_cast<std::size_t>(subsets.count()) * sums.stride, 0.0);
+    // A group of four that begins at any node of the last set may be read.
+    sums.tension_N.assign(static_cast<std::size_t>(subsets.count()) * sums.stride + profile_group, 0.0);
     if (averages == Averages::keep) sums.average_N = sums.tension_N;
     sums.mean_abs_N.assign(subsets.count(), 0.0);
     return sums;

@@ -82,7 +82,13 @@ std::span<const SubsetVotes::NodeRun> SubsetVotes::agreement(std::uint64_t set, 
     }
     runs_.clear();
     const auto add = [&](int first, int end, std::uint64_t agreeing) {
-        if (first < end) runs_.push_back({first, end, (agreeing | unverified_) & used});
+        if (first >= end) return;
+        const std::uint64_t who = (agreeing | unverified_) & used;
+        if (!runs_.empty() && runs_.back().agreeing == who) {
+            runs_.back().end = end;
+        } else {
+            runs_.push_back({first, end, who});
+        }
     };
     std::uint64_t before = ~std::uint64_t{0};  // the first node has no segment before it
     for (const SegmentRun& run : segments_) {

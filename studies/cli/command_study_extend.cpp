@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/config_writer.h"
+#include "capstan/cli/program.h"
+#include "capstan/cli/shard_option.h"
+#include "capstan/cli/stored_study.h"
+#include "capstan/cli/usage_error.h"
+#include "capstan/cli/watched_run.h"
+#include "capstan/placement/study_extension.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::cli {
+
+namespace {
+
+StudyPlan with_repetitions(StudyPlan plan, int repetitions) {
+    plan.repetitions = repetitions;
+    plan.config_toml = config_text(plan, Comments::none);
+    return plan;
+}
+
+StudyToExtend complete_study(std::int64_t id, const StudyPlan& plan) {
+    return {id, plan, [plan](int n) { return with_repetitions(plan, n); }};
+}
+
+// A name, or `latest`, finds an extension that was killed; what is to be extended is the study before it.
+StudyToExtend study_to_extend(const Invocation& invocation, storage::Database& database) {
+    const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+    const StoredStudy stored = load_stored_study(database, id);
+    const storage::StudyRecord& study = stored.description.study;
+    if (study.status == "complete") return complete_study(id, stored.plan);
+    const auto studies = storage::list_studies(database);
+    for (auto before = studies.rbegin(); before != studies.rend(); ++before) {
+        if (before->study_id >= id || before->name != study.name || before->status != "complete") continue;
+        const StudyPlan plan = load_stored_study(database, before->study_id).plan;
+        if (with_repetitions(plan, study.repetitions).config_toml == study.config_toml)
+            return complete_study(before->study_id, plan);
+    }
+    throw UsageError(fmt::format(
+        "study {} ({}) is not complete, so there is nothing to extend yet. `capstan study resume {} --db {}` "
+        "ends it.",
+        id, study.name, id, invocation.text("db")));
+}
+
+std::string words_of(const Invocation& invocation, const StudyToExtend& study,
+                     const ExtensionOutcome& outcome) {
+    const std::string file = invocation.text("db");
+    if (outcome.run.end == RunEnd::stopped)
+        return "Stopped; every finished unit is kept. The same command goes on.";
+    std::string words;
+    if (outcome.run.study_id == study.study_id) {
+        words =
+            fmt::format("Study {} has enough with its {} repetitions.", study.study_id, outcome.repetitions);
+    } else {
+        words =
+            fmt::format("Study {} ({}) has {} repetitions and is complete in {}; study {} is still there.",
+                        outcome.run.study_id, study.plan.name, outcome.repetitions, file, study.study_id);
+    }
+    if (outcome.unresolved_N) {
+        const bool resolved = *outcome.unresolved_N <= invocation.real("until-resolved");
+        words += fmt::format(
+            " With 95 % certainty no choice is better than the best of its count by more than "
+            "{:.4f} N{}.",
+            *outcome.unresolved_N,
+            resolved ? "" : ", which is not within the tolerance; --most-repetitions stopped it");
+    }
+    return words;
+}
+
+ExitCode run(const Invocation& invocation) {
+    if (invocation.has("repetitions") == invocation.has("until-resolved")) {
+        throw UsageError(
+            "capstan study extend: give one of --repetitions (how many the study is to have) and "
+            "--until-resolved (how much better, in newtons, another choice may still be)");
+    }
+    storage::Database database = storage::Database::open_existing(invocation.text("db"));
+    refuse_shard_file(database);
+    const StudyToExtend study = study_to_extend(invocation, database);
+    ExtensionOutcome outcome;
+    const ExitCode code = watch(invocation, study.plan.name, [&](const RunOptions& options) -> WatchedEnd {
+        if (invocation.has("repetitions")) {
+            outcome = extend_study(database, study, static_cast<int>(invocation.whole("repetitions")),
+                                   program_version(), options);
+        } else {
+            Resolution resolution;
+            resolution.tolerance_N = invocation.real("until-resolved");
+            resolution.most_repetitions = static_cast<int>(invocation.whole("most-repetitions"));
+            if (invocation.text("progress") == "auto") {
+                resolution.on_look = [](int repetitions, double unresolved_N) {
+                    fmt::print(stderr, "{} repetitions: some choice may still be better by {:.4f} N\n",
+                               repetitions, unresolved_N);
+                };
+            }
+            outcome = extend_until_resolved(database, study, resolution, program_version(), options);
+        }
+        return {outcome.run.end, outcome.run.times, words_of(invocation, study, outcome),
+                outcome.run.study_id};
+    });
+    if (code == ExitCode::success) deliver_conclusions(invocation, database, outcome.run.study_id);
+    return code;
+}
+
+}  // namespace
+
+Command study_extend_command() {
+    std::vector<Option> options = watched_run_options();
+    const std::vector<Option> own = {
+        {"repetitions",
+         '\0',
+         OptionKind::whole_number,
+         "N",
+         "How many repetitions the study is to have in all.",
+         "",
+         {},
+         2,
+         1e7},
+        {"until-resolved",
+         '\0',
+         OptionKind::real_number,
+         "TOLERANCE",
+         "Double the repetitions until, with 95 % certainty, no choice is better than the best of its count by more "
+         "than this, in newtons: at every noise level, question and number of sensors.",
+         "",
+         {},
+         1e-6,
+         1e6},
+        {"most-repetitions",
+         '\0',
+         OptionKind::whole_number,
+         "N",
+         "Where --until-resolved stops in any case.",
+         "128000",
+         {},
+         2,
+         1e7}};
+    options.insert(options.begin() + 1, own.begin(), own.end());
+    return {
+        "study extend",
+        "Give a stored study more repetitions.",
+        "Runs a stored study with more repetitions, from the configuration stored with it. The larger study has "
+        "the draws of the smaller one and more; it stands beside it under the same name, with the same bits as "
+        "one run with that number from the start. Sums, quantiles and the weights of the W methods are of all "
+        "repetitions, so all are worked out again. Killed or stopped, the same command goes on.",
+        {study_argument},
+        std::move(options),
+        {"capstan study extend --repetitions 8000", "capstan study extend paper --until-resolved 0.002"},
+        run};
+}
+
+}  // namespace capstan::cli
