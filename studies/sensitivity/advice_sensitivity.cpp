@@ -36,8 +36,12 @@ class Analysis {
         answer_.error = nominal->best_error;
         for (const std::size_t p : uncertain_) {
             const UncertainParameter& parameter = uncertain_parameters()[p];
-            answer_.parameters.push_back({parameter.name, parameter.title, parameter.unit,
-                                          parameter.value(plan_, options_.noise_index), range_of(p)});
+            ParameterSensitivity& row = answer_.parameters.emplace_back();
+            row.name = parameter.name;
+            row.title = parameter.title;
+            row.unit = parameter.unit;
+            row.value = parameter.value(plan_, options_.noise_index);
+            row.range = range_of(p);
         }
         screen();
         scan();
