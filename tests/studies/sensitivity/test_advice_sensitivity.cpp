@@ -135,7 +135,7 @@ TEST(AdviceSensitivity, TheScanGoesThroughTheConfiguredValueWhereNothingIsRegret
                                    [](const ScanPoint& a, const ScanPoint& b) { return a.ratio < b.ratio; }));
         EXPECT_EQ(parameter.scan[6].ratio, 1.0);
         EXPECT_EQ(parameter.scan[6].there->regret.value_N, 0.0);
-        EXPECT_EQ(parameter.on_error.steps + answer.never >= 3, true);
+        EXPECT_GE(parameter.on_error.steps + answer.never, 3);
     }
     EXPECT_EQ(answer.screened, 3 * 6);
 }
@@ -143,7 +143,8 @@ TEST(AdviceSensitivity, TheScanGoesThroughTheConfiguredValueWhereNothingIsRegret
 // More noise, more error: the one effect of which the sign is known.
 TEST(AdviceSensitivity, NoiseRaisesTheError) {
     for (const ParameterSensitivity& parameter : advice_sensitivity(plan_for(2), {}).parameters) {
-        if (parameter.name == "noise") EXPECT_GT(parameter.on_error.mean, 0.0);
+        if (parameter.name != "noise") continue;
+        EXPECT_GT(parameter.on_error.mean, 0.0);
     }
 }
 
