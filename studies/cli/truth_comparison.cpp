@@ -6,6 +6,7 @@
 
 #include "capstan/cli/recommendation_words.h"
 #include "capstan/cli/wrapped_text.h"
+#include "capstan/placement/recommendation.h"
 #include "capstan/storage/statement.h"
 
 namespace capstan::cli {
@@ -66,9 +67,10 @@ std::vector<AdviceUnderTruth> advice_under_truth(storage::Database& database, st
         if (best == nullptr) continue;
         advice.push_back({model.study.noise_levels[static_cast<std::size_t>(given.noise_index)].label,
                           given.regime, nodes_of(model, given.set_index), title_of(model, given.method),
-                          given.error_N, error_N(database, of_truth, given), nodes_of(truth, best->set_index),
-                          title_of(truth, best->method), best->error_N, best->interval_low_N,
-                          best->interval_high_N, is_as_good(*best, given)});
+                          searched_error_N(given), error_N(database, of_truth, given),
+                          nodes_of(truth, best->set_index), title_of(truth, best->method),
+                          searched_error_N(*best), best->error_N, best->interval_low_N, best->interval_high_N,
+                          is_as_good(*best, given)});
     }
     return advice;
 }
@@ -81,12 +83,14 @@ std::string in_words(const std::vector<AdviceUnderTruth>& advice) {
             "cable they err by {:.3f} N.",
             each.regime, each.noise, fmt::join(each.model_nodes, ", "), each.model_method,
             each.expected_error_N, each.true_error_N);
-        line += each.stays ? " The advice stays: no other choice is better beyond doubt."
-                           : fmt::format(
-                                 " The advice changes: nodes {} fused by {} err by {:.3f} N ({:.3f} to "
-                                 "{:.3f}).",
-                                 fmt::join(each.true_nodes, ", "), each.true_method, each.best_error_N,
-                                 each.best_low_N, each.best_high_N);
+        line +=
+            each.stays
+                ? " The advice stays: no other choice is better beyond doubt."
+                : fmt::format(
+                      " The advice changes: nodes {} fused by {} err by {:.3f} N, on fresh draws by {:.3f} N ({:.3f} to "
+                      "{:.3f}).",
+                      fmt::join(each.true_nodes, ", "), each.true_method, each.best_error_N,
+                      each.fresh_error_N, each.fresh_low_N, each.fresh_high_N);
         text += "\n" + wrapped(line, 100, "  * ", "    ") + "\n";
     }
     return text;
@@ -106,8 +110,9 @@ nlohmann::ordered_json in_json(const std::vector<AdviceUnderTruth>& advice) {
                         {"truth",
                          {{"nodes", each.true_nodes},
                           {"method", each.true_method},
-                          {"error_N", each.best_error_N},
-                          {"interval_95_N", {each.best_low_N, each.best_high_N}}}}});
+                          {"true_error_N", each.best_error_N},
+                          {"error_on_fresh_draws_N", each.fresh_error_N},
+                          {"interval_95_N", {each.fresh_low_N, each.fresh_high_N}}}}});
     return json;
 }
 

@@ -16,12 +16,13 @@ struct AdviceUnderTruth {
     std::vector<int> model_nodes;  ///< from 1
     std::string model_method;      ///< title
     double expected_error_N = 0.0;
-    double true_error_N = 0.0;  ///< of the model's advice where the truth differs
+    double true_error_N = 0.0;  ///< of the model's advice where the truth differs, on the same draws
     std::vector<int> true_nodes;
     std::string true_method;
-    double best_error_N = 0.0;
-    double best_low_N = 0.0;
-    double best_high_N = 0.0;
+    double best_error_N = 0.0;   ///< on the same draws, which chose it
+    double fresh_error_N = 0.0;  ///< on fresh ones, with its interval
+    double fresh_low_N = 0.0;
+    double fresh_high_N = 0.0;
     bool stays = true;  ///< the model's advice is the best of both, or cannot be told from the best
 };
 

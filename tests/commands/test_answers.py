@@ -40,7 +40,7 @@ class Truth(CapstanTest):
         for each in advice:
             # The model does not know what it is in for, and nobody does better than the best.
             self.assertGreater(each["model"]["true_error_N"], each["model"]["expected_error_N"])
-            self.assertGreaterEqual(each["model"]["true_error_N"], each["truth"]["error_N"] - 1e-12)
+            self.assertGreaterEqual(each["model"]["true_error_N"], each["truth"]["true_error_N"] - 1e-12)
         names = [study["name"] for study in json.loads(self.run_capstan("study", "list", "--db", "both.db",
                                                                          "--json").stdout)]
         self.assertEqual(sorted(names), ["paper", "paper, truth bend"])
