@@ -8,16 +8,38 @@
 namespace capstan::reports {
 namespace {
 
-std::string scripts() {
+constexpr const char* script_names[] = {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js", "page.js"};
+
+std::string scripts(PageFiles files) {
     std::string html;
-    for (const char* name : {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js", "page.js"}) {
+    if (files == PageFiles::served) {
+        for (const char* name : script_names)
+            html += fmt::format("<script src=\"/web/{}\"></script>\n", name);
+        return html + "<script src=\"/web/live.js\"></script>\n";
+    }
+    for (const char* name : script_names) {
         html += fmt::format("<script data-file=\"{}\">{}</script>\n", name, embedded_file(name));
     }
     return html;
 }
 
-// The policy holds the page to its promise: it loads nothing.
-std::string head_html(const PageFrame& frame) {
+// The policy holds the page to its promise: it loads nothing. A service sends its own policy.
+std::string style(PageFiles files) {
+    if (files == PageFiles::served) {
+        return R"(<link rel="icon" href="data:,">
+<link rel="stylesheet" href="/web/page.css">
+<link rel="stylesheet" href="/web/service.css">
+)";
+    }
+    return fmt::format(
+        R"(<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; img-src data: blob:">
+<style>
+{}</style>
+)",
+        embedded_file("page.css"));
+}
+
+std::string head_html(const PageFrame& frame, PageFiles files) {
     return fmt::format(
         R"(<!DOCTYPE html>
 <html lang="en">
@@ -25,19 +47,16 @@ std::string head_html(const PageFrame& frame) {
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; img-src data: blob:">
 <title>{}</title>
-<style>
-{}</style>
-</head>
+{}</head>
 )",
-        escape_html(frame.document_title), embedded_file("page.css"));
+        escape_html(frame.document_title), style(files));
 }
 
 }  // namespace
 
-std::string page_html(const PageFrame& frame) {
-    std::string page = head_html(frame);
+std::string page_html(const PageFrame& frame, PageFiles files) {
+    std::string page = head_html(frame, files);
     page += fmt::format(
         R"(<body>
 <a class="skip" href="#content">Skip to the content</a>
@@ -53,10 +72,10 @@ std::string page_html(const PageFrame& frame) {
         "<main id=\"content\" tabindex=\"-1\">\n<noscript><p>The figures need JavaScript; the words and "
         "tables do not.</p></noscript>\n";
     page += frame.main_html + "</main>\n";
-    page +=
-        fmt::format("<footer><p>{} This page needs no network.</p></footer>\n", escape_html(frame.footer));
+    page += fmt::format("<footer><p>{}{}</p></footer>\n", escape_html(frame.footer),
+                        files == PageFiles::inside ? " This page needs no network." : "");
     page += "<script type=\"application/json\" id=\"study-data\">" + frame.data_json + "</script>\n";
-    return page + scripts() + "</body>\n</html>\n";
+    return page + scripts(files) + "</body>\n</html>\n";
 }
 
 std::string section_html(const std::string& id, const std::string& title, const std::string& intro,

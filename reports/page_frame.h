@@ -1,6 +1,6 @@
 #pragma once
 // What every page is made of: head, style, navigation, the scripts that draw its figures. A page loads
-// nothing.
+// nothing from anywhere but, where a service sends it, from that service.
 
 #include <string>
 #include <vector>
@@ -19,7 +19,12 @@ struct PageFrame {
     std::string data_json;  // of page_data
 };
 
-std::string page_html(const PageFrame& frame);
+enum class PageFiles {
+    inside,  // the page is one file that needs nothing
+    served,  // style and scripts come from the service that sent the page, which adds live.js
+};
+
+std::string page_html(const PageFrame& frame, PageFiles files = PageFiles::inside);
 
 // '' without content; `intro` is plain text.
 std::string section_html(const std::string& id, const std::string& title, const std::string& intro,

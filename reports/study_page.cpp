@@ -147,9 +147,7 @@ std::string navigation(const std::string& main_html, const StudyTables& tables) 
     return navigation_html(main_html, links, noise_selector(tables));
 }
 
-}  // namespace
-
-std::string study_report_html(storage::Database& database, std::int64_t study_id) {
+std::string study_html(storage::Database& database, std::int64_t study_id, PageFiles files) {
     const StudyTables tables(database, study_id);
     const Row study = tables.study();
 
@@ -169,7 +167,17 @@ std::string study_report_html(storage::Database& database, std::int64_t study_id
     frame.footer = fmt::format("Made by capstan {} from study {}.", study.text("program_version"),
                                study.whole("study_id"));
     frame.data_json = page_data(tables, "study");
-    return page_html(frame);
+    return page_html(frame, files);
+}
+
+}  // namespace
+
+std::string study_report_html(storage::Database& database, std::int64_t study_id) {
+    return study_html(database, study_id, PageFiles::inside);
+}
+
+std::string study_live_html(storage::Database& database, std::int64_t study_id) {
+    return study_html(database, study_id, PageFiles::served);
 }
 
 }  // namespace capstan::reports

@@ -12,6 +12,9 @@ namespace capstan::reports {
 // One page that needs no network: recommendation first, then the figures and tables it rests on.
 std::string study_report_html(storage::Database& database, std::int64_t study_id);
 
+// The same for a page that `capstan serve` sends: style and scripts beside it, and the live ones with them.
+std::string study_live_html(storage::Database& database, std::int64_t study_id);
+
 // Facts, recommendations, best errors and the comparison with the paper, as tables.
 std::string study_report_markdown(storage::Database& database, std::int64_t study_id);
 

@@ -73,6 +73,18 @@ std::int64_t write_diagnosis(Database& database, const DiagnosisRecord& diagnosi
     return id;
 }
 
+std::vector<DiagnosisSummary> list_diagnoses(Database& database) {
+    Statement select(database,
+                     "SELECT diagnosis_id, recording, log_file, verdict, confidence_share FROM diagnosis "
+                     "ORDER BY diagnosis_id");
+    std::vector<DiagnosisSummary> diagnoses;
+    while (select.step()) {
+        diagnoses.push_back({select.get<std::int64_t>(0), select.get<std::string>(1),
+                             select.get<std::string>(2), select.get<std::string>(3), select.get<double>(4)});
+    }
+    return diagnoses;
+}
+
 std::vector<DiagnosisRecord> load_diagnoses(Database& database) {
     Statement select(database, "SELECT diagnosis_id FROM diagnosis ORDER BY diagnosis_id");
     std::vector<DiagnosisRecord> diagnoses;

@@ -3,6 +3,7 @@
 // other.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "capstan/storage/database.h"
@@ -13,6 +14,16 @@ namespace capstan::storage {
 // One transaction. Returns the diagnosis_id; that of the record is not read. An Error names a value that is
 // not a number.
 std::int64_t write_diagnosis(Database& database, const DiagnosisRecord& diagnosis);
+
+struct DiagnosisSummary {
+    std::int64_t diagnosis_id = 0;
+    std::string recording;
+    std::string log_file;
+    std::string verdict;
+    double confidence_share = 0;
+};
+
+std::vector<DiagnosisSummary> list_diagnoses(Database& database);  // oldest first
 
 // All of them with everything that belongs to them, oldest first.
 std::vector<DiagnosisRecord> load_diagnoses(Database& database);

@@ -22,8 +22,8 @@ using GuestStatement = std::unique_ptr<sqlite3_stmt, Finalizer>;
         std::string seconds = std::to_string(time_limit_s);
         seconds.erase(seconds.find_last_not_of('0') + 1);
         if (seconds.back() == '.') seconds.pop_back();
-        throw Error("The query took longer than " + seconds +
-                    " s and was stopped. Narrow it with WHERE, or check its joins.");
+        throw QueryTooSlow("The query took longer than " + seconds +
+                           " s and was stopped. Narrow it with WHERE, or check its joins.");
     }
     if (sqlite3_errcode(connection) == SQLITE_AUTH || message.find("not authorized") != std::string::npos ||
         message.find("prohibited") != std::string::npos ||

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capstan/storage/database.h"
+#include "capstan/storage/error.h"
 #include "capstan/storage/schema.h"
 
 namespace capstan::storage {
@@ -18,6 +19,12 @@ using QueryValue = std::variant<std::monostate, std::int64_t, double, std::strin
 struct QueryLimits {
     double time_limit_s = 10;  // longer than any view takes on a study; a cross join by mistake ends
     std::optional<std::size_t> row_limit{};  // further rows are cut off, and truncated says so
+};
+
+// A query that was stopped at its time limit.
+class QueryTooSlow : public Error {
+  public:
+    using Error::Error;
 };
 
 struct QueryResult {

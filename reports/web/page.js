@@ -1,7 +1,7 @@
 "use strict";
 // Draws the page's figures from its tables; redraws them for another noise level, theme or width.
 (() => {
-  const study = JSON.parse(document.getElementById("study-data").textContent);
+  let study, tables;  // as load() finds them on the page
   const dark = matchMedia("(prefers-color-scheme: dark)");
 
   // ---- colours and shapes: one place for the whole page, so a method looks the same in every figure.
@@ -27,16 +27,20 @@
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // ---- the study's rows
-  const tables = {};
-  for (const [name, table] of Object.entries(study.tables)) {
-    tables[name] = table.rows.map((values) => {
-      const row = {};
-      table.columns.forEach((column, k) => { row[column] = values[k]; });
-      if ("family" in row) row.family_title = FAMILIES[row.family]?.[3] ?? capital(row.family);
-      if ("regime" in row) row.regime_title = study.regime_titles[row.regime] ?? row.regime;
-      return row;
-    });
+  function load() {
+    study = JSON.parse(document.getElementById("study-data").textContent);
+    tables = {};
+    for (const [name, table] of Object.entries(study.tables)) {
+      tables[name] = table.rows.map((values) => {
+        const row = {};
+        table.columns.forEach((column, k) => { row[column] = values[k]; });
+        if ("family" in row) row.family_title = FAMILIES[row.family]?.[3] ?? capital(row.family);
+        if ("regime" in row) row.regime_title = study.regime_titles[row.regime] ?? row.regime;
+        return row;
+      });
+    }
   }
+  let passes = () => true;  // a reader's filter, where the page has one
   const chosenNoise = () => {
     const box = document.querySelector('input[name="noise"]:checked');
     return box ? Number(box.value) : tables.noise_level?.[0]?.noise_level_id;
@@ -46,7 +50,7 @@
     const { regime, recommendation, run } = figure.dataset;
     const { knowledge } = about(figure);
     const noise = chosenNoise();
-    return tables[table].filter((row) =>
+    return tables[table].filter((row) => passes(row) &&
       (!regime || !("regime" in row) || row.regime === regime) &&
       (!recommendation || !("recommendation_id" in row) || row.recommendation_id === Number(recommendation)) &&
       (!run || !("run" in row) || row.run === Number(run)) &&
@@ -236,20 +240,23 @@
     }
   }
 
-  for (const figure of document.querySelectorAll("figure[data-figure]")) {
-    figure.querySelector("details.data").addEventListener("toggle", (event) => {
-      if (event.target.open) showRows(figure);
-    });
-  }
-  const downloads = document.getElementById("downloads");
-  for (const [name, table] of Object.entries(study.tables)) {
-    if (!downloads || table.rows.length === 0) continue;
-    const item = downloads.appendChild(document.createElement("li"));
-    item.append(download(name, table.columns, () => tables[name]), " " + table.meaning + " (" + table.rows.length + " rows)");
+  // ---- what the words of the page do
+  function attach() {
+    for (const figure of document.querySelectorAll("figure[data-figure]")) {
+      figure.querySelector("details.data").addEventListener("toggle", (event) => {
+        if (event.target.open) showRows(figure);
+      });
+    }
+    const downloads = document.getElementById("downloads");
+    for (const [name, table] of Object.entries(study.tables)) {
+      if (!downloads || table.rows.length === 0) continue;
+      const item = downloads.appendChild(document.createElement("li"));
+      item.append(download(name, table.columns, () => tables[name]), " " + table.meaning + " (" + table.rows.length + " rows)");
+    }
+    for (const box of document.querySelectorAll('input[name="noise"]')) box.addEventListener("change", drawAll);
   }
 
   // ---- when to draw again
-  for (const box of document.querySelectorAll('input[name="noise"]')) box.addEventListener("change", drawAll);
   dark.addEventListener("change", drawAll);
   let lastWidth = document.documentElement.clientWidth, timer = 0;
   addEventListener("resize", () => {
@@ -258,5 +265,13 @@
     clearTimeout(timer);
     timer = setTimeout(drawAll, 150);
   });
-  drawAll();
+  // For a page that changes while it is open.
+  window.capstanPage = {
+    tables: () => tables,
+    titles: () => study.regime_titles,
+    looks: (rows) => ({ ...scales(rows), theme: theme() }),
+    setFilter(filter) { passes = filter; return drawAll(); },
+    reload() { load(); attach(); return drawAll(); },
+  };
+  window.capstanPage.reload();
 })();

@@ -4,6 +4,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/study_words.h"
 #include "capstan/cli/wrapped_text.h"
 #include "capstan/storage/study_store.h"
 
@@ -107,18 +108,22 @@ ordered_json in_json(std::int64_t id, const StudyDescription& study, std::size_t
 ExitCode run(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+    if (invocation.has("json")) {
+        deliver(invocation, study_json(database, id));
+        return ExitCode::success;
+    }
     const StudyDescription study = storage::load_study(database, id);
     const std::size_t pending = storage::pending_units(database, id).size();
-    if (invocation.has("json")) {
-        deliver(invocation, json_text(in_json(id, study, pending)));
-    } else {
-        deliver(invocation,
-                invocation.has("config") ? study.study.config_toml : in_words(id, study, pending));
-    }
+    deliver(invocation, invocation.has("config") ? study.study.config_toml : in_words(id, study, pending));
     return ExitCode::success;
 }
 
 }  // namespace
+
+std::string study_json(storage::Database& database, std::int64_t study_id) {
+    const StudyDescription study = storage::load_study(database, study_id);
+    return json_text(in_json(study_id, study, storage::pending_units(database, study_id).size()));
+}
 
 Command study_show_command() {
     return {

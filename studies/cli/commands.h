@@ -24,6 +24,7 @@ Command duty_command();
 Command estimate_command();
 Command query_command();
 Command report_command();
+Command serve_command();
 Command simulate_command();
 Command calibrate_command();
 Command diagnose_command();

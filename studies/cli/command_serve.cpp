@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/service_answers.h"
+#include "capstan/cli/stop_request.h"
+#include "capstan/cli/usage_error.h"
+#include "capstan/service/service.h"
+#include "capstan/storage/database.h"
+
+namespace capstan::cli {
+
+namespace {
+
+std::string random_token() {
+    std::ifstream random("/dev/urandom", std::ios::binary);
+    unsigned char bytes[16] = {};
+    if (!random.read(reinterpret_cast<char*>(bytes), sizeof bytes))
+        throw std::runtime_error("the system gives no random numbers for a token; name a --token-file");
+    std::string token;
+    for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
+    return token;
+}
+
+std::string token_in(const std::string& file) {
+    std::ifstream stream(file);
+    std::string token;
+    if (!std::getline(stream, token) || token.size() < 16)
+        throw UsageError(fmt::format(
+            "capstan serve: {} must hold a token of at least 16 characters in its first line", file));
+    if (token.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_.") !=
+        std::string::npos)
+        throw UsageError(
+            fmt::format("capstan serve: the token in {} may have letters, digits, - _ and . only", file));
+    return token;
+}
+
+service::ServiceOptions options_of(const Invocation& invocation) {
+    service::ServiceOptions options;
+    options.access.host = invocation.text("host");
+    options.access.port = static_cast<int>(invocation.whole("port"));
+    if (invocation.has("token-file")) {
+        options.access.token = token_in(invocation.text("token-file"));
+    } else if (!service::is_loopback(options.access.host)) {
+        options.access.token = random_token();
+    }
+    options.commands = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                        std::filesystem::absolute(invocation.text("db")).string(),
+                        static_cast<int>(invocation.whole("jobs"))};
+    if (invocation.has("configs")) {
+        options.configs = invocation.text("configs");
+        if (!std::filesystem::is_directory(*options.configs))
+            throw UsageError(
+                fmt::format("capstan serve: --configs {} is no folder", options.configs->string()));
+    }
+    options.query_limit_s = invocation.real("query-limit");
+    options.answers = service_answers();
+    return options;
+}
+
+ExitCode run(const Invocation& invocation) {
+    { storage::Database::open_or_create(invocation.text("db")); }  // there, and of this program's schema
+    const service::ServiceOptions options = options_of(invocation);
+    service::Service service(options);
+    const bool anywhere = options.access.host == "0.0.0.0" || options.access.host == "::";
+    const std::string host = anywhere ? "127.0.0.1" : options.access.host;
+    const std::string token = options.access.token.empty() ? "" : "?token=" + options.access.token;
+    fmt::print(stderr,
+               "capstan serves {} at http://{}:{}/{}\nCtrl-C ends it; a study under way goes on at the next "
+               "start.\n",
+               invocation.text("db"), host, service.port(), token);
+    std::fflush(stderr);
+
+    const StopRequest stoppable;
+    std::atomic<bool> ended{false};
+    std::thread watcher([&] {
+        while (!StopRequest::flag()->load() && !ended.load())
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        service.stop();
+    });
+    service.run();
+    ended.store(true);
+    watcher.join();
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command serve_command() {
+    return {
+        "serve",
+        "Serve a database to a browser: run and watch studies, live reports, diagnoses, SQL.",
+        "Starts a small web service for a workstation or a lab. Its pages run studies one after the other and show how "
+        "far they are, plot their reports with filters, place sensors by hand on the cable, diagnose recordings that "
+        "are uploaded, and answer SQL; /openapi.json describes the same for programs. Jobs are kept beside the "
+        "database (FILE.jobs) and survive a restart, even a kill: the tables end with the same bits. It listens on "
+        "this machine only, unless --host says otherwise, and then every request needs a token.",
+        {},
+        {database_option,
+         {"port", 'p', OptionKind::whole_number, "N", "Port; 0 takes a free one.", "8321", {}, 0, 65535},
+         {"host", '\0', OptionKind::text, "ADDRESS",
+          "Address to listen on; any but this machine's own demands a token, which is printed.", "127.0.0.1"},
+         {"token-file", '\0', OptionKind::text, "FILE",
+          "Every request needs the token in the first line of FILE, of at least 16 letters and digits."},
+         {"configs", '\0', OptionKind::text, "FOLDER",
+          "Configurations in FOLDER may be started by their name."},
+         {"query-limit",
+          '\0',
+          OptionKind::real_number,
+          "SECONDS",
+          "Stop a query after this long.",
+          "5",
+          {},
+          0.01,
+          600},
+         jobs_option,
+         help_option},
+        {"capstan serve --db results/capstan.db --configs configs", "capstan serve --port 0",
+         "capstan serve --host 0.0.0.0 --token-file token.txt"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,61 @@
+// Recordings to be diagnosed, and the diagnoses that are stored.
+#include "capstan/service/exchange.h"
+#include "capstan/service/job_json.h"
+#include "capstan/service/routes.h"
+#include "capstan/storage/diagnosis_store.h"
+#include "capstan/storage/live_queries.h"
+
+namespace capstan::service {
+
+namespace {
+
+// For people only: the files in the queue's folder have names of their own.
+std::string title_of(const httplib::Request& request) {
+    const std::string name = request.get_file_value("log").filename;
+    const std::string title = name.substr(name.find_last_of("/\\") + 1);
+    return title.empty() ? "recording" : title.substr(0, 200);
+}
+
+Job start(RouteContext& context, const httplib::Request& request) {
+    for (const char* part : {"log", "sidecar"}) {
+        if (!request.has_file(part))
+            throw BadRequest(std::string("the part '") + part +
+                             "' is missing: send NAME.csv as 'log' and NAME.json as 'sidecar'");
+    }
+    const std::string sidecar = request.get_file_value("sidecar").content;
+    if (!nlohmann::json::parse(sidecar, nullptr, false).is_object())
+        throw BadRequest("the sidecar is not a JSON object");
+    return context.queue.add_diagnosis(title_of(request), request.get_file_value("log").content, sidecar);
+}
+
+// As the command wrote it, where the diagnosis was made here.
+std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
+    for (const Job& job : context.queue.jobs()) {
+        if (job.kind == JobKind::diagnosis && job.state == JobState::done && job.result_id == diagnosis_id)
+            return context.queue.answer_of(job);
+    }
+    return "";
+}
+
+}  // namespace
+
+void add_diagnosis_routes(httplib::Server& server, RouteContext& context) {
+    server.Get("/api/diagnoses", [&](const httplib::Request&, httplib::Response& response) {
+        storage::Database database = context.open();
+        send_text(
+            response,
+            context.options.answers.rows_json(storage::run_read_only(database, storage::diagnoses_query)),
+            "application/json");
+    });
+    server.Post("/api/diagnoses", [&](const httplib::Request& request, httplib::Response& response) {
+        send_json(response, job_json(start(context, request)), 202);
+    });
+    server.Get(R"(/api/diagnoses/(\d+))", [&](const httplib::Request& request, httplib::Response& response) {
+        const std::string answer = answer_of(context, number_in_path(request));
+        if (answer.empty())
+            throw BadRequest("the answer of this diagnosis is not kept here; /api/query has its tables", 404);
+        send_text(response, answer, "application/json");
+    });
+}
+
+}  // namespace capstan::service

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace capstan::service {
+
+enum class JobKind { study, diagnosis };
+
+enum class JobState {
+    queued,   ///< waits for those before it
+    running,  ///< under way, or was when the service ended: then it goes on at the next start
+    stopped,  ///< by a person, who may resume it
+    done,
+    failed,
+};
+
+std::string_view name_of(JobKind kind);
+std::string_view name_of(JobState state);
+
+/// One thing to be done. What is kept over a restart is all but `doing`, `share_done` and `left_s`.
+struct Job {
+    int number = 0;  ///< from 1
+    JobKind kind = JobKind::study;
+    std::string title;  ///< the study's or recording's name
+    std::string file;   ///< in the queue's folder: the configuration, or the log
+    JobState state = JobState::queued;
+    /// The largest study_id or diagnosis_id before the job was first started: what it has begun is beyond.
+    std::int64_t last_before = 0;
+    std::optional<std::int64_t> result_id;  ///< study_id or diagnosis_id, as soon as it is known
+    std::string message;                    ///< why it failed; empty otherwise
+    std::string doing;
+    double share_done = 0.0;
+    std::optional<double> left_s;
+
+    bool operator==(const Job&) const = default;
+};
+
+/// The kept part of jobs as JSON, and back. Throws std::runtime_error if the text is none of `jobs_text`.
+std::string jobs_text(const std::vector<Job>& jobs);
+std::vector<Job> read_jobs(const std::string& text);
+
+}  // namespace capstan::service

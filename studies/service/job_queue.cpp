@@ -1,0 +1,308 @@
+#include "capstan/service/job_queue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "capstan/storage/diagnosis_store.h"
+#include "capstan/storage/error.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::service {
+
+namespace {
+
+constexpr int stopped_code = 130;  // of the program's commands, after a request to end
+
+std::int64_t last_id(const JobCommands& commands, JobKind kind) {
+    storage::Database database = storage::Database::open_read_only(commands.database);
+    std::int64_t last = 0;
+    if (kind == JobKind::study) {
+        for (const auto& study : storage::list_studies(database)) last = std::max(last, study.study_id);
+    } else {
+        for (const auto& each : storage::list_diagnoses(database)) last = std::max(last, each.diagnosis_id);
+    }
+    return last;
+}
+
+// A recording is called as its file is; no name leads out of the job's folder, or hides in it.
+std::string safe_stem(const std::string& name) {
+    std::string stem;
+    for (const char letter : name.substr(0, name.rfind('.'))) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+        stem += plain || letter == '-' ? letter : '_';
+    }
+    return stem.empty() || stem == "answer" ? "recording" : stem.substr(0, 60);
+}
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+JobQueue::JobQueue(std::filesystem::path folder, JobCommands commands)
+    : folder_(std::move(folder)), commands_(std::move(commands)), jobs_(folder_.read()) {
+    worker_ = std::thread([this] { work(); });
+}
+
+JobQueue::~JobQueue() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+        if (child_) child_->ask_to_stop();
+    }
+    changed_.notify_all();
+    worker_.join();
+}
+
+std::vector<Job> JobQueue::jobs() const {
+    const std::lock_guard lock(mutex_);
+    return jobs_;
+}
+
+std::optional<Job> JobQueue::find(int number) const {
+    const std::lock_guard lock(mutex_);
+    for (const Job& job : jobs_) {
+        if (job.number == number) return job;
+    }
+    return std::nullopt;
+}
+
+int JobQueue::next_number() const {
+    return jobs_.empty() ? 1 : jobs_.back().number + 1;
+}
+
+Job JobQueue::add(Job job) {
+    jobs_.push_back(std::move(job));
+    folder_.write(jobs_);
+    changed_.notify_all();
+    return jobs_.back();
+}
+
+Job JobQueue::add_study(const std::string& name, const std::string& config_toml) {
+    const std::lock_guard lock(mutex_);
+    Job job;
+    job.number = next_number();
+    job.title = name;
+    job.file = fmt::format("{}/study.toml", job.number);
+    folder_.write_file(job.file, config_toml);
+    return add(std::move(job));
+}
+
+Job JobQueue::add_diagnosis(const std::string& name, const std::string& log, const std::string& sidecar) {
+    const std::lock_guard lock(mutex_);
+    Job job;
+    job.number = next_number();
+    job.kind = JobKind::diagnosis;
+    job.title = name;
+    const std::string stem = safe_stem(name);
+    job.file = fmt::format("{}/{}.csv", job.number, stem);
+    folder_.write_file(fmt::format("{}/{}.json", job.number, stem), sidecar);
+    folder_.write_file(job.file, log);
+    return add(std::move(job));
+}
+
+Job JobQueue::add_resume(const std::string& name, std::int64_t study_id) {
+    const std::lock_guard lock(mutex_);
+    Job job;
+    job.number = next_number();
+    job.title = name;
+    job.result_id = study_id;
+    return add(std::move(job));
+}
+
+bool JobQueue::stop(int number) {
+    const std::lock_guard lock(mutex_);
+    for (Job& job : jobs_) {
+        if (job.number != number) continue;
+        if (job.state == JobState::running && running_ == number) {
+            stop_asked_ = true;
+            if (child_) child_->ask_to_stop();
+            return true;
+        }
+        if (job.state != JobState::queued) return false;
+        job.state = JobState::stopped;
+        folder_.write(jobs_);
+        return true;
+    }
+    return false;
+}
+
+bool JobQueue::resume(int number) {
+    const std::lock_guard lock(mutex_);
+    for (Job& job : jobs_) {
+        if (job.number != number) continue;
+        if (job.state != JobState::stopped && job.state != JobState::failed) return false;
+        job.state = JobState::queued;
+        job.message.clear();
+        folder_.write(jobs_);
+        changed_.notify_all();
+        return true;
+    }
+    return false;
+}
+
+std::string JobQueue::answer_of(const Job& job) const {
+    return text_of(folder_.path() / fmt::format("{}/answer.json", job.number));
+}
+
+void JobQueue::change(int number, const std::function<void(Job&)>& to) {
+    const std::lock_guard lock(mutex_);
+    for (Job& job : jobs_) {
+        if (job.number == number) to(job);
+    }
+    folder_.write(jobs_);
+}
+
+void JobQueue::work() {
+    std::unique_lock lock(mutex_);
+    while (!ending_) {
+        // One that was under way when the service ended goes first.
+        auto next = std::find_if(jobs_.begin(), jobs_.end(),
+                                 [](const Job& job) { return job.state == JobState::running; });
+        if (next == jobs_.end())
+            next = std::find_if(jobs_.begin(), jobs_.end(),
+                                [](const Job& job) { return job.state == JobState::queued; });
+        if (next == jobs_.end()) {
+            changed_.wait(lock);
+            continue;
+        }
+        running_ = next->number;
+        stop_asked_ = false;
+        const Job job = *next;
+        lock.unlock();
+        try {
+            run(job);
+        } catch (const std::exception& error) {
+            const std::string message = error.what();
+            change(job.number, [&](Job& each) {
+                each.state = JobState::failed;
+                each.message = message;
+            });
+        }
+        lock.lock();
+        running_ = 0;
+    }
+}
+
+// What the job has begun, if it has: a study of the same configuration, or a diagnosis of the same log.
+std::optional<std::int64_t> JobQueue::result_of(const Job& job) const {
+    if (job.result_id) return job.result_id;
+    storage::Database database = storage::Database::open_read_only(commands_.database);
+    if (job.kind == JobKind::study) {
+        const std::string config = text_of(folder_.path() / job.file);
+        for (const auto& study : storage::list_studies(database)) {
+            if (study.study_id > job.last_before &&
+                storage::load_study(database, study.study_id).study.config_toml == config)
+                return study.study_id;
+        }
+        return std::nullopt;
+    }
+    for (const auto& each : storage::list_diagnoses(database)) {
+        if (each.diagnosis_id > job.last_before && each.log_file == (folder_.path() / job.file).string())
+            return each.diagnosis_id;
+    }
+    return std::nullopt;
+}
+
+bool JobQueue::is_complete(const Job& job) const {
+    if (!job.result_id) return false;
+    if (job.kind == JobKind::diagnosis) return true;  // it is stored in one piece, at its end
+    storage::Database database = storage::Database::open_read_only(commands_.database);
+    return storage::load_study(database, *job.result_id).study.status == "complete";
+}
+
+std::vector<std::string> JobQueue::words_for(const Job& job) const {
+    std::vector<std::string> words{commands_.program};
+    if (job.kind == JobKind::diagnosis) {
+        words.insert(words.end(), {"diagnose", (folder_.path() / job.file).string(), "--json", "-o",
+                                   (folder_.path() / fmt::format("{}/answer.json", job.number)).string()});
+    } else if (job.result_id) {
+        words.insert(words.end(), {"study", "resume", std::to_string(*job.result_id), "--json"});
+    } else {
+        words.insert(words.end(), {"study", "run", (folder_.path() / job.file).string(), "--json"});
+    }
+    words.insert(words.end(), {"--db", commands_.database, "--progress", "json", "--jobs",
+                               std::to_string(commands_.threads)});
+    return words;
+}
+
+void JobQueue::hear(int number, const std::string& line, std::string& last_words) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object()) {
+        if (!line.empty()) last_words += (last_words.empty() ? "" : "\n") + line;
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    for (Job& job : jobs_) {
+        if (job.number != number || json.value("event", "") != "progress") continue;
+        job.doing = json.value("doing", "");
+        job.share_done = json.value("share_done", 0.0);
+        job.left_s.reset();
+        if (json.contains("left_s") && json["left_s"].is_number()) job.left_s = json["left_s"].get<double>();
+        const double units = json.value("units", 0.0);
+        if (units > 0.0) {
+            job.share_done = json.value("units_done", 0.0) / units;
+            job.doing = fmt::format("{} of {} units", json.value("units_done", 0), json.value("units", 0));
+        }
+    }
+}
+
+void JobQueue::run(Job job) {
+    if (job.state == JobState::running || job.result_id) {  // begun before
+        job.result_id = result_of(job);
+        if (is_complete(job)) {
+            change(job.number, [&](Job& each) {
+                each.result_id = job.result_id;
+                each.state = JobState::done;
+            });
+            return;
+        }
+    } else {
+        job.last_before = last_id(commands_, job.kind);
+    }
+    change(job.number, [&](Job& each) {
+        each.state = JobState::running;
+        each.last_before = job.last_before;
+        each.result_id = job.result_id;
+        each.share_done = 0.0;
+    });
+    {
+        const std::lock_guard lock(mutex_);
+        child_ = std::make_unique<ChildProcess>(words_for(job));
+        if (ending_ || stop_asked_) child_->ask_to_stop();
+    }
+    std::string last_words;
+    const int code = child_->wait([&](const std::string& line) {
+        hear(job.number, line, last_words);
+        if (!job.result_id && job.kind == JobKind::study) {
+            job.result_id = result_of(job);
+            if (job.result_id) change(job.number, [&](Job& each) { each.result_id = job.result_id; });
+        }
+    });
+    job.result_id = result_of(job);
+    change(job.number, [&](Job& each) {
+        child_.reset();
+        each.result_id = job.result_id;
+        each.left_s.reset();
+        if (code == 0) {
+            each.state = JobState::done;
+            each.share_done = 1.0;
+        } else if (ending_) {
+            each.state = JobState::running;  // goes on at the next start
+        } else if (stop_asked_ && (code == stopped_code || code > 128)) {
+            each.state = JobState::stopped;
+        } else {
+            each.state = JobState::failed;
+            each.message = last_words.empty() ? fmt::format("ended with code {}", code) : last_words;
+        }
+    });
+}
+
+}  // namespace capstan::service

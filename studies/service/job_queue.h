@@ -1,0 +1,73 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "capstan/service/child_process.h"
+#include "capstan/service/job_folder.h"
+
+namespace capstan::service {
+
+/// How the queue does its work: with the program's own commands, each in a process of its own, so that a
+/// study under a service ends with the bits of one without, and no job can take the service down.
+struct JobCommands {
+    std::string program;   ///< path of capstan
+    std::string database;  ///< path of the results database
+    int threads = 0;       ///< of a job; 0: all processors
+};
+
+/// Jobs one after the other, in the order they came. Every change of the list is on the disk before anybody
+/// is told of it; a job that was under way when the service was killed goes on at the next start.
+class JobQueue {
+  public:
+    JobQueue(std::filesystem::path folder, JobCommands commands);
+    /// Ends the job under way, which is kept as running.
+    ~JobQueue();
+    JobQueue(const JobQueue&) = delete;
+    JobQueue& operator=(const JobQueue&) = delete;
+
+    std::vector<Job> jobs() const;
+    std::optional<Job> find(int number) const;
+
+    Job add_study(const std::string& name, const std::string& config_toml);
+    /// `log` and `sidecar` are the bytes of NAME.csv and NAME.json.
+    Job add_diagnosis(const std::string& name, const std::string& log, const std::string& sidecar);
+    /// A study that was begun without this queue, or whose job is forgotten.
+    Job add_resume(const std::string& name, std::int64_t study_id);
+
+    /// False if the job is not in a state to be stopped, or to be resumed.
+    bool stop(int number);
+    bool resume(int number);
+
+    /// What a finished diagnosis wrote with --json; empty if there is none.
+    std::string answer_of(const Job& job) const;
+
+  private:
+    void work();
+    void run(Job job);
+    std::vector<std::string> words_for(const Job& job) const;
+    std::optional<std::int64_t> result_of(const Job& job) const;
+    bool is_complete(const Job& job) const;
+    void hear(int number, const std::string& line, std::string& last_words);
+    Job add(Job job);
+    int next_number() const;  // while locked
+    void change(int number, const std::function<void(Job&)>& to);
+
+    JobFolder folder_;
+    JobCommands commands_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<Job> jobs_;
+    std::unique_ptr<ChildProcess> child_;
+    int running_ = 0;  // number of the job under way; 0: none
+    bool stop_asked_ = false;
+    bool ending_ = false;
+    std::thread worker_;
+};
+
+}  // namespace capstan::service

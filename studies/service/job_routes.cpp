@@ -1,0 +1,107 @@
+// Studies to be run: from a text, from a folder of configurations; watched, stopped, resumed.
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "capstan/service/exchange.h"
+#include "capstan/service/job_json.h"
+#include "capstan/service/routes.h"
+#include "capstan/service/study_state.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::service {
+
+namespace {
+
+std::vector<std::string> config_names(const ServiceOptions& options) {
+    std::vector<std::string> names;
+    if (!options.configs) return names;
+    for (const auto& entry : std::filesystem::directory_iterator(*options.configs)) {
+        if (entry.is_regular_file() && entry.path().extension() == ".toml")
+            names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// Only by a name that the folder lists: no path leads out of it.
+std::string config_named(const ServiceOptions& options, const std::string& name) {
+    const auto names = config_names(options);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        throw BadRequest("there is no configuration '" + name + "'", 404);
+    std::ifstream file(*options.configs / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+ordered_json start(RouteContext& context, const nlohmann::json& body) {
+    const bool by_name = body.contains("config");
+    const std::string name = by_name ? member<std::string>(body, "config") : "configuration";
+    const std::string toml =
+        by_name ? config_named(context.options, name) : member<std::string>(body, "config_toml");
+    ordered_json started = ordered_json::array();
+    for (const StudyPlan& plan : context.options.answers.read_config(toml, name))
+        started.push_back(job_json(context.queue.add_study(plan.name, plan.config_toml)));
+    return started;
+}
+
+ordered_json resume_study(RouteContext& context, std::int64_t study_id) {
+    storage::Database database = context.open();
+    study_state(database, study_id);
+    for (const Job& job : context.queue.jobs()) {
+        if (job.kind != JobKind::study || job.result_id != study_id) continue;
+        if (job.state == JobState::queued || job.state == JobState::running) return job_json(job);
+        if (context.queue.resume(job.number)) return job_json(*context.queue.find(job.number));
+    }
+    const auto record = storage::load_study(database, study_id).study;
+    if (record.status == "complete") throw BadRequest("the study is complete already", 409);
+    return job_json(context.queue.add_resume(record.name, study_id));
+}
+
+void require(bool holds, const char* what) {
+    if (!holds) throw BadRequest(what, 409);
+}
+
+Job job_of(RouteContext& context, const httplib::Request& request) {
+    const auto job = context.queue.find(static_cast<int>(number_in_path(request)));
+    if (!job) throw BadRequest("there is no such job", 404);
+    return *job;
+}
+
+}  // namespace
+
+void add_job_routes(httplib::Server& server, RouteContext& context) {
+    server.Get("/api/configs", [&](const httplib::Request&, httplib::Response& response) {
+        send_json(response, config_names(context.options));
+    });
+    server.Get(R"(/api/configs/([^/]+))", [&](const httplib::Request& request, httplib::Response& response) {
+        send_text(response, config_named(context.options, request.matches[1]), "text/plain; charset=utf-8");
+    });
+    server.Post("/api/studies", [&](const httplib::Request& request, httplib::Response& response) {
+        send_json(response, start(context, body_of(request)), 202);
+    });
+    server.Post(R"(/api/studies/(\d+)/resume)",
+                [&](const httplib::Request& request, httplib::Response& response) {
+                    send_json(response, resume_study(context, number_in_path(request)), 202);
+                });
+    server.Get("/api/jobs", [&](const httplib::Request&, httplib::Response& response) {
+        ordered_json list = ordered_json::array();
+        for (const Job& job : context.queue.jobs()) list.push_back(job_json(job));
+        send_json(response, list);
+    });
+    server.Get(R"(/api/jobs/(\d+))", [&](const httplib::Request& request, httplib::Response& response) {
+        send_json(response, job_json(job_of(context, request)));
+    });
+    server.Post(R"(/api/jobs/(\d+)/stop)", [&](const httplib::Request& request, httplib::Response& response) {
+        const Job job = job_of(context, request);
+        require(context.queue.stop(job.number), "only a queued or running job can be stopped");
+        send_json(response, job_json(*context.queue.find(job.number)), 202);
+    });
+    server.Post(R"(/api/jobs/(\d+)/resume)",
+                [&](const httplib::Request& request, httplib::Response& response) {
+                    const Job job = job_of(context, request);
+                    require(context.queue.resume(job.number), "only a stopped or failed job can be resumed");
+                    send_json(response, job_json(*context.queue.find(job.number)), 202);
+                });
+}
+
+}  // namespace capstan::service

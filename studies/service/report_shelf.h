@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace capstan::service {
+
+/// Texts that take a while to make, kept as long as what they were made from is the same. While one is made
+/// again, others who ask for no exact one get the one before; and such a text is made again no sooner than a
+/// moment after the last time, however fast its study goes.
+class ReportShelf {
+  public:
+    using Maker = std::function<std::string()>;
+
+    enum class Freshness { exact, a_moment_old };
+
+    /// `state`: what the text depends on, as "12 of 40 units".
+    std::shared_ptr<const std::string> get(const std::string& name, const std::string& state,
+                                           Freshness freshness, const Maker& make);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    struct Place {
+        std::mutex making;   // held while a text is made
+        std::mutex reading;  // held for a look at what follows
+        std::string state;
+        std::shared_ptr<const std::string> text;
+        Clock::time_point made;
+    };
+
+    std::shared_ptr<Place> place(const std::string& name);
+
+    std::mutex mutex_;
+    std::map<std::string, std::shared_ptr<Place>> places_;
+};
+
+}  // namespace capstan::service

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace capstan::service {
+
+/// Whom the service listens to.
+struct Access {
+    std::string host = "127.0.0.1";  ///< as it was told to bind to
+    int port = 0;
+    std::string token;  ///< every request must carry it; empty: none needed, on loopback only
+};
+
+/// What is known of a request before its body is read. Header values are as they came, empty where there is
+/// none.
+struct RequestHead {
+    std::string method;
+    std::string path;
+    std::string host;
+    std::string origin;
+    std::string fetch_site;     ///< Sec-Fetch-Site
+    std::string authorization;  ///< "Bearer TOKEN"
+    std::string cookie;
+    std::string content_type;
+    std::string transfer_encoding;
+    std::optional<std::size_t> content_length;
+};
+
+struct Refusal {
+    int status = 400;  ///< of HTTP
+    std::string message;
+};
+
+/// Whether an address is this machine talking to itself.
+bool is_loopback(std::string_view host);
+
+inline constexpr std::size_t largest_upload_bytes = 64 << 20;  // an hour of a bench at 1 kHz as CSV
+inline constexpr std::size_t largest_text_bytes = 1 << 20;     // a configuration, a query
+
+/// Why a request is not to be answered; nothing if it may be.
+///
+/// A page of another site must not reach a service on the reader's own machine: neither by a name that was
+/// made to point here (Host), nor by a script or form of its own (Origin, Sec-Fetch-Site, content type).
+/// Without a length a body could have any size.
+std::optional<Refusal> refuse(const RequestHead& request, const Access& access);
+
+/// Compares without telling by its time how much is alike.
+bool same_secret(std::string_view given, std::string_view expected);
+
+/// The token in a cookie header; empty if there is none.
+std::string token_of_cookie(std::string_view cookie);
+
+}  // namespace capstan::service

@@ -1,0 +1,181 @@
+// Uses the pages of a running `capstan serve` as a person would, in headless Chromium.
+// usage: node service_pages.mjs SCREENSHOT_FOLDER ADDRESS LOG.csv SIDECAR.json
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+
+const [folder, address, log, sidecar] = process.argv.slice(2);
+mkdirSync(folder, { recursive: true });
+const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
+const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync"];
+const patience = { timeout: 240000 };  // for work that a busy machine may take long for
+
+let checks = 0, failures = 0;
+function check(holds, fact) {
+  ++checks;
+  if (holds) return;
+  ++failures;
+  console.error("FAILED: " + fact);
+}
+
+const requests = [], complaints = [];
+async function open(browser, path) {
+  const page = await browser.newPage();
+  page.on("request", (request) => { if (!/^(data|blob):/.test(request.url())) requests.push(request.url()); });
+  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) complaints.push(message.text()); });
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  await page.setViewportSize({ width: 1280, height: 900 });
+  await page.goto(new URL(path, address).href);
+  return page;
+}
+const overflow = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+const text = (page, selector) => page.$eval(selector, (each) => each.textContent);
+
+async function startAndWatch(page) {
+  await page.selectOption("#config-name", "quick.toml");
+  await page.waitForFunction(() => document.querySelector("#config-text").value.includes("repetitions"));
+  await page.click("#start-form button[type=submit]");
+  await page.waitForSelector('#job-table tr[data-state="done"]', patience);
+  check((await text(page, "#study-table tbody")).includes("complete"), "the study is complete in the list");
+
+  await page.fill("#config-text", "repetitions = -1");
+  await page.click("#start-form button[type=submit]");
+  await page.waitForFunction(() => document.querySelector("#start-problem").textContent.includes("repetitions"));
+  check(await page.$eval("#config-name", (each) => each.value) === "", "a changed text is no longer the file's");
+}
+
+async function watchCellsFill(browser) {
+  // A longer one, opened while it runs: its report grows without reloading.
+  const front = await open(browser, "/");
+  await front.waitForSelector("html[data-ready=yes]");
+  await front.selectOption("#config-name", "noise-sweep.toml");
+  await front.waitForFunction(() => document.querySelector("#config-text").value.includes("noise"));
+  await front.$eval("#config-text", (each) => { each.value = each.value.replace(/^repetitions.*$/m, "repetitions = 400"); });
+  await front.dispatchEvent("#config-text", "input");
+  await front.click("#start-form button[type=submit]");
+  await front.waitForFunction(() => document.querySelectorAll("#study-table tbody tr").length === 2, null, patience);
+  const page = await open(browser, "/studies/2");
+  await page.waitForSelector("html[data-live=yes]", patience);
+  await page.evaluate(() => { window.never_reloaded = true; });
+  await page.screenshot({ path: join(folder, "service_running.png") });
+  await page.waitForSelector("html[data-study=complete]", patience);
+  await page.waitForSelector("main figure[data-figure] svg", patience);
+  check(await page.evaluate(() => window.never_reloaded === true), "the report grew without reloading");
+  check((await page.$$(".cells i:not(.done)")).length === 0, "all cells are filled at the end");
+  check((await page.$$('input[name="noise"]')).length > 1, "the noise levels can be chosen");
+  await front.close();
+  await page.close();
+}
+
+async function useTheReport(page) {
+  await page.waitForSelector("html[data-live=yes]", patience);
+  await page.waitForSelector("html[data-drawn=yes]", patience);
+  const chart = "#figure-error_by_count-mass svg";
+  const before = await page.$eval(chart, (svg) => svg.outerHTML);
+  await page.click('#filters input[value="Mean"]');
+  await page.waitForFunction(([where, old]) => document.querySelector("html").dataset.drawn === "yes" && document.querySelector(where).outerHTML !== old, [chart, before], patience);
+  await page.fill('#filters input[data-filter="most"]', "2");
+  await page.dispatchEvent('#filters input[data-filter="most"]', "change");
+  await page.waitForFunction(() => document.querySelector("html").dataset.drawn === "yes");
+  await page.click('#filters input[value="mass"]');
+  check(await page.$eval("#figure-error_by_count-mass", (figure) => figure.hidden), "a regime that is not chosen is not shown");
+  await page.click('#filters input[value="mass"]');
+}
+
+async function moveASensor(page) {
+  const answered = () => page.$eval("#hand-expected", (each) => Number(each.dataset.answered ?? 0));
+  await page.waitForFunction(() => document.querySelector("#hand-expected")?.dataset.answered > 0, null, patience);
+  const recommended = await text(page, "#hand-expected");
+  check(/Expected error \d/.test(recommended), "the recommendation's sensors have an expected error: " + recommended);
+  let count = await answered();
+  const chosen = await page.$$eval("#hand .place[aria-checked=true]", (all) => all.map((each) => Number(each.dataset.node)));
+  const free = await page.$$eval("#hand .place[aria-checked=false]", (all) => all.map((each) => Number(each.dataset.node)));
+  await page.click(`#hand .place[data-node="${chosen[0]}"]`);
+  await page.click(`#hand .place[data-node="${free[0]}"]`);
+  await page.waitForFunction(([old, words]) => Number(document.querySelector("#hand-expected").dataset.answered) > old && document.querySelector("#hand-expected").textContent !== words, [count, recommended], patience);
+  const moved = await text(page, "#hand-expected");
+  check(/Expected error \d/.test(moved) && moved !== recommended, "a moved sensor changes the expected error: " + moved);
+  await page.locator("#hand").screenshot({ path: join(folder, "service_hand.png") });
+
+  // By keyboard: the sensor in focus goes one node on.
+  const here = await page.$$eval("#hand .place[aria-checked=true]", (all) => all.map((each) => Number(each.dataset.node)));
+  const last = Math.max(...here);
+  count = await answered();
+  await page.focus(`#hand .place[data-node="${last}"]`);
+  await page.keyboard.press(last > 1 && !here.includes(last - 1) ? "Shift+ArrowLeft" : "Space");
+  await page.waitForFunction((old) => Number(document.querySelector("#hand-expected").dataset.answered ?? 0) > old || document.querySelector("#hand-expected").textContent.startsWith("No sensor"), count, patience);
+  check(await page.$eval(`#hand .place[data-node="${last}"]`, (each) => each.getAttribute("aria-checked")) === "false", "the keyboard moves a sensor");
+}
+
+async function query(page) {
+  await page.fill("#sql", "SELECT family, sensor_count, mean_abs_error_N FROM v_best_method LIMIT 4");
+  await page.click("#query-form button[type=submit]");
+  await page.waitForSelector("#query-rows tbody tr");
+  check((await page.$$("#query-rows tbody tr")).length === 4, "a query shows its rows");
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#query-csv")]);
+  check(saved.suggestedFilename() === "capstan-query.csv", "the rows can be saved");
+  check((await text(page, "#schema")).includes("CREATE TABLE study"), "the schema stands beside");
+}
+
+async function refusedQuery(page) {
+  const silent = complaints.length;
+  await page.fill("#sql", "DELETE FROM study");
+  await page.click("#query-form button[type=submit]");
+  await page.waitForFunction(() => document.querySelector("#query-problem").textContent.includes("only read"));
+  complaints.splice(silent);  // the browser tells of the 400
+}
+
+async function diagnose(page) {
+  await page.setInputFiles("#log", log);
+  await page.setInputFiles("#sidecar", sidecar);
+  await page.click("#upload-form button[type=submit]");
+  await page.waitForSelector(".verdict-card", patience);
+  const verdict = await text(page, ".verdict-card");
+  check(/\d+%/.test(verdict) && verdict.length > 60, "the verdict is told: " + verdict.slice(0, 120));
+  await page.click(".verdict-card summary");
+  await page.waitForSelector(".verdict-card tbody tr");
+  check((await page.$$(".verdict-card tbody tr")).length > 3, "every cause has its probability");
+}
+
+let browser;
+try {
+  browser = await chromium.launchPersistentContext(profile, { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags });
+  const front = await open(browser, "/");
+  await front.waitForSelector("html[data-ready=yes]");
+  const silent = complaints.length;
+  await startAndWatch(front);
+  complaints.splice(silent, complaints.length, ...complaints.slice(silent).filter((words) => !/400/.test(words)));
+
+  const study = await open(browser, "/studies/1");
+  await useTheReport(study);
+  await moveASensor(study);
+  check(await overflow(study) <= 0, "the study's page has no horizontal scroll");
+  await study.screenshot({ path: join(folder, "service_study.png"), fullPage: true });
+  await study.emulateMedia({ colorScheme: "dark" });
+  await study.waitForFunction(() => document.documentElement.dataset.drawn === "yes");
+  await study.screenshot({ path: join(folder, "service_study_dark.png") });
+  await study.close();
+
+  await query(front);
+  await refusedQuery(front);
+  await query(front);
+  await diagnose(front);
+  check(await overflow(front) <= 0, "the front page has no horizontal scroll");
+  await front.screenshot({ path: join(folder, "service_front.png"), fullPage: true });
+  await front.emulateMedia({ colorScheme: "dark" });
+  await front.setViewportSize({ width: 700, height: 900 });
+  check(await overflow(front) <= 0, "nor on a narrow screen");
+  await front.screenshot({ path: join(folder, "service_front_narrow_dark.png"), fullPage: true });
+  await watchCellsFill(browser);
+
+  check(complaints.length === 0, "the console is silent: " + complaints.slice(0, 3).join(" | "));
+  const strangers = requests.filter((url) => !url.startsWith(address));
+  check(strangers.length === 0, "no request leaves the machine: " + strangers.join(" "));
+} finally {
+  await browser?.close();
+  rmSync(profile, { recursive: true, force: true });
+}
+console.log(`${checks - failures} passed, ${failures} failed`);
+process.exit(failures === 0 ? 0 : 1);
