@@ -97,7 +97,7 @@ ExitCode run(const Invocation& invocation) {
 Command serve_command() {
     return {
         "serve",
-        "Serve a database to a browser: run and watch studies, live reports, diagnoses, SQL.",
+        "Serve a database to a browser: studies, reports, diagnoses, SQL.",
         "Starts a small web service for a workstation or a lab. Its pages run studies one after the other and show how "
         "far they are, plot their reports with filters, place sensors by hand on the cable, diagnose recordings that "
         "are uploaded, and answer SQL; /openapi.json describes the same for programs. Jobs are kept beside the "

@@ -11,7 +11,7 @@ const std::vector<Command>& commands() {
         query_command(),        report_command(),       serve_command(),        simulate_command(),
         calibrate_command(),    diagnose_command(),     gap_trial_command(),    config_default_command(),
         config_check_command(), paper_exp1_command(),   paper_exp2_command(),   paper_solver_command(),
-        bench_solver_command(),
+        bench_solver_command(), doctor_command(),       completion_command(),   man_command(),
     };
     return all;
 }

@@ -1,0 +1,25 @@
+#pragma once
+// Whether a results file is whole, and what it holds.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "capstan/storage/database.h"
+
+namespace capstan::storage {
+
+struct Health {
+    std::vector<std::string> problems;  // in words; none: the file is whole
+    int studies = 0;
+    int running_studies = 0;  // begun and not complete
+    int diagnoses = 0;
+    int cells = 0;
+    std::vector<std::string> copies;  // of older versions, beside the file
+};
+
+// Reads every page of the file and checks every reference; takes a while on a large one. The database must
+// have been opened for reading.
+Health examine(Database& database);
+
+}  // namespace capstan::storage

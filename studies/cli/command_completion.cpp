@@ -1,0 +1,33 @@
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/completion_text.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/usage_error.h"
+
+namespace capstan::cli {
+
+namespace {
+
+ExitCode run(const Invocation& invocation) {
+    const std::string& shell = invocation.argument("SHELL");
+    if (shell != "bash" && shell != "zsh")
+        throw UsageError("capstan completion: SHELL is '" + shell + "', but must be bash or zsh");
+    deliver(invocation, shell == "bash" ? bash_completion() : zsh_completion());
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command completion_command() {
+    return {
+        "completion",
+        "Print a script that completes commands and options in bash or zsh.",
+        "Prints a completion script for a shell, written from the same table as this help. An installed capstan "
+        "has brought it along; from a build folder, load it as below.",
+        {{"SHELL", "bash or zsh."}},
+        {output_option, help_option},
+        {"source <(capstan completion bash)", "capstan completion zsh -o ~/.zfunc/_capstan"},
+        run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,52 @@
+#include <filesystem>
+
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/man_page.h"
+#include "capstan/cli/output.h"
+#include "capstan/cli/usage_error.h"
+
+namespace capstan::cli {
+
+namespace {
+
+void write_all(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    write_file(folder / "capstan.1", program_man_page());
+    for (const Command& command : commands()) write_file(folder / man_page_name(command), man_page(command));
+}
+
+ExitCode run(const Invocation& invocation) {
+    if (invocation.has("directory")) {
+        write_all(invocation.text("directory"));
+        return ExitCode::success;
+    }
+    if (!invocation.has_argument("COMMAND")) {
+        deliver(invocation, program_man_page());
+        return ExitCode::success;
+    }
+    const std::string& name = invocation.argument("COMMAND");
+    const Command* command = find_command(name);
+    if (command == nullptr)
+        throw UsageError("capstan man: there is no command '" + name + "'; `capstan --help` lists them");
+    deliver(invocation, man_page(*command));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command man_command() {
+    return {
+        "man",
+        "Print a manual page.",
+        "Prints the manual page of capstan, or of one command, as man(1) reads it; with --directory writes all of "
+        "them. An installed capstan has brought them along: `man capstan-study-run`.",
+        {{"COMMAND", "As \"study run\", in quotes where it has two words.", ArgumentNeed::optional}},
+        {{"directory", '\0', OptionKind::text, "FOLDER", "Write every page into FOLDER instead."},
+         output_option,
+         help_option},
+        {"capstan man | man -l -", "capstan man \"study run\" -o capstan-study-run.1"},
+        run};
+}
+
+}  // namespace capstan::cli
