@@ -5,29 +5,33 @@
 -- segments + 1 (distal, load); there is no clock in any table, so the same program, configuration and seed give the
 -- same bits.
 
+-- One question asked of the engine many times: a configuration, as it ran.
 CREATE TABLE study (
-    study_id        INTEGER PRIMARY KEY,
-    name            TEXT    NOT NULL,
+    study_id        INTEGER PRIMARY KEY,           -- 1, 2, ... in the order they were begun
+    name            TEXT    NOT NULL,              -- as in the configuration
     config_toml     TEXT    NOT NULL,              -- every key written out, defaults included
-    program_version TEXT    NOT NULL,
+    program_version TEXT    NOT NULL,              -- of the capstan that began it
     seed            INTEGER NOT NULL,              -- 64 bits, as SQLite keeps them: signed
-    repetitions     INTEGER NOT NULL CHECK (repetitions > 0),
-    segments        INTEGER NOT NULL CHECK (segments > 0),
+    repetitions     INTEGER NOT NULL CHECK (repetitions > 0),  -- draws of noise per scenario and noise level
+    segments        INTEGER NOT NULL CHECK (segments > 0),  -- of the cable
     status          TEXT    NOT NULL CHECK (status IN ('running', 'complete'))  -- running: begun, not ended; resume it
 ) STRICT;
 
+-- The cable, segment by segment from the motor.
 CREATE TABLE cable_segment (
-    study_id       INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
-    segment        INTEGER NOT NULL CHECK (segment > 0),
+    study_id       INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    segment        INTEGER NOT NULL CHECK (segment > 0),  -- from 1
     start_m        REAL    NOT NULL,               -- arc length from the proximal end
-    length_m       REAL    NOT NULL CHECK (length_m > 0),
+    length_m       REAL    NOT NULL CHECK (length_m > 0),  -- along the arc
     bend_radius_m  REAL,                           -- NULL: straight
-    wrap_angle_rad REAL    NOT NULL,
+    wrap_angle_rad REAL    NOT NULL,               -- by which the segment turns; what friction acts on
     PRIMARY KEY (study_id, segment)
 ) STRICT, WITHOUT ROWID;
 
+-- The regimes of motion that a study looks at.
 CREATE TABLE regime (
-    study_id    INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
+    study_id    INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    -- Which part of the cable moves.
     regime      TEXT    NOT NULL CHECK (regime IN ('mass', 'partial_proximal', 'partial_distal', 'partial_both')),
     duty_share  REAL    NOT NULL CHECK (duty_share BETWEEN 0 AND 1),  -- share of working time; sums to 1 in a study
     PRIMARY KEY (study_id, regime)
@@ -35,27 +39,28 @@ CREATE TABLE regime (
 
 -- A scenario is one instant of the true motion in one regime.
 CREATE TABLE scenario (
-    scenario_id              INTEGER PRIMARY KEY,
-    study_id                 INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
+    scenario_id              INTEGER PRIMARY KEY,  -- its number in the file
+    study_id                 INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
     scenario_index           INTEGER NOT NULL,     -- 0, 1, ... in the order of the configuration
-    regime                   TEXT    NOT NULL,
+    regime                   TEXT    NOT NULL,     -- of the motion at that instant
     sample                   INTEGER NOT NULL,     -- the instant, as a sample number of the motion
-    time_s                   REAL    NOT NULL,
+    time_s                   REAL    NOT NULL,     -- since the motion began
     motion                   TEXT    NOT NULL CHECK (motion IN ('forward', 'backward')),  -- of the proximal end
-    proximal_displacement_m  REAL    NOT NULL,
+    proximal_displacement_m  REAL    NOT NULL,     -- of the motor end, positive towards the load
     proximal_increment_m     REAL    NOT NULL,     -- since the sample before
     UNIQUE (study_id, scenario_index),
     FOREIGN KEY (study_id, regime) REFERENCES regime (study_id, regime) ON DELETE CASCADE
 ) STRICT;
 
+-- The true state of a scenario at every node, and the one a sample before.
 CREATE TABLE scenario_node (
-    scenario_id             INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,
-    node                    INTEGER NOT NULL CHECK (node > 0),
-    arc_length_m            REAL    NOT NULL,
-    true_tension_N          REAL    NOT NULL,
-    true_displacement_m     REAL    NOT NULL,
+    scenario_id             INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,  -- its scenario
+    node                    INTEGER NOT NULL CHECK (node > 0),  -- from 1 at the motor
+    arc_length_m            REAL    NOT NULL,      -- from the motor
+    true_tension_N          REAL    NOT NULL,      -- what an estimate should be
+    true_displacement_m     REAL    NOT NULL,      -- positive towards the load
     previous_tension_N      REAL    NOT NULL,      -- one sample earlier: what every estimate starts from
-    previous_displacement_m REAL    NOT NULL,
+    previous_displacement_m REAL    NOT NULL,      -- one sample earlier
     direction               INTEGER NOT NULL CHECK (direction IN (-1, 0, 1)),  -- of the node's true motion
     PRIMARY KEY (scenario_id, node)
 ) STRICT, WITHOUT ROWID;
@@ -64,33 +69,37 @@ CREATE TABLE scenario_node (
 -- e3 is drawn once per sensor and repetition, and is the same at every instant. The reading is then rounded to whole
 -- steps of quantisation_N and ends at range_N.
 CREATE TABLE noise_level (
-    noise_level_id       INTEGER PRIMARY KEY,
-    study_id             INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
-    noise_index          INTEGER NOT NULL,
+    noise_level_id       INTEGER PRIMARY KEY,      -- its number in the file
+    study_id             INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    noise_index          INTEGER NOT NULL,         -- 0, 1, ... in the order of the configuration
     label                TEXT    NOT NULL,         -- for people: '10 %', '0.2 N'
+    -- Standard deviation of the part that grows with the tension.
     multiplicative_ratio REAL    NOT NULL CHECK (multiplicative_ratio >= 0),
-    additive_N           REAL    NOT NULL CHECK (additive_N >= 0),
-    bias_N               REAL    NOT NULL CHECK (bias_N >= 0),
+    additive_N           REAL    NOT NULL CHECK (additive_N >= 0),  -- standard deviation at any tension
+    bias_N               REAL    NOT NULL CHECK (bias_N >= 0),  -- standard deviation of the offset that a sensor keeps
     quantisation_N       REAL    CHECK (quantisation_N >= 0),  -- 0: none; NULL: stored before version 3, see config_toml
     range_N              REAL    CHECK (range_N > 0),          -- the largest reading; NULL as above
     UNIQUE (study_id, noise_index)
 ) STRICT;
 
+-- The ways to fuse the readings of several sensors.
 CREATE TABLE fusion_method (
-    study_id     INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
+    study_id     INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
     method       TEXT    NOT NULL,                 -- 'mean', 'w_mean_r', 'posterior_mean', ...
-    method_index INTEGER NOT NULL,
+    method_index INTEGER NOT NULL,                 -- 0, 1, ... in the order of tables
     title        TEXT    NOT NULL,                 -- as figures write it: 'W Mean-R'
+    -- What the method must be told, or uses.
     knowledge    TEXT    NOT NULL CHECK (knowledge IN ('direction_known', 'direction_unknown', 'feasible_curve')),
-    meaning      TEXT    NOT NULL,
+    meaning      TEXT    NOT NULL,                 -- in words
     PRIMARY KEY (study_id, method)
 ) STRICT, WITHOUT ROWID;
 
+-- Different sets of nodes that carry a sensor; each is worked on once.
 CREATE TABLE sensor_set (
-    sensor_set_id INTEGER PRIMARY KEY,
-    study_id      INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
-    set_index     INTEGER NOT NULL,
-    sensor_count  INTEGER NOT NULL CHECK (sensor_count > 0),
+    sensor_set_id INTEGER PRIMARY KEY,             -- its number in the file
+    study_id      INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    set_index     INTEGER NOT NULL,                -- 0, 1, ... in the order of first use
+    sensor_count  INTEGER NOT NULL CHECK (sensor_count > 0),  -- how many nodes carry one
     nodes         TEXT    NOT NULL CHECK (json_valid(nodes)),  -- '[1,6,11]'
     UNIQUE (study_id, set_index),
     UNIQUE (study_id, nodes)
@@ -98,24 +107,24 @@ CREATE TABLE sensor_set (
 
 -- A layout names a sensor set; two families may name the same one.
 CREATE TABLE layout (
-    layout_id     INTEGER PRIMARY KEY,
-    study_id      INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
+    layout_id     INTEGER PRIMARY KEY,             -- its number in the file
+    study_id      INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
     family        TEXT    NOT NULL,                -- 'even', 'distal', 'both', 'explicit'
     start         TEXT    NOT NULL CHECK (start IN ('', 'proximal', 'distal')),  -- of Even: where counting starts
-    sensor_count  INTEGER NOT NULL CHECK (sensor_count > 0),
+    sensor_count  INTEGER NOT NULL CHECK (sensor_count > 0),  -- how many sensors
     label         TEXT    NOT NULL,                -- for people: 'Even from the proximal end, 3 sensors'
-    sensor_set_id INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,
+    sensor_set_id INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,  -- the nodes that it means
     UNIQUE (study_id, label)
 ) STRICT;
 
 -- What has been done; a row is done in the same transaction that writes its results.
 CREATE TABLE work_unit (
-    study_id       INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
-    unit_index     INTEGER NOT NULL,
-    stage          TEXT    NOT NULL CHECK (stage IN ('single_sensor', 'fusion')),
-    scenario_id    INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,
-    noise_level_id INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,
-    done           INTEGER NOT NULL CHECK (done IN (0, 1)),
+    study_id       INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    unit_index     INTEGER NOT NULL,               -- 0, 1, ... in the order of work
+    stage          TEXT    NOT NULL CHECK (stage IN ('single_sensor', 'fusion')),  -- what is computed
+    scenario_id    INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,  -- of which scenario
+    noise_level_id INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,  -- at which noise level
+    done           INTEGER NOT NULL CHECK (done IN (0, 1)),  -- 1: its results are stored
     PRIMARY KEY (study_id, unit_index)
 ) STRICT, WITHOUT ROWID;
 
@@ -123,72 +132,76 @@ CREATE TABLE work_unit (
 -- the shard's own units only; `capstan study merge` joins the shards.
 CREATE TABLE shard (
     shard  INTEGER PRIMARY KEY CHECK (shard > 0),  -- from 1
-    shards INTEGER NOT NULL CHECK (shards >= shard)
+    shards INTEGER NOT NULL CHECK (shards >= shard)  -- how many there are
 ) STRICT;
 
+-- How good the estimate from one sensor alone is.
 CREATE TABLE single_sensor (
-    scenario_id       INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,
-    noise_level_id    INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,
+    scenario_id       INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,  -- its scenario
+    noise_level_id    INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,  -- its noise level
+    -- Whether the direction of motion is known.
     knowledge         TEXT    NOT NULL CHECK (knowledge IN ('direction_known', 'direction_unknown')),
-    sensor_node       INTEGER NOT NULL CHECK (sensor_node > 0),
+    sensor_node       INTEGER NOT NULL CHECK (sensor_node > 0),  -- where the sensor is, from 1
     mean_abs_error_N  REAL    NOT NULL,            -- over nodes and repetitions
-    standard_error_N  REAL    NOT NULL,
+    standard_error_N  REAL    NOT NULL,            -- of mean_abs_error_N
     unverified_share  REAL    NOT NULL,            -- no motion pattern verifies
     ambiguous_share   REAL    NOT NULL,            -- more than one verifies
     at_rest_share     REAL    NOT NULL,            -- the sensor's node rests in the estimate: its reading is unused
     PRIMARY KEY (scenario_id, noise_level_id, knowledge, sensor_node)
 ) STRICT, WITHOUT ROWID;
 
+-- The same at every node: the matrix e_ij.
 CREATE TABLE single_sensor_node (
-    scenario_id       INTEGER NOT NULL,
-    noise_level_id    INTEGER NOT NULL,
-    knowledge         TEXT    NOT NULL,
-    sensor_node       INTEGER NOT NULL,
-    node              INTEGER NOT NULL CHECK (node > 0),
+    scenario_id       INTEGER NOT NULL,            -- as in single_sensor
+    noise_level_id    INTEGER NOT NULL,            -- as in single_sensor
+    knowledge         TEXT    NOT NULL,            -- as in single_sensor
+    sensor_node       INTEGER NOT NULL,            -- as in single_sensor
+    node              INTEGER NOT NULL CHECK (node > 0),  -- where the error is, from 1
     mean_abs_error_N  REAL    NOT NULL,            -- e_ij of the paper, i = sensor_node, j = node
-    mean_tension_N    REAL    NOT NULL,
-    tension_q025_N    REAL    NOT NULL,
-    tension_q975_N    REAL    NOT NULL,
+    mean_tension_N    REAL    NOT NULL,            -- of the estimate, over repetitions
+    tension_q025_N    REAL    NOT NULL,            -- 2.5% quantile of the estimate
+    tension_q975_N    REAL    NOT NULL,            -- 97.5% quantile of the estimate
     PRIMARY KEY (scenario_id, noise_level_id, knowledge, sensor_node, node),
     FOREIGN KEY (scenario_id, noise_level_id, knowledge, sensor_node) REFERENCES single_sensor ON DELETE CASCADE
 ) STRICT, WITHOUT ROWID;
 
 -- Weights of the W methods: 1 / (mean single-sensor error), scaled to sum to one over all sensors.
 CREATE TABLE sensor_weight (
-    scenario_id    INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,
-    noise_level_id INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,
-    sensor_node    INTEGER NOT NULL CHECK (sensor_node > 0),
-    weight_share   REAL    NOT NULL CHECK (weight_share >= 0),
+    scenario_id    INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,  -- its scenario
+    noise_level_id INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,  -- its noise level
+    sensor_node    INTEGER NOT NULL CHECK (sensor_node > 0),  -- where the sensor is, from 1
+    weight_share   REAL    NOT NULL CHECK (weight_share >= 0),  -- sums to 1 over all sensors
     PRIMARY KEY (scenario_id, noise_level_id, sensor_node)
 ) STRICT, WITHOUT ROWID;
 
 -- A cell is one scenario, noise level, sensor set and fusion method: errors over nodes and repetitions.
 CREATE TABLE cell (
-    cell_id            INTEGER PRIMARY KEY,
-    scenario_id        INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,
-    noise_level_id     INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,
-    sensor_set_id      INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,
-    method             TEXT    NOT NULL,
-    repetitions        INTEGER NOT NULL CHECK (repetitions > 0),
+    cell_id            INTEGER PRIMARY KEY,        -- the study, then its number within: 2000000017 is cell 17 of study 2
+    scenario_id        INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,  -- its scenario
+    noise_level_id     INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,  -- its noise level
+    sensor_set_id      INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,  -- its sensors
+    method             TEXT    NOT NULL,           -- its fusion method
+    repetitions        INTEGER NOT NULL CHECK (repetitions > 0),  -- draws that it sums up
     mean_abs_error_N   REAL    NOT NULL,           -- the paper's metric
     standard_error_N   REAL    NOT NULL,           -- of mean_abs_error_N
     interval_low_N     REAL    NOT NULL,           -- 95% interval of mean_abs_error_N
-    interval_high_N    REAL    NOT NULL,
-    rms_error_N        REAL    NOT NULL,
+    interval_high_N    REAL    NOT NULL,           -- upper end of that interval
+    rms_error_N        REAL    NOT NULL,           -- root of the mean square error
     bias_N             REAL    NOT NULL,           -- mean of estimate - truth
     worst_node         INTEGER NOT NULL,           -- the node with the largest mean absolute error
-    worst_node_error_N REAL    NOT NULL,
+    worst_node_error_N REAL    NOT NULL,           -- the mean absolute error there
     error_q05_N        REAL    NOT NULL,           -- quantiles over repetitions of the error averaged over nodes
-    error_q50_N        REAL    NOT NULL,
-    error_q95_N        REAL    NOT NULL,
+    error_q50_N        REAL    NOT NULL,           -- median
+    error_q95_N        REAL    NOT NULL,           -- 95% quantile
     unverified_share   REAL    NOT NULL,           -- of the single-sensor estimates that were fused
     ambiguous_share    REAL    NOT NULL,
     UNIQUE (scenario_id, noise_level_id, sensor_set_id, method)
 ) STRICT;
 
+-- Errors of a cell at every node.
 CREATE TABLE cell_node (
-    cell_id          INTEGER NOT NULL REFERENCES cell ON DELETE CASCADE,
-    node             INTEGER NOT NULL CHECK (node > 0),
+    cell_id          INTEGER NOT NULL REFERENCES cell ON DELETE CASCADE,  -- its cell
+    node             INTEGER NOT NULL CHECK (node > 0),  -- from 1
     mean_abs_error_N REAL    NOT NULL,
     bias_N           REAL    NOT NULL,
     PRIMARY KEY (cell_id, node)
@@ -197,69 +210,70 @@ CREATE TABLE cell_node (
 -- Means over consecutive blocks of repetitions, on draws that all cells of a scenario and noise level share:
 -- the difference of two cells, block by block, is a paired difference.
 CREATE TABLE cell_block (
-    cell_id          INTEGER NOT NULL REFERENCES cell ON DELETE CASCADE,
-    block            INTEGER NOT NULL,
+    cell_id          INTEGER NOT NULL REFERENCES cell ON DELETE CASCADE,  -- its cell
+    block            INTEGER NOT NULL,             -- from 0; the same repetitions in every cell
     mean_abs_error_N REAL    NOT NULL,
     PRIMARY KEY (cell_id, block)
 ) STRICT, WITHOUT ROWID;
 
 -- Cramer-Rao with the direction known: a line to compare errors with. No row: none of the sensors moves.
 CREATE TABLE known_direction_bound (
-    scenario_id      INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,
-    noise_level_id   INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,
-    sensor_set_id    INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,
+    scenario_id      INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,  -- its scenario
+    noise_level_id   INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,  -- its noise level
+    sensor_set_id    INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,  -- its sensors
     mean_abs_error_N REAL    NOT NULL,             -- smallest an unbiased estimate can have, over nodes
     PRIMARY KEY (scenario_id, noise_level_id, sensor_set_id)
 ) STRICT, WITHOUT ROWID;
 
 -- What to do. One row per noise level and scope.
 CREATE TABLE recommendation (
-    recommendation_id INTEGER PRIMARY KEY,
-    study_id          INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
-    noise_level_id    INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,
+    recommendation_id INTEGER PRIMARY KEY,         -- the study, then its number within, as cell_id
+    study_id          INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    noise_level_id    INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,  -- at which noise
+    -- What is made small: the error in a regime, the largest regret over regimes, the mean over the duty cycle.
     scope             TEXT    NOT NULL CHECK (scope IN ('regime', 'minimax_regret', 'duty_cycle')),
     regime            TEXT    NOT NULL,            -- '' unless scope is 'regime'
-    sensor_set_id     INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,
-    method            TEXT    NOT NULL,
+    sensor_set_id     INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,  -- where to put sensors
+    method            TEXT    NOT NULL,            -- how to fuse them
     sensor_count      INTEGER NOT NULL,            -- where the gain of one more sensor flattens
     error_N           REAL    NOT NULL,            -- the scope's objective: mean error, largest regret, or duty mean
-    interval_low_N    REAL    NOT NULL,
-    interval_high_N   REAL    NOT NULL,
+    interval_low_N    REAL    NOT NULL,            -- 95% interval of error_N
+    interval_high_N   REAL    NOT NULL,            -- upper end of that interval
     sentence          TEXT    NOT NULL,            -- for a designer to act on
     UNIQUE (study_id, noise_level_id, scope, regime)
 ) STRICT;
 
 -- The best choice at each count, beside the recommendation.
 CREATE TABLE recommendation_count (
-    recommendation_id INTEGER NOT NULL REFERENCES recommendation ON DELETE CASCADE,
-    sensor_count      INTEGER NOT NULL,
-    sensor_set_id     INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,
-    method            TEXT    NOT NULL,
-    error_N           REAL    NOT NULL,
-    interval_low_N    REAL    NOT NULL,
-    interval_high_N   REAL    NOT NULL,
+    recommendation_id INTEGER NOT NULL REFERENCES recommendation ON DELETE CASCADE,  -- its recommendation
+    sensor_count      INTEGER NOT NULL,            -- at this count
+    sensor_set_id     INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,  -- where to put sensors
+    method            TEXT    NOT NULL,            -- how to fuse them
+    error_N           REAL    NOT NULL,            -- the objective, as in recommendation
+    interval_low_N    REAL    NOT NULL,            -- 95% interval of error_N
+    interval_high_N   REAL    NOT NULL,            -- upper end of that interval
     PRIMARY KEY (recommendation_id, sensor_count)
 ) STRICT, WITHOUT ROWID;
 
 -- The indifferent set: what the draws cannot tell from the recommendation, at its count.
 CREATE TABLE recommendation_alternative (
-    recommendation_id INTEGER NOT NULL REFERENCES recommendation ON DELETE CASCADE,
-    sensor_set_id     INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,
-    method            TEXT    NOT NULL,
+    recommendation_id INTEGER NOT NULL REFERENCES recommendation ON DELETE CASCADE,  -- its recommendation
+    sensor_set_id     INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,  -- other sensors
+    method            TEXT    NOT NULL,            -- or another method
     difference_N      REAL    NOT NULL,            -- alternative - recommended, paired
     interval_low_N    REAL    NOT NULL,            -- simultaneous 95% interval
-    interval_high_N   REAL    NOT NULL,
+    interval_high_N   REAL    NOT NULL,            -- upper end of that interval
     PRIMARY KEY (recommendation_id, sensor_set_id, method)
 ) STRICT, WITHOUT ROWID;
 
 -- The paper's numbers beside ours; only studies that hold what the paper's table needs have rows.
 CREATE TABLE paper_comparison (
-    study_id         INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,
-    row_index        INTEGER NOT NULL,
-    quantity         TEXT    NOT NULL,
+    study_id         INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    row_index        INTEGER NOT NULL,             -- 0, 1, ... in the order of the table
+    quantity         TEXT    NOT NULL,             -- what is compared
     paper_N          REAL,                         -- NULL: the paper gives no number
-    ours_N           REAL    NOT NULL,
-    standard_error_N REAL    NOT NULL,
+    ours_N           REAL    NOT NULL,             -- as this study has it
+    standard_error_N REAL    NOT NULL,             -- of ours_N
     relation         TEXT    NOT NULL CHECK (relation IN ('=', '<')),  -- '<': the paper gives a bound
     reason           TEXT    NOT NULL,             -- why the two differ, or that they agree
     PRIMARY KEY (study_id, row_index)
@@ -267,11 +281,11 @@ CREATE TABLE paper_comparison (
 
 -- What `capstan diagnose` found in one recording.
 CREATE TABLE diagnosis (
-    diagnosis_id        INTEGER PRIMARY KEY,
+    diagnosis_id        INTEGER PRIMARY KEY,       -- 1, 2, ... in the order they were stored
     recording           TEXT    NOT NULL,          -- its name, as in the sidecar
     log_file            TEXT    NOT NULL,          -- as it was named to the command; '' where it had no file
     log_sha256          TEXT    NOT NULL CHECK (length(log_sha256) IN (0, 64)),  -- of the log's bytes; '': not known
-    program_version     TEXT    NOT NULL,
+    program_version     TEXT    NOT NULL,          -- of the capstan that made it
     runs                TEXT    NOT NULL CHECK (json_valid(runs)),  -- that were diagnosed: '[1,2]'
     verdict             TEXT    NOT NULL,          -- an effect, two as 'a + b', 'none' or 'unknown'
     confidence_share    REAL    NOT NULL CHECK (confidence_share BETWEEN 0 AND 1),  -- probability of the first effect
@@ -279,12 +293,12 @@ CREATE TABLE diagnosis (
     cable_end           TEXT    NOT NULL,          -- which end of it; '': neither, or not known
     position_m          REAL,                      -- along the cable from the motor; NULL: not a place on a cable
     worst_run           INTEGER NOT NULL,          -- where the gap is largest against noise
-    worst_channel       TEXT    NOT NULL,
+    worst_channel       TEXT    NOT NULL,          -- with worst_run
     friction_ratio      REAL    NOT NULL,          -- nominal numbers as fitted with the causes, of those stated
-    stiffness_ratio     REAL    NOT NULL,
-    pretension_ratio    REAL    NOT NULL,
+    stiffness_ratio     REAL    NOT NULL,          -- likewise
+    pretension_ratio    REAL    NOT NULL,          -- likewise
     misfit_before_ratio REAL    NOT NULL,          -- mean square residual over that of noise and model floor
-    misfit_after_ratio  REAL    NOT NULL,
+    misfit_after_ratio  REAL    NOT NULL,          -- the same with the causes
     independent_samples_count REAL NOT NULL,       -- instants that tell something new
     sentence            TEXT    NOT NULL,          -- the verdict in words
     gap_sentence        TEXT    NOT NULL           -- where the gap is denser than elsewhere, in words
@@ -292,31 +306,31 @@ CREATE TABLE diagnosis (
 
 -- How probable each effect is, `none` and `unknown` among them; sums to 1 in a diagnosis.
 CREATE TABLE diagnosis_effect (
-    diagnosis_id      INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
+    diagnosis_id      INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
     place             INTEGER NOT NULL CHECK (place > 0),  -- 1: the most probable
-    effect            TEXT    NOT NULL,
-    probability_share REAL    NOT NULL CHECK (probability_share BETWEEN 0 AND 1),
+    effect            TEXT    NOT NULL,            -- as in the catalogue of effects; 'none', 'unknown'
+    probability_share REAL    NOT NULL CHECK (probability_share BETWEEN 0 AND 1),  -- of this effect being a cause
     PRIMARY KEY (diagnosis_id, place)
 ) STRICT, WITHOUT ROWID;
 
 -- The causes that the verdict names, none to two.
 CREATE TABLE diagnosis_cause (
-    diagnosis_id INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
-    cause_index  INTEGER NOT NULL,
-    effect       TEXT    NOT NULL,
+    diagnosis_id INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
+    cause_index  INTEGER NOT NULL,                 -- 0, 1
+    effect       TEXT    NOT NULL,                 -- as in the catalogue of effects
     variant      TEXT    NOT NULL,                 -- '' where the effect has one form only
-    component    TEXT    NOT NULL,
-    cable_end    TEXT    NOT NULL,
+    component    TEXT    NOT NULL,                 -- what it sits in
+    cable_end    TEXT    NOT NULL,                 -- which end of it; '': neither
     position_m   REAL,                             -- along the cable from the motor; NULL: not a place on a cable
     PRIMARY KEY (diagnosis_id, cause_index)
 ) STRICT, WITHOUT ROWID;
 
 -- How severe a cause is: its numbers, as they were fitted.
 CREATE TABLE diagnosis_number (
-    diagnosis_id  INTEGER NOT NULL,
-    cause_index   INTEGER NOT NULL,
-    name          TEXT    NOT NULL,
-    value_in_unit REAL    NOT NULL,
+    diagnosis_id  INTEGER NOT NULL,                -- its diagnosis
+    cause_index   INTEGER NOT NULL,                -- its cause
+    name          TEXT    NOT NULL,                -- as in the catalogue of effects
+    value_in_unit REAL    NOT NULL,                -- as fitted
     unit          TEXT    NOT NULL,                -- '': a ratio
     PRIMARY KEY (diagnosis_id, cause_index, name),
     FOREIGN KEY (diagnosis_id, cause_index) REFERENCES diagnosis_cause ON DELETE CASCADE
@@ -324,8 +338,8 @@ CREATE TABLE diagnosis_number (
 
 -- Every hypothesis that got a full fit: first two causes together, then one or none; each best first.
 CREATE TABLE diagnosis_candidate (
-    diagnosis_id       INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
-    candidate_index    INTEGER NOT NULL,
+    diagnosis_id       INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
+    candidate_index    INTEGER NOT NULL,           -- 0, 1, ...
     effects            TEXT    NOT NULL CHECK (json_valid(effects)),   -- '["backlash"]'; '["none"]': nothing
     variants           TEXT    NOT NULL CHECK (json_valid(variants)),  -- of each effect
     open_numbers       INTEGER NOT NULL,           -- that the fit chose, beyond the nominal ones
@@ -339,10 +353,10 @@ CREATE TABLE diagnosis_candidate (
 
 -- RMS of measured less modelled in each channel that no run drives.
 CREATE TABLE diagnosis_channel (
-    diagnosis_id          INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
-    channel_index         INTEGER NOT NULL,
-    channel               TEXT    NOT NULL,
-    unit                  TEXT    NOT NULL,
+    diagnosis_id          INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
+    channel_index         INTEGER NOT NULL,        -- 0, 1, ... in the order of the recording
+    channel               TEXT    NOT NULL,        -- as in the sidecar
+    unit                  TEXT    NOT NULL,        -- of the channel
     noise_in_unit         REAL    NOT NULL,        -- of one sample
     rms_before_in_unit    REAL    NOT NULL,        -- nominal model
     rms_after_in_unit     REAL    NOT NULL,        -- with the causes
@@ -350,19 +364,19 @@ CREATE TABLE diagnosis_channel (
     rms_runner_up_in_unit REAL    NOT NULL,        -- with the best cause that the verdict does not name
     closed_share          REAL,                    -- of the mean square beyond noise, held out; NULL: no gap to close
     closed_low_share      REAL,                    -- its 95% interval
-    closed_high_share     REAL,
+    closed_high_share     REAL,                    -- upper end of that interval
     PRIMARY KEY (diagnosis_id, channel_index)
 ) STRICT, WITHOUT ROWID;
 
 -- Where the gap lies: the share of its energy in each part of the recording.
 CREATE TABLE diagnosis_gap (
-    diagnosis_id  INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
-    part_index    INTEGER NOT NULL,
+    diagnosis_id  INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
+    part_index    INTEGER NOT NULL,                -- 0, 1, ...
     divided_by    TEXT    NOT NULL,                -- 'run', 'channel', 'regime', 'speed', ...
-    part          TEXT    NOT NULL,
-    energy_share  REAL    NOT NULL,
+    part          TEXT    NOT NULL,                -- which part: '2', 'mass', 'after reversal'
+    energy_share  REAL    NOT NULL,                -- of what the nominal model leaves beyond noise
     low_share     REAL    NOT NULL,                -- its 95% interval
-    high_share    REAL    NOT NULL,
+    high_share    REAL    NOT NULL,                -- upper end of that interval
     samples_share REAL    NOT NULL,                -- of the compared samples: what chance would give
     PRIMARY KEY (diagnosis_id, part_index)
 ) STRICT, WITHOUT ROWID;
@@ -374,6 +388,19 @@ CREATE INDEX cell_of_set ON cell (sensor_set_id);
 -- Error by layout and count: averaged over the instants of a regime and, for Even, over both starts.
 -- Instants are drawn independently; the two starts share draws, so their standard errors are averaged, not reduced.
 CREATE VIEW v_error_by_layout AS
+-- study_id: its study
+-- study: its name
+-- regime: of the instants
+-- noise_level_id: its noise level
+-- noise: its label
+-- method_title: as figures write it
+-- knowledge: what the method must be told, or uses
+-- instants: scenarios that are averaged
+-- mean_abs_error_N: over instants and variants of the layout
+-- standard_error_N: of mean_abs_error_N
+-- interval_low_N: 95% interval of mean_abs_error_N
+-- interval_high_N: upper end of that interval
+-- worst_node_error_N: the largest of any instant
 WITH per_instant AS (
     SELECT s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method,
            avg(c.mean_abs_error_N) AS mean_abs_error_N, avg(c.standard_error_N) AS standard_error_N,
@@ -395,6 +422,13 @@ GROUP BY p.study_id, p.regime, p.noise_level_id, p.family, p.sensor_count, p.met
 
 -- The best method per regime, noise level, layout family and count, of those that need not know the direction.
 CREATE VIEW v_best_method AS
+-- study_id: its study
+-- study: its name
+-- noise_level_id: its noise level
+-- noise: its label
+-- method_title: as figures write it
+-- interval_low_N: 95% interval of mean_abs_error_N
+-- interval_high_N: upper end of that interval
 SELECT study_id, study, regime, noise_level_id, noise, family, sensor_count, method, method_title,
        mean_abs_error_N, interval_low_N, interval_high_N
 FROM (SELECT *, row_number() OVER (PARTITION BY study_id, regime, noise_level_id, family, sensor_count
@@ -404,6 +438,14 @@ WHERE place = 1;
 
 -- e_ij: the error at node j of the estimate from the sensor at node i, averaged over the instants of a regime.
 CREATE VIEW v_single_sensor_matrix AS
+-- study_id: its study
+-- study: its name
+-- noise_level_id: its noise level
+-- noise: its label
+-- knowledge: whether the direction of motion is known
+-- sensor_node: i, where the sensor is
+-- node: j, where the error is
+-- mean_abs_error_N: e_ij
 SELECT s.study_id, t.name AS study, s.regime, e.noise_level_id, n.label AS noise, e.knowledge, e.sensor_node, e.node,
        avg(e.mean_abs_error_N) AS mean_abs_error_N
 FROM single_sensor_node e JOIN scenario s USING (scenario_id) JOIN study t USING (study_id)
@@ -412,11 +454,25 @@ GROUP BY s.study_id, s.regime, e.noise_level_id, e.knowledge, e.sensor_node, e.n
 
 -- How far each study has come.
 CREATE VIEW v_progress AS
+-- study_id: its study
+-- study: its name
+-- units_done: stored work units
+-- units: work units in all
 SELECT t.study_id, t.name AS study, t.status, coalesce(sum(w.done), 0) AS units_done, count(w.unit_index) AS units
 FROM study t LEFT JOIN work_unit w USING (study_id) GROUP BY t.study_id;
 
 -- The recommendations in words, with layout and method names.
 CREATE VIEW v_recommendation AS
+-- recommendation_id: its number
+-- study_id: its study
+-- study: its name
+-- noise: its label
+-- scope: what is made small
+-- layout: a name of the sensors
+-- nodes: that carry sensors
+-- method_title: as figures write it
+-- interval_low_N: 95% interval of error_N
+-- interval_high_N: upper end of that interval
 SELECT r.recommendation_id, r.study_id, t.name AS study, n.label AS noise, r.scope, r.regime,
        (SELECT min(l.label) FROM layout l WHERE l.sensor_set_id = r.sensor_set_id) AS layout,
        ss.nodes, r.sensor_count, f.title AS method_title, r.error_N, r.interval_low_N, r.interval_high_N, r.sentence
@@ -425,6 +481,10 @@ JOIN sensor_set ss USING (sensor_set_id) JOIN fusion_method f ON f.study_id = r.
 
 -- The diagnoses, each with the channel that it is judged by: the load's torque, else its first.
 CREATE VIEW v_diagnosis AS
+-- diagnosis_id: its number
+-- channel: that it is judged by
+-- sentence: the verdict in words
+-- closed_high_share: upper end of that interval
 SELECT d.diagnosis_id, d.recording, d.verdict, d.confidence_share, d.component, d.cable_end, d.position_m,
        c.channel, c.unit, c.rms_before_in_unit, c.rms_after_in_unit, c.rms_held_out_in_unit,
        c.closed_share, c.closed_low_share, c.closed_high_share, d.sentence

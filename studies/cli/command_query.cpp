@@ -10,6 +10,7 @@
 #include "capstan/storage/error.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/schema.h"
+#include "capstan/storage/schema_documentation.h"
 
 namespace capstan::cli {
 
@@ -30,7 +31,8 @@ std::string formatted(const storage::QueryResult& result, const std::string& for
 
 ExitCode run(const Invocation& invocation) {
     if (invocation.has("schema")) {
-        deliver(invocation, storage::schema_text());
+        const bool markdown = invocation.text("format") == "md";
+        deliver(invocation, markdown ? storage::schema_markdown() : storage::schema_text());
         return ExitCode::success;
     }
     if (!invocation.has_argument("SQL")) {
@@ -38,8 +40,10 @@ ExitCode run(const Invocation& invocation) {
             "capstan query: SQL is missing, as \"SELECT * FROM v_progress\"; `capstan query --schema` shows "
             "the tables");
     }
-    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::string format = invocation.has("json") ? "json" : invocation.text("format");
+    if (format == "md")
+        throw UsageError("capstan query: --format md is for --schema; rows come as table, csv or json");
+    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     deliver(invocation, formatted(answer(database, invocation.argument("SQL")), format));
     return ExitCode::success;
 }
@@ -57,10 +61,10 @@ Command query_command() {
         {{"format",
           '\0',
           OptionKind::text,
-          "table|csv|json",
-          "How to print; csv and json in full precision.",
+          "table|csv|json|md",
+          "How to print; csv and json in full precision; md is for --schema, as tables in words.",
           "table",
-          {"table", "csv", "json"}},
+          {"table", "csv", "json", "md"}},
          {"schema", '\0', OptionKind::flag, "", "Print all tables and views, with comments, instead."},
          database_option,
          output_option,
