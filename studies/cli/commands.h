@@ -24,6 +24,7 @@ Command duty_command();
 Command estimate_command();
 Command query_command();
 Command report_command();
+Command export_command();
 Command serve_command();
 Command doctor_command();
 Command completion_command();
