@@ -1,44 +1,13 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "capstan/reports/html_text.h"
+#include "capstan/reports/plain_tables.h"
 #include "capstan/reports/recommendation_section.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/reports/study_tables.h"
 
 namespace capstan::reports {
 namespace {
-
-// RFC 4180: quotes around text that holds a comma, a quote or a line break.
-std::string csv_field(const Value& value) {
-    const auto* text = std::get_if<std::string>(&value);
-    if (text == nullptr) {
-        const nlohmann::json json = to_json(value);
-        return json.is_null() ? "" : json.dump();
-    }
-    if (text->find_first_of(",\"\r\n") == std::string::npos) return *text;
-    std::string quoted = "\"";
-    for (const char letter : *text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-    return quoted + '"';
-}
-
-// A study's words must not become a table's border or a tag.
-std::string escape_markdown(const std::string& text) {
-    std::string safe;
-    for (const char letter : text) {
-        if (letter == '\n' || letter == '\r') {
-            safe += ' ';
-        } else if (letter == '<') {
-            safe += "&lt;";
-        } else {
-            if (letter == '|' || letter == '\\' || letter == '*' || letter == '`' || letter == '[')
-                safe += '\\';
-            safe += letter;
-        }
-    }
-    return safe;
-}
 
 std::string recommendations_markdown(const StudyTables& tables) {
     const auto rows = tables["recommendation"].each();
@@ -108,28 +77,12 @@ std::string study_report_markdown(storage::Database& database, std::int64_t stud
 
 std::string study_report_json(storage::Database& database, std::int64_t study_id) {
     const StudyTables tables(database, study_id);
-    nlohmann::ordered_json report;
-    for (const Table& table : tables.all()) {
-        auto& rows = report[table.name] = nlohmann::ordered_json::array();
-        for (const auto& row : table.rows) {
-            nlohmann::ordered_json record;
-            for (std::size_t k = 0; k < row.size(); ++k) record[table.columns[k]] = to_json(row[k]);
-            rows.push_back(std::move(record));
-        }
-    }
-    return report.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return tables_json(tables.all());
 }
 
 std::string study_error_csv(storage::Database& database, std::int64_t study_id) {
     const StudyTables tables(database, study_id);
-    const Table& table = tables["error_by_layout"];
-    std::string text = fmt::format("{}\r\n", fmt::join(table.columns, ","));
-    for (const auto& row : table.rows) {
-        std::vector<std::string> fields;
-        for (const Value& value : row) fields.push_back(csv_field(value));
-        text += fmt::format("{}\r\n", fmt::join(fields, ","));
-    }
-    return text;
+    return table_csv(tables["error_by_layout"]);
 }
 
 }  // namespace capstan::reports

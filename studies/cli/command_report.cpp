@@ -8,6 +8,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/storage/study_store.h"
 
@@ -33,6 +34,14 @@ std::string report_of(storage::Database& database, std::int64_t id, const std::s
     return reports::study_report_html(database, id);
 }
 
+std::string comparison_of(storage::Database& database, const reports::ComparedStudies& studies,
+                          const std::string& format) {
+    if (format == "md") return reports::study_comparison_markdown(database, studies);
+    if (format == "csv") return reports::study_comparison_csv(database, studies);
+    if (format == "json") return reports::study_comparison_json(database, studies);
+    return reports::study_comparison_html(database, studies);
+}
+
 ExitCode run(const Invocation& invocation) {
     const std::string format = format_of(invocation);
     const std::string& file = invocation.text("output");
@@ -43,7 +52,12 @@ ExitCode run(const Invocation& invocation) {
     }
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
-    deliver(invocation, report_of(database, id, format));
+    if (invocation.has("compare")) {
+        const std::int64_t first = storage::find_study(database, invocation.text("compare"));
+        deliver(invocation, comparison_of(database, {first, id}, format));
+    } else {
+        deliver(invocation, report_of(database, id, format));
+    }
     if (file != "-") fmt::print(stderr, "Wrote {}.\n", file);
     return ExitCode::success;
 }
@@ -65,11 +79,14 @@ Command report_command() {
           "Default: as FILE ends, else html.",
           "",
           {"html", "md", "csv", "json"}},
+         {"compare", '\0', OptionKind::text, "OTHER",
+          "Report on OTHER and STUDY beside each other: settings, advice, errors."},
          database_option,
          output_option,
          {"json", '\0', OptionKind::flag, "", "The same as --format json."},
          help_option},
-        {"capstan report -o report.html", "capstan report paper --format md", "capstan report -o errors.csv"},
+        {"capstan report -o report.html", "capstan report paper --format md", "capstan report -o errors.csv",
+         "capstan report --compare 1 2 -o comparison.html"},
         run};
 }
 

@@ -27,3 +27,10 @@ cat >"$folder/recording.json" <<'SIDECAR'
            "output": "locked", "driven": ["motor_torque", "load_angle"]}]}
 SIDECAR
 "$capstan" simulate "$folder/recording.csv" --html "$folder/recording.html" -o /dev/null
+
+# Two studies beside each other.
+rm -f "$folder"/compared.db*
+for repetitions in 40 60; do
+    "$capstan" study run "$configs/quick.toml" --repetitions "$repetitions" --db "$folder/compared.db" --progress none >/dev/null
+done
+"$capstan" report --compare 1 2 --db "$folder/compared.db" -o "$folder/comparison.html" 2>/dev/null
