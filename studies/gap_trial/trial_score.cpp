@@ -93,14 +93,19 @@ double brier_of(const ScoredCase& scored) {
     return sum;
 }
 
-// With two effects the stated probability is that of both: they share it in the answer.
+// With two effects the stated probability is that of both: they share it in the answer. Below a verdict of
+// `unknown` the effects that fit best are named too, and it is not theirs.
 double stated_probability(const ScoredCase& scored) {
     const CaseAnswer& answer = *scored.answer;
-    if (answer.named.size() < 2) return answer.ranked.empty() ? 0.0 : answer.ranked.front().probability;
+    if (answer.ranked.empty()) return 0.0;
+    const auto is_named = [&](const std::string& effect) {
+        return std::find(answer.named.begin(), answer.named.end(), effect) != answer.named.end();
+    };
+    if (answer.named.size() < 2 || !is_named(answer.ranked.front().effect))
+        return answer.ranked.front().probability;
     double sum = 0.0;
     for (const gap::RankedEffect& each : answer.ranked) {
-        if (std::find(answer.named.begin(), answer.named.end(), each.effect) != answer.named.end())
-            sum += each.probability;
+        if (is_named(each.effect)) sum += each.probability;
     }
     return std::min(1.0, sum);
 }

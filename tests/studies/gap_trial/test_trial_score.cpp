@@ -67,6 +67,7 @@ class HandMadeTrial : public testing::Test {
         answers_[2].channels = {{"load_torque", 0.4, 0.022}, {"motor_angle", 0.03, 0.004}};
         answers_[3].component = "motor";
         answers_[3].end = "load";
+        answers_[5].named = {"creep", "backlash"};  // what fits best where nothing known fits
         answers_[6].named = {"backlash", "creep"};
         references_ = {
             {"bend", std::vector<ChannelRms>{{"load_torque", 0.4, 0.02}, {"motor_angle", 0.03, 0.002}}},
