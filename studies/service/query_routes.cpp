@@ -1,4 +1,7 @@
 // The query box: anyone's SQL, which may read everything and change nothing.
+#include <fmt/format.h>
+
+#include <filesystem>
 #include <semaphore>
 
 #include "capstan/service/exchange.h"
@@ -40,6 +43,36 @@ storage::QueryResult answer(const RouteContext& context, const std::string& sql)
     }
 }
 
+// When the database was last written to, and how large it is: what every answer depends on.
+std::string database_state(const RouteContext& context) {
+    std::string state;
+    for (const char* part : {"", "-wal"}) {
+        const std::filesystem::path file = context.options.commands.database + part;
+        std::error_code absent;
+        const auto size = std::filesystem::file_size(file, absent);
+        const auto written = std::filesystem::last_write_time(file, absent).time_since_epoch().count();
+        state += fmt::format("{} {} ", absent ? 0 : size, absent ? 0 : written);
+    }
+    return state;
+}
+
+// An answer as it is sent. Many ask the same while a study goes on: it is worked out once a moment.
+struct SentAnswer {
+    bool truncated = false;
+    std::string text;
+};
+
+SentAnswer sent(RouteContext& context, const std::string& sql, const std::string& format) {
+    const auto kept = context.query_answers.get(
+        format + " " + sql, database_state(context), ReportShelf::Freshness::just_made, [&] {
+            const storage::QueryResult result = answer(context, sql);
+            const Answers& answers = context.options.answers;
+            return (result.truncated ? "t" : "f") +
+                   (format == "csv" ? answers.rows_csv(result) : answers.rows_json(result));
+        });
+    return {kept->front() == 't', kept->substr(1)};
+}
+
 }  // namespace
 
 void add_query_routes(httplib::Server& server, RouteContext& context) {
@@ -47,13 +80,11 @@ void add_query_routes(httplib::Server& server, RouteContext& context) {
         const auto body = body_of(request);
         const std::string format = body.contains("format") ? member<std::string>(body, "format") : "json";
         if (format != "json" && format != "csv") throw BadRequest("'format' must be json or csv");
-        const storage::QueryResult result = answer(context, member<std::string>(body, "sql"));
-        if (result.truncated) response.set_header("X-Truncated", "yes");
-        if (format == "csv") {
+        const SentAnswer answer = sent(context, member<std::string>(body, "sql"), format);
+        if (answer.truncated) response.set_header("X-Truncated", "yes");
+        if (format == "csv")
             response.set_header("Content-Disposition", "attachment; filename=\"capstan-query.csv\"");
-            return send_text(response, context.options.answers.rows_csv(result), "text/csv; charset=utf-8");
-        }
-        send_text(response, context.options.answers.rows_json(result), "application/json");
+        send_text(response, answer.text, format == "csv" ? "text/csv; charset=utf-8" : "application/json");
     });
     server.Get("/api/schema", [](const httplib::Request&, httplib::Response& response) {
         send_text(response, storage::schema_text(), "text/plain; charset=utf-8");

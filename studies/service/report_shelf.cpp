@@ -5,7 +5,8 @@ namespace capstan::service {
 namespace {
 
 constexpr std::chrono::milliseconds moment{500};
-constexpr std::size_t most_places = 64;  // of studies looked at; a page is below 3 MB
+constexpr std::size_t most_places = 64;  // of studies and questions looked at
+constexpr std::size_t largest_kept = 4'000'000;
 
 }  // namespace
 
@@ -23,17 +24,20 @@ std::shared_ptr<const std::string> ReportShelf::get(const std::string& name, con
     const auto look = [&](Clock::duration age) -> std::shared_ptr<const std::string> {
         const std::lock_guard lock(kept->reading);
         if (kept->state == state) return kept->text;
-        const bool will_do = freshness == Freshness::a_moment_old && Clock::now() - kept->made < age;
+        const bool will_do = freshness != Freshness::exact && Clock::now() - kept->made < age;
         return will_do ? kept->text : nullptr;
     };
     if (auto text = look(moment)) return text;
     std::unique_lock making(kept->making, std::try_to_lock);
     if (!making) {
-        if (auto text = look(Clock::duration::max())) return text;
+        if (freshness == Freshness::a_moment_old) {
+            if (auto text = look(Clock::duration::max())) return text;
+        }
         making.lock();
     }
     if (auto text = look(moment)) return text;  // made while this one waited
     auto text = std::make_shared<const std::string>(make());
+    if (text->size() > largest_kept) return text;
     const std::lock_guard lock(kept->reading);
     kept->text = text;
     kept->state = state;

@@ -11,12 +11,16 @@ namespace capstan::service {
 
 /// Texts that take a while to make, kept as long as what they were made from is the same. While one is made
 /// again, others who ask for no exact one get the one before; and such a text is made again no sooner than a
-/// moment after the last time, however fast its study goes.
+/// moment after the last time, however fast its study goes. Texts beyond some size are not kept.
 class ReportShelf {
   public:
     using Maker = std::function<std::string()>;
 
-    enum class Freshness { exact, a_moment_old };
+    enum class Freshness {
+        exact,         ///< made from this very state
+        just_made,     ///< or less than a moment ago: whoever comes sooner after one waits for it
+        a_moment_old,  ///< or the one before, while another is made
+    };
 
     /// `state`: what the text depends on, as "12 of 40 units".
     std::shared_ptr<const std::string> get(const std::string& name, const std::string& state,

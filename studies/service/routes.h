@@ -17,6 +17,7 @@ struct RouteContext {
     const ServiceOptions& options;
     JobQueue& queue;
     ReportShelf reports;
+    ReportShelf query_answers{};
     std::mutex scorers_mutex{};
     std::map<std::int64_t, std::shared_ptr<LayoutScorer>> scorers{};  // by study
 
