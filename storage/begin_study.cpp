@@ -125,13 +125,10 @@ std::int64_t begin_study(Database& database, const StudyDescription& description
     return study_id;
 }
 
-std::vector<std::int64_t> begin_shard(Database& database, const ShardRecord& shard,
-                                      const std::vector<StudyDescription>& descriptions) {
+std::optional<std::vector<std::int64_t>> begin_shard(Database& database, const ShardRecord& shard,
+                                                     const std::vector<StudyDescription>& descriptions) {
     Transaction transaction(database);
-    if (next_id(database, "study", "study_id") != 1) {
-        throw Error(database.path().string() +
-                    " holds studies already, and a shard needs a file of its own; name a new one.");
-    }
+    if (next_id(database, "study", "study_id") != 1) return std::nullopt;
     Statement insert(database, "INSERT INTO shard (shard, shards) VALUES (?, ?)");
     insert.bind_all(shard.shard, shard.shards);
     insert.run("mark the file as a shard");

@@ -21,10 +21,10 @@ namespace capstan::storage {
 std::int64_t begin_study(Database& database, const StudyDescription& description);
 
 // The same for the file of a shard, all studies in one transaction: a file is marked as a shard from its
-// first row on. Refused when the file holds a study already. Returns the study_ids in the order of the
-// descriptions.
-std::vector<std::int64_t> begin_shard(Database& database, const ShardRecord& shard,
-                                      const std::vector<StudyDescription>& descriptions);
+// first row on. Returns the study_ids in the order of the descriptions, or nothing, and writes nothing, when the
+// file holds a study already.
+std::optional<std::vector<std::int64_t>> begin_shard(Database& database, const ShardRecord& shard,
+                                                     const std::vector<StudyDescription>& descriptions);
 
 // Write a unit's results and mark it done. Refused when the unit is done already, or is another stage,
 // scenario or noise level than the results.

@@ -24,11 +24,13 @@ std::vector<storage::StudyDescription> descriptions_of(std::span<const PreparedS
 std::vector<std::int64_t> begin_or_find(storage::Database& database, const Shard& shard,
                                         const std::vector<storage::StudyDescription>& descriptions) {
     const std::string file = database.path().string();
-    const auto mark = storage::read_shard(database);
-    const auto stored = storage::list_studies(database);
-    if (!mark && stored.empty()) {
-        return storage::begin_shard(database, {shard.number, shard.count}, descriptions);
+    if (storage::list_studies(database).empty()) {
+        // Unless another program begins the same shard at this moment.
+        if (const auto begun = storage::begin_shard(database, {shard.number, shard.count}, descriptions))
+            return *begun;
     }
+    const auto stored = storage::list_studies(database);
+    const auto mark = storage::read_shard(database);  // came with the studies, in one transaction
     const std::string try_this = " Name a new file, or remove this one.";
     if (!mark) throw storage::Error(file + " holds whole studies, so no shard can be run in it." + try_this);
     if (mark->shard != shard.number || mark->shards != shard.count) {
