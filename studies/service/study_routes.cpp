@@ -35,20 +35,15 @@ void add_study_routes(httplib::Server& server, RouteContext& context) {
                                                               httplib::Response& response) {
                    send_text(response, answers.study(database, id), "application/json");
                }));
-    server.Get(
-        R"(/api/studies/(\d+)/units)",
-        of_study(context, [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
-            send_text(response,
-                      answers.rows_json(storage::run_read_only(database, storage::units_query, {id})),
+    const auto rows_of = [&](std::string_view query) {
+        return of_study(context, [&answers, query](storage::Database& database, std::int64_t id,
+                                                   httplib::Response& response) {
+            send_text(response, answers.rows_json(storage::run_read_only(database, query, {id})),
                       "application/json");
-        }));
-    server.Get(
-        R"(/api/studies/(\d+)/cable)",
-        of_study(context, [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
-            send_text(response,
-                      answers.rows_json(storage::run_read_only(database, storage::cable_query, {id})),
-                      "application/json");
-        }));
+        });
+    };
+    server.Get(R"(/api/studies/(\d+)/units)", rows_of(storage::units_query));
+    server.Get(R"(/api/studies/(\d+)/cable)", rows_of(storage::cable_query));
     server.Get(
         R"(/api/studies/(\d+)/recommendation)",
         of_study(context, [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
