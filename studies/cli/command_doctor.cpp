@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <hwy/targets.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
+#include "capstan/cli/simd_choice.h"
 #include "capstan/cluster/command_output.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/health.h"
@@ -62,15 +62,10 @@ DatabaseState state_of(const std::string& file) {
     return state;
 }
 
-// The widest instructions that the processor has of those the program was built for.
-std::string simd_name() {
-    return hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets());
-}
-
 ordered_json in_json(const std::string& file, const DatabaseState& state) {
     ordered_json json = {{"program_version", program_version()},
                          {"schema_version", storage::schema_version},
-                         {"simd", simd_name()},
+                         {"simd", simd_in_use()},
                          {"processors", std::thread::hardware_concurrency()},
                          {"tools", ordered_json::object()}};
     for (const Tool& tool : tools) json["tools"][tool.program] = cluster::is_on_path(tool.program);
@@ -91,7 +86,7 @@ std::string in_words(const std::string& file, const DatabaseState& state) {
     std::string text = fmt::format("Program     capstan {}, database schema {}\n", program_version(),
                                    storage::schema_version);
     text +=
-        fmt::format("Processor   {} threads, SIMD {}\n", std::thread::hardware_concurrency(), simd_name());
+        fmt::format("Processor   {} threads, SIMD {}\n", std::thread::hardware_concurrency(), simd_in_use());
     for (const Tool& tool : tools)
         text += fmt::format("{:<11} {:<9} {}\n", tool.program,
                             cluster::is_on_path(tool.program) ? "found" : "missing", tool.what_for);

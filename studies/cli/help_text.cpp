@@ -96,7 +96,11 @@ std::string program_help() {
            "noisy readings, estimates the tension everywhere, and compares sensor layouts.\n\n"
            "Commands:\n" +
            two_columns(entries) +
-           "\nAnswers go to standard output, progress and messages to standard error.\n\n" + exit_codes();
+           "\nAnswers go to standard output, progress and messages to standard error.\n\n"
+           "Environment:\n"
+           "  CAPSTAN_SIMD  Widest vector instructions to use (`capstan doctor` prints them): for the same last\n"
+           "                bits on unequal processors. Default: all that the processor has.\n\n" +
+           exit_codes();
 }
 
 std::string command_help(const Command& command) {

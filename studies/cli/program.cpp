@@ -14,6 +14,7 @@
 #include "capstan/cli/help_text.h"
 #include "capstan/cli/nearest_name.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/simd_choice.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/storage/error.h"
 
@@ -109,6 +110,7 @@ std::string program_version() {
 
 ExitCode run_program(const std::vector<std::string>& words) {
     try {
+        limit_simd_from_environment();
         return dispatch(words);
     } catch (const UsageError& error) {
         say(error.what());
