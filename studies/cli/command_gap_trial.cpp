@@ -34,6 +34,7 @@ TrialOptions options_of(const Invocation& invocation) {
     options.length = invocation.text("length") == "short" ? gap_trial::RecordingLength::brief
                                                           : gap_trial::RecordingLength::standard;
     options.nominal_error = invocation.has("nominal-error") ? nominal_error : 0.0;
+    if (invocation.has("only")) options.only = gap_trial::truth_group_named(invocation.text("only"));
     return options;
 }
 
@@ -152,6 +153,14 @@ Command gap_trial_command() {
                 "All protocols of a bench, or only one or two.",
                 "standard",
                 {"standard", "short"}},
+         Option{"only",
+                '\0',
+                OptionKind::text,
+                "GROUP",
+                "All recordings of one kind: 'none' (no gap: how often is a false alarm given?), 'one effect', "
+                "'two effects', 'wrong parameter', 'outside the catalogue'. Default: a mix of all.",
+                "",
+                {"none", "one effect", "two effects", "wrong parameter", "outside the catalogue"}},
          Option{"nominal-error", '\0', OptionKind::flag, "",
                 "Nominal friction, stiffness and pretension are each off by about 1%."},
          Option{"keep", '\0', OptionKind::text, "DIR",
@@ -163,6 +172,7 @@ Command gap_trial_command() {
          jobs_option, output_option, json_option, progress_option, help_option},
         {"capstan gap-trial --cases 200",
          "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
+         "capstan gap-trial --cases 400 --only none --length short",
          "capstan gap-trial --unseal trial/labels.json"},
         run};
 }

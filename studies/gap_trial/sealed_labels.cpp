@@ -22,13 +22,8 @@ using nlohmann::ordered_json;
 constexpr const char* labels_name = "labels.json";
 constexpr const char* hash_name = "labels.sha256";
 
-constexpr TruthGroup all_groups[] = {TruthGroup::none, TruthGroup::catalogue, TruthGroup::parameter,
-                                     TruthGroup::foreign, TruthGroup::mixture};
-
 TruthGroup group_named(const std::string& name) {
-    for (const TruthGroup group : all_groups) {
-        if (truth_group_name(group) == name) return group;
-    }
+    if (const auto group = truth_group_named(name)) return *group;
     throw std::invalid_argument(fmt::format("no group of cases is called '{}'", name));
 }
 

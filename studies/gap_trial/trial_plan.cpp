@@ -63,12 +63,13 @@ std::string length_name(RecordingLength length) {
 }
 
 std::string options_text(const TrialOptions& options) {
-    const nlohmann::ordered_json json = {{"cases", options.cases},
+    nlohmann::ordered_json json = {{"cases", options.cases},
                                          {"seed", options.seed},
                                          {"severity", severity_choice_name(options.severity)},
                                          {"noise_factor", options.noise_factor},
                                          {"length", length_name(options.length)},
                                          {"nominal_error", options.nominal_error}};
+    if (options.only) json["only"] = truth_group_name(*options.only);
     return json.dump(1) + "\n";
 }
 
@@ -92,6 +93,14 @@ std::string truth_group_name(TruthGroup group) {
     return "";
 }
 
+std::optional<TruthGroup> truth_group_named(std::string_view name) {
+    for (const TruthGroup group : {TruthGroup::none, TruthGroup::catalogue, TruthGroup::parameter,
+                                   TruthGroup::foreign, TruthGroup::mixture}) {
+        if (truth_group_name(group) == name) return group;
+    }
+    return std::nullopt;
+}
+
 std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
     TrialStream draws(options.seed, whole_trial, DrawTopic::plan);
     Round catalogue(catalogue_effects(), draws);
@@ -99,18 +108,22 @@ std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
     Round foreign(foreign_causes(), draws);
     Round firsts(catalogue_effects(), draws);
     Round seconds(catalogue_effects(), draws);
-    const auto share_of = [&](double share) { return static_cast<int>(std::lround(share * options.cases)); };
+    const auto number_of = [&](TruthGroup group, double share) {
+        if (options.only) return *options.only == group ? options.cases : 0;
+        return static_cast<int>(std::lround(share * options.cases));
+    };
 
     std::vector<PlannedCase> plan;
     const auto add = [&](TruthGroup group, Severity severity, std::vector<EffectMaker> makers) {
         plan.push_back({0, "", group, severity, std::move(makers)});
     };
-    for (int k = 0; k < share_of(none_share); ++k) add(TruthGroup::none, Severity::strong, {});
-    for (int k = 0; k < share_of(foreign_share); ++k)
+    for (int k = number_of(TruthGroup::none, none_share); k > 0; --k)
+        add(TruthGroup::none, Severity::strong, {});
+    for (int k = number_of(TruthGroup::foreign, foreign_share); k > 0; --k)
         add(TruthGroup::foreign, severity_of(options.severity, plan.size()), {foreign.next()});
-    for (int k = 0; k < share_of(parameter_share); ++k)
+    for (int k = number_of(TruthGroup::parameter, parameter_share); k > 0; --k)
         add(TruthGroup::parameter, severity_of(options.severity, plan.size()), {parameters.next()});
-    for (int k = 0; k < share_of(mixture_share); ++k) {
+    for (int k = number_of(TruthGroup::mixture, mixture_share); k > 0; --k) {
         const EffectMaker& first = firsts.next();
         const EffectMaker* second = &seconds.next();
         while (effect_family(second->effect) == effect_family(first.effect)) second = &seconds.next();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capstan/gap_trial/trial_motion.h"
@@ -12,6 +14,13 @@ namespace capstan::gap_trial {
 
 enum class SeverityChoice { mild, strong, both };
 
+/// What kind of truth a case has.
+enum class TruthGroup { none, catalogue, parameter, foreign, mixture };
+
+std::string truth_group_name(TruthGroup group);
+/// The group of that name, or nothing.
+std::optional<TruthGroup> truth_group_named(std::string_view name);
+
 /// What is asked of a trial. The same options give the same recordings, bit for bit.
 struct TrialOptions {
     int cases = 60;
@@ -21,6 +30,8 @@ struct TrialOptions {
     RecordingLength length = RecordingLength::standard;
     /// Standard deviation of the lab's error in friction, stiffness and pretension (logarithms); 0: none.
     double nominal_error = 0.0;
+    /// All cases of this kind, in place of the mix of plan_trial.
+    std::optional<TruthGroup> only = std::nullopt;
 };
 
 /// The options as trial.json states them.
@@ -30,11 +41,6 @@ std::string length_name(RecordingLength length);
 
 /// "case007"
 std::string case_name(int number);
-
-/// What kind of truth a case has.
-enum class TruthGroup { none, catalogue, parameter, foreign, mixture };
-
-std::string truth_group_name(TruthGroup group);
 
 struct PlannedCase {
     int index = 0;  ///< address of its random numbers
@@ -46,7 +52,7 @@ struct PlannedCase {
 
 /// The mix: 10% without a gap, 12% outside the catalogue, 10% of two effects together, 9% wrong parameters,
 /// the rest spread evenly over the catalogue and the severities, in an order that tells nothing. Mixtures are
-/// strong where both severities are asked for.
+/// strong where both severities are asked for. Or one group alone (TrialOptions::only).
 std::vector<PlannedCase> plan_trial(const TrialOptions& options);
 
 }  // namespace capstan::gap_trial

@@ -37,6 +37,19 @@ TEST(TrialPlan, TwoHundredCasesAreMixedAsPromised) {
     EXPECT_NEAR(severities[Severity::mild], severities[Severity::strong], 12);
 }
 
+TEST(TrialPlan, OneGroupAloneWhereOneIsAskedFor) {
+    for (const TruthGroup group : {TruthGroup::none, TruthGroup::catalogue, TruthGroup::parameter,
+                                   TruthGroup::foreign, TruthGroup::mixture}) {
+        EXPECT_EQ(truth_group_named(truth_group_name(group)), group);
+        TrialOptions options;
+        options.only = group;
+        const std::vector<PlannedCase> plan = plan_trial(options);
+        EXPECT_EQ(plan.size(), 60U);
+        for (const PlannedCase& planned : plan) EXPECT_EQ(planned.group, group);
+    }
+    EXPECT_FALSE(truth_group_named("whatever"));
+}
+
 TEST(TrialPlan, TheSeedDecides) {
     const auto order = [](std::uint64_t seed) {
         TrialOptions options;
