@@ -6,6 +6,9 @@
 #include <numeric>
 
 #include "capstan/cli/config_cable_keys.h"
+#include "capstan/cli/config_placement_keys.h"
+#include "capstan/cli/config_sensitivity_keys.h"
+#include "capstan/cli/config_sweep_keys.h"
 #include "capstan/cli/config_truth.h"
 #include "capstan/estimation/direction_pattern.h"
 #include "capstan/estimation/fusion_method.h"
@@ -314,157 +317,6 @@ void add_estimation_keys(std::vector<StudyKey>& keys) {
          "Points along the curve of feasible states; a multiple of 8. The grid leaves an error of its own, inverse to "
          "their number: under 0.01 N with 128 in the paper's cable. Take more for sensors that are as good as that."},
         {8, true, 100000}, std::int64_t{128}, [](auto& plan, int) -> auto& { return plan.curve_points; }));
-}
-
-// ---- [placement]
-
-// People count nodes from 1, the plan from 0.
-StudyKey node_list(KeyText about, std::vector<int> PlacementPlan::*field) {
-    StudyKey key{about.section, about.name, ValueKind::whole_numbers, about.unit, {1, true, 10001}};
-    key.help = std::move(about.help);
-    key.default_value = std::vector<std::int64_t>{};
-    key.read = [field](const StudyPlan& plan, int) -> ConfigValue {
-        std::vector<std::int64_t> nodes;
-        for (const int node : plan.placement.*field) nodes.push_back(node + 1);
-        return nodes;
-    };
-    key.write = [field](StudyPlan& plan, int, const ConfigValue& value) {
-        (plan.placement.*field).clear();
-        for (const auto node : std::get<std::vector<std::int64_t>>(value)) {
-            (plan.placement.*field).push_back(static_cast<int>(node) - 1);
-        }
-    };
-    return key;
-}
-
-void add_placement_keys(std::vector<StudyKey>& keys) {
-    const std::string at = "placement";
-    std::vector<Named<PlacementObjective>> objectives;
-    for (const PlacementObjective objective : all_placement_objectives) {
-        objectives.push_back({std::string(name_of(objective)), objective});
-    }
-    keys.push_back(choice<PlacementObjective>(
-        {at, "objective", "",
-         "Which error layouts are judged by: its mean over \"all_nodes\", at the \"load_end\", at the "
-         "\"worst_node\", or its \"quantile_95\": what 95 % of the draws stay below."},
-        objectives, std::string("all_nodes"),
-        [](auto& plan, int) -> auto& { return plan.placement.objective; }));
-    keys.push_back(node_list({at, "forbidden_nodes", "", "Nodes where no sensor fits, counted from 1."},
-                             &PlacementPlan::forbidden_nodes));
-    keys.push_back(node_list({at, "required_nodes", "", "Nodes that carry a sensor in any case."},
-                             &PlacementPlan::required_nodes));
-    keys.push_back(whole(
-        {at, "minimum_spacing", "", "Segments between neighbouring sensors, at least; 1 allows all."},
-        {1, true, 10000}, std::int64_t{PlacementPlan{}.minimum_spacing},
-        [](auto& plan, int) -> auto& { return plan.placement.minimum_spacing; }));
-    keys.push_back(whole(
-        {at, "most_sensors", "", "No more sensors than this; a long cable needs it to be searched exactly."},
-        {1, true, 64}, std::int64_t{PlacementPlan{}.most_sensors},
-        [](auto& plan, int) -> auto& { return plan.placement.most_sensors; }));
-    keys.push_back(whole(
-        {at, "most_in_distal_half", "",
-         "No more sensors than this beyond the middle of the cable, where the load and the wearer are."},
-        {0, true, 64}, std::int64_t{PlacementPlan{}.most_in_distal_half},
-        [](auto& plan, int) -> auto& { return plan.placement.most_in_distal_half; }));
-    StudyKey costs = real_list<StudyPlan>(
-        {at, "node_costs", "", "What a sensor costs at each node, proximal end first; empty: 1 everywhere."},
-        zero_or_more, {}, [](auto& plan, int) -> auto& { return plan.placement.node_costs; });
-    costs.may_be_empty = true;
-    keys.push_back(std::move(costs));
-    keys.push_back(real(
-        {at, "budget", "", "What all sensors together may cost, in the unit of node_costs."}, zero_or_more,
-        PlacementPlan{}.budget, [](auto& plan, int) -> auto& { return plan.placement.budget; }));
-    keys.push_back(real(
-        {at, "largest_error_after_loss_N", "N",
-         "The error that is left when the sensor fails that is worst to lose may not be larger."},
-        above_zero, PlacementPlan{}.largest_error_after_loss_N,
-        [](auto& plan, int) -> auto& { return plan.placement.largest_error_after_loss_N; }));
-}
-
-// ---- [sensitivity]
-
-StudyKey uncertain(std::string name, const std::string& what, std::vector<double> SensitivityPlan::*range) {
-    return real_list<StudyPlan>(
-        {"sensitivity", std::move(name), "",
-         "The smallest and the largest factor on " + what + "; [1, 1]: it is certain."},
-        above_zero,
-        SensitivityPlan{}.*range, [range](auto& plan, int) -> auto& { return plan.sensitivity.*range; });
-}
-
-void add_sensitivity_keys(std::vector<StudyKey>& keys) {
-    const std::string at = "sensitivity";
-    const SensitivityPlan standard;
-    keys.push_back(
-        uncertain("friction_ratio", "both friction coefficients", &SensitivityPlan::friction_ratio));
-    keys.push_back(uncertain("curvature_ratio", "the curvature of every bend (its radius is divided)",
-                             &SensitivityPlan::curvature_ratio));
-    keys.push_back(
-        uncertain("stiffness_ratio", "the cable's axial stiffness", &SensitivityPlan::stiffness_ratio));
-    keys.push_back(uncertain("pretension_ratio", "the pretension", &SensitivityPlan::pretension_ratio));
-    keys.push_back(uncertain("noise_ratio", "the sensors' noise and bias", &SensitivityPlan::noise_ratio));
-    keys.push_back(whole(
-        {at, "sensors", "", "The number of sensors that the advice is for."}, {1, true, 64},
-        std::int64_t{standard.sensors}, [](auto& plan, int) -> auto& { return plan.sensitivity.sensors; }));
-    keys.push_back(text(
-        {at, "method", "",
-         "The fusion method that the advice is for; \"any\": the one that suits a layout best."},
-        standard.method, [](auto& plan, int) -> auto& { return plan.sensitivity.method; }));
-    keys.push_back(text(
-        {at, "regime", "", "The regime that the advice is for, or \"duty_cycle\"."}, standard.regime,
-        [](auto& plan, int) -> auto& { return plan.sensitivity.regime; }));
-    keys.push_back(real(
-        {at, "tolerance_N", "N", "The advice has changed where another layout is better by more than this."},
-        above_zero, standard.tolerance_N,
-        [](auto& plan, int) -> auto& { return plan.sensitivity.tolerance_N; }));
-    keys.push_back(whole(
-        {at, "repetitions", "",
-         "Draws of noise for each set of parameters; as many fresh ones judge what they chose."},
-        {40, true, 1e6}, std::int64_t{standard.repetitions},
-        [](auto& plan, int) -> auto& { return plan.sensitivity.repetitions; }));
-    keys.push_back(whole(
-        {at, "trajectories", "",
-         "Walks through the ranges; each asks for one set of parameters more than there are "
-         "parameters."},
-        {2, true, 10000}, std::int64_t{standard.trajectories},
-        [](auto& plan, int) -> auto& { return plan.sensitivity.trajectories; }));
-}
-
-// ---- [sweep]
-
-StudyKey swept_ratio(std::string name, std::string what, std::vector<double> Sweep::*list) {
-    StudyKey key = real_list<StudyPlan>(
-        {"sweep", std::move(name), "", "Factors on " + what + ", one study each; none: as above."},
-        above_zero, {}, [list](auto& plan, int) -> auto& { return plan.sweep.*list; });
-    key.may_be_empty = true;
-    return key;
-}
-
-StudyKey swept_segments() {
-    StudyKey key{"sweep", "segments", ValueKind::whole_numbers, "", {2, true, most_estimated_segments}};
-    key.help = "Numbers of segments, one study each; none: as above.";
-    key.default_value = std::vector<std::int64_t>{};
-    key.read = [](const StudyPlan& plan, int) -> ConfigValue {
-        return std::vector<std::int64_t>(plan.sweep.segments.begin(), plan.sweep.segments.end());
-    };
-    key.write = [](StudyPlan& plan, int, const ConfigValue& value) {
-        const auto& given = std::get<std::vector<std::int64_t>>(value);
-        plan.sweep.segments.assign(given.begin(), given.end());
-    };
-    return key;
-}
-
-void add_sweep_keys(std::vector<StudyKey>& keys) {
-    keys.push_back(swept_ratio("friction_ratio", "both friction coefficients", &Sweep::friction_ratio));
-    keys.push_back(swept_ratio("curvature_ratio", "the curvature of every bend (its radius is divided)",
-                               &Sweep::curvature_ratio));
-    keys.push_back(swept_ratio("stiffness_ratio", "the cable's axial stiffness", &Sweep::stiffness_ratio));
-    keys.push_back(swept_segments());
-    keys.push_back(whole(
-        {"sweep", "instants_per_regime", "",
-         "When a regime is reached depends on the transmission: take this many instants, spread evenly over all "
-         "samples that are in the regime, instead of the regime's samples. 0: its samples."},
-        {0, true, 1e6}, std::int64_t{0},
-        [](auto& plan, int) -> auto& { return plan.sweep.instants_per_regime; }));
 }
 
 std::vector<StudyKey> all_keys() {

@@ -41,7 +41,8 @@ void limit_simd_from_environment() {
         hwy::DisableTargets(target - 1);
         return;
     }
-    throw UsageError(fmt::format("CAPSTAN_SIMD={}: this program on this processor has {}", wanted, names(there)));
+    throw UsageError(
+        fmt::format("CAPSTAN_SIMD={}: this program on this processor has {}", wanted, names(there)));
 }
 
 }  // namespace capstan::cli

@@ -64,11 +64,11 @@ std::string length_name(RecordingLength length) {
 
 std::string options_text(const TrialOptions& options) {
     nlohmann::ordered_json json = {{"cases", options.cases},
-                                         {"seed", options.seed},
-                                         {"severity", severity_choice_name(options.severity)},
-                                         {"noise_factor", options.noise_factor},
-                                         {"length", length_name(options.length)},
-                                         {"nominal_error", options.nominal_error}};
+                                   {"seed", options.seed},
+                                   {"severity", severity_choice_name(options.severity)},
+                                   {"noise_factor", options.noise_factor},
+                                   {"length", length_name(options.length)},
+                                   {"nominal_error", options.nominal_error}};
     if (options.only) json["only"] = truth_group_name(*options.only);
     return json.dump(1) + "\n";
 }
