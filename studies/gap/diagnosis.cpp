@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/next_experiment.h"
@@ -22,6 +23,9 @@ constexpr std::size_t most_second_causes = 3;
 constexpr int most_exchanges = 2;
 // A search that promises a misfit this many times the best so far is given up.
 constexpr double hopeless_factor = 2.5;
+// Up to this misfit a recording may well have no gap: then a cause that closes nothing where it was not fitted is
+// no more than a shape that the noise happened to have, and `none` goes first.
+constexpr double tenable_misfit = 1.3;
 // The quick look does with fewer segments and samples.
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
@@ -162,18 +166,26 @@ class Diagnoser {
         }
     }
 
-    Diagnosis verdict(const std::vector<ScoredFit>& singles, const std::vector<ScoredFit>& pairs) {
+    Diagnosis verdict(std::vector<ScoredFit> singles, const std::vector<ScoredFit>& pairs) {
+        Diagnosis diagnosis;
         const bool two = !pairs.empty() && pairs.front().evidence > singles.front().evidence;
         const ScoredFit& leading = two ? pairs.front() : singles.front();
+        describe(diagnosis, leading, runner_up_of(leading, singles));
+        const auto nothing = std::find_if(singles.begin(), singles.end(), is_nothing);
+        if (!is_nothing(leading) && nothing->misfit < tenable_misfit && closes_nothing(diagnosis.gap)) {
+            nothing->evidence = leading.evidence + Evidence::overstated;
+            std::rotate(singles.begin(), nothing, nothing + 1);
+            diagnosis = {};
+            describe(diagnosis, singles.front(), runner_up_of(singles.front(), singles));
+        }
         std::vector<ScoredFit> fits = singles;
         fits.insert(fits.end(), pairs.begin(), pairs.end());
-        Diagnosis diagnosis;
         const std::vector<WeighedHypothesis> weighed = evidence_.weigh(fits, nominal_misfit_);
         diagnosis.ranked = Evidence::rank(causes_, weighed);
         tell("looking for the next experiment", 0.9);
         diagnosis.indistinct = told_apart_by(recording_, screener_, indistinct(weighed), options_.threads);
         diagnosis.independent_samples = fitter_.independent_samples();
-        for (const std::vector<ScoredFit>* group : {&pairs, &singles}) {
+        for (const auto* group : {&pairs, &std::as_const(singles)}) {
             for (const ScoredFit& each : *group) {
                 CandidateScore score{{},
                                      {},
@@ -189,9 +201,16 @@ class Diagnoser {
                 diagnosis.candidates.push_back(score);
             }
         }
-        describe(diagnosis, leading, runner_up_of(leading, singles));
         diagnosis.evaluations = evaluations_;
         return diagnosis;
+    }
+
+    static bool is_nothing(const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; }
+
+    // No channel comes closer to its noise in the parts that the numbers were not fitted to.
+    static bool closes_nothing(const GapMeasure& gap) {
+        return std::none_of(gap.channels.begin(), gap.channels.end(),
+                            [](const ChannelGap& channel) { return channel.closed > 0.0; });
     }
 
     // The best cause that the verdict does not name.
