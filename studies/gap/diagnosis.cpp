@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <utility>
 
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/next_experiment.h"
@@ -23,9 +22,11 @@ constexpr std::size_t most_second_causes = 3;
 constexpr int most_exchanges = 2;
 // A search that promises a misfit this many times the best so far is given up.
 constexpr double hopeless_factor = 2.5;
-// Up to this misfit a recording may well have no gap: then a cause that closes nothing where it was not fitted is
-// no more than a shape that the noise happened to have, and `none` goes first.
-constexpr double tenable_misfit = 1.3;
+// A cause that closes nothing where it was not fitted may be no more than a shape that the noise happened to
+// have. Up to this misfit a recording may well have no gap, and `none` goes first; beyond, the cause has less
+// evidence.
+constexpr double tenable_misfit = 1.2;
+constexpr double unproven_price = 4.0;
 // The quick look does with fewer segments and samples.
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
@@ -166,17 +167,21 @@ class Diagnoser {
         }
     }
 
-    Diagnosis verdict(std::vector<ScoredFit> singles, const std::vector<ScoredFit>& pairs) {
+    Diagnosis verdict(std::vector<ScoredFit> singles, std::vector<ScoredFit> pairs) {
         Diagnosis diagnosis;
-        const bool two = !pairs.empty() && pairs.front().evidence > singles.front().evidence;
-        const ScoredFit& leading = two ? pairs.front() : singles.front();
-        describe(diagnosis, leading, runner_up_of(leading, singles));
-        const auto nothing = std::find_if(singles.begin(), singles.end(), is_nothing);
-        if (!is_nothing(leading) && nothing->misfit < tenable_misfit && closes_nothing(diagnosis.gap)) {
-            nothing->evidence = leading.evidence + Evidence::overstated;
-            std::rotate(singles.begin(), nothing, nothing + 1);
+        describe_best(diagnosis, singles, pairs);
+        if (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap)) {
+            const auto nothing = std::find_if(singles.begin(), singles.end(), is_nothing);
+            ScoredFit& leading = leading_of(singles, pairs);
+            if (nothing->misfit < tenable_misfit) {
+                nothing->evidence = leading.evidence + Evidence::overstated;
+            } else {
+                leading.evidence -= unproven_price;
+            }
+            sort_by_evidence(singles);
+            sort_by_evidence(pairs);
             diagnosis = {};
-            describe(diagnosis, singles.front(), runner_up_of(singles.front(), singles));
+            describe_best(diagnosis, singles, pairs);
         }
         std::vector<ScoredFit> fits = singles;
         fits.insert(fits.end(), pairs.begin(), pairs.end());
@@ -185,7 +190,7 @@ class Diagnoser {
         tell("looking for the next experiment", 0.9);
         diagnosis.indistinct = told_apart_by(recording_, screener_, indistinct(weighed), options_.threads);
         diagnosis.independent_samples = fitter_.independent_samples();
-        for (const auto* group : {&pairs, &std::as_const(singles)}) {
+        for (const auto* group : {&pairs, &singles}) {
             for (const ScoredFit& each : *group) {
                 CandidateScore score{{},
                                      {},
@@ -203,6 +208,16 @@ class Diagnoser {
         }
         diagnosis.evaluations = evaluations_;
         return diagnosis;
+    }
+
+    static ScoredFit& leading_of(std::vector<ScoredFit>& singles, std::vector<ScoredFit>& pairs) {
+        const bool two = !pairs.empty() && pairs.front().evidence > singles.front().evidence;
+        return two ? pairs.front() : singles.front();
+    }
+
+    void describe_best(Diagnosis& diagnosis, std::vector<ScoredFit>& singles, std::vector<ScoredFit>& pairs) {
+        const ScoredFit& leading = leading_of(singles, pairs);
+        describe(diagnosis, leading, runner_up_of(leading, singles));
     }
 
     static bool is_nothing(const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; }
