@@ -170,6 +170,12 @@ double CauseFitter::nominal_price(const CauseFit& fit) const {
            (prior_weight_ * prior_weight_);
 }
 
+double CauseFitter::shape_price(const CauseFit& fit) const {
+    const Eigen::VectorXd priors = prior_residuals(fit.causes, fit.coordinates);
+    return 0.5 * priors.tail(priors.size() - nominal_coordinates).squaredNorm() /
+           (prior_weight_ * prior_weight_);
+}
+
 Eigen::VectorXd CauseFitter::prior_residuals(const std::vector<const CandidateCause*>& causes,
                                              const Eigen::VectorXd& coordinates) const {
     // Of several causes the most generous speaks for each nominal number.

@@ -76,6 +76,9 @@ class CauseFitter {
     std::vector<std::vector<double>> visibility(std::span<const CauseFit> fits) const;
     /// How far the nominal numbers had to go: half the sum of squares in units of their uncertainty.
     double nominal_price(const CauseFit& fit) const;
+    /// The same of how far the causes' own numbers are from what is usual: a toe of a tenth of a newton, a bend of
+    /// no length. Sizes cost next to nothing.
+    double shape_price(const CauseFit& fit) const;
     /// Mean square of the residuals of the data.
     double misfit(const CauseFit& fit) const;
     /// Of the coordinates alone.

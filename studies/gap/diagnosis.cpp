@@ -60,9 +60,11 @@ class Diagnoser {
 
     ScoredFit scored(CauseFit fit) {
         evaluations_ += fit.evaluations;
-        ScoredFit scored{std::move(fit), 0.0, 0.0, {}, 0.0};
+        ScoredFit scored;
+        scored.fit = std::move(fit);
         scored.misfit = fitter_.misfit(scored.fit);
         scored.nominal_price = fitter_.nominal_price(scored.fit);
+        scored.shape_price = fitter_.shape_price(scored.fit);
         scored.visibility = fitter_.visibility({&scored.fit, 1}).front();
         scored.evidence = evidence_.of(scored);
         return scored;

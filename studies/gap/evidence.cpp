@@ -52,7 +52,7 @@ double Evidence::of(double misfit, std::size_t open_numbers) const {
 }
 
 double Evidence::of(const ScoredFit& fit) const {
-    double evidence = of(fit.misfit, open_numbers(fit.fit)) - fit.nominal_price;
+    double evidence = of(fit.misfit, open_numbers(fit.fit)) - fit.nominal_price - fit.shape_price;
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         const CandidateCause& cause = *fit.fit.causes[k];
         if (cause.effect == "none") {

@@ -65,6 +65,17 @@ TEST(Evidence, OfACauseThatLeavesNoiseIsForIt) {
     EXPECT_EQ(ranked[1].effect, "unknown");
 }
 
+TEST(Evidence, OfTwoAlikeGoesToTheOneWithUsualNumbers) {
+    const Known known;
+    const ScoredFit usual = fitted(evidence, {&known.drag}, 1.0, {4.0});
+    ScoredFit odd;
+    odd.fit.causes = {&known.drag};
+    odd.misfit = 1.0;
+    odd.visibility = {4.0};
+    odd.shape_price = 10.0;  // a number e^4.5 times what is usual
+    EXPECT_NEAR(usual.evidence - evidence.of(odd), odd.shape_price, 1e-12);
+}
+
 TEST(Evidence, OfStructureThatNobodyExplainsIsForUnknown) {
     const Known known;
     const auto ranked = ranked_by(

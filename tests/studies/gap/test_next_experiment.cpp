@@ -46,7 +46,9 @@ class BendOrFriction : public testing::Test {
                 Eigen::VectorXd::Zero(nominal_coordinates + static_cast<Eigen::Index>(numbers.size()))};
             for (std::size_t k = 0; k < numbers.size(); ++k)
                 start.coordinates[nominal_coordinates + static_cast<Eigen::Index>(k)] = numbers[k];
-            return {fitter.fit(start, {}), 0.0, 0.0, {}, 0.0};
+            ScoredFit fit;
+            fit.fit = fitter.fit(start, {});
+            return fit;
         }
         throw std::out_of_range(effect);
     }
