@@ -8,8 +8,12 @@
 namespace capstan::storage {
 namespace {
 
-constexpr int longest_value_bytes =
-    100'000'000;  // one guest's randomblob() must not take the machine's memory
+// Nothing stored is a hundredth as long. The time limit is looked at between steps of SQLite's machine, and a
+// single step on long texts, instr() for one, takes the product of their lengths.
+constexpr int longest_value_bytes = 1'000'000;
+
+// Of an answer whose rows are limited: few rows may hold much.
+constexpr std::size_t most_bytes = 64 << 20;
 
 struct Finalizer {
     void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
@@ -81,6 +85,14 @@ QueryValue value_at(sqlite3_stmt* statement, int column) {
     }
 }
 
+std::size_t bytes_of(const std::vector<QueryValue>& row) {
+    std::size_t bytes = sizeof row + row.size() * sizeof(QueryValue);
+    for (const QueryValue& value : row) {
+        if (const auto* text = std::get_if<std::string>(&value)) bytes += text->size();
+    }
+    return bytes;
+}
+
 // Prepares the one statement that the text holds.
 GuestStatement prepare(sqlite3* connection, std::string_view sql, const QueryGuard& guard,
                        const QueryLimits& limits) {
@@ -128,14 +140,16 @@ QueryResult run_read_only(Database& database, std::string_view sql, const std::v
     const int columns = sqlite3_column_count(statement.get());
     for (int i = 0; i < columns; ++i) result.columns.emplace_back(sqlite3_column_name(statement.get(), i));
     int code = SQLITE_DONE;
+    std::size_t bytes = 0;
     while ((code = sqlite3_step(statement.get())) == SQLITE_ROW) {
-        if (limits.row_limit && result.rows.size() == *limits.row_limit) {
+        if (limits.row_limit && (result.rows.size() == *limits.row_limit || bytes >= most_bytes)) {
             result.truncated = true;
             return result;
         }
         auto& row = result.rows.emplace_back();
         row.reserve(static_cast<std::size_t>(columns));
         for (int i = 0; i < columns; ++i) row.push_back(value_at(statement.get(), i));
+        bytes += bytes_of(row);
     }
     if (code != SQLITE_DONE) explain(connection, guard, limits.time_limit_s);
     return result;

@@ -18,7 +18,7 @@ using QueryValue = std::variant<std::monostate, std::int64_t, double, std::strin
 
 struct QueryLimits {
     double time_limit_s = 10;  // longer than any view takes on a study; a cross join by mistake ends
-    std::optional<std::size_t> row_limit{};  // further rows are cut off, and truncated says so
+    std::optional<std::size_t> row_limit{};  // rows beyond, or beyond 64 MB, are cut off: see truncated
 };
 
 // A query that was stopped at its time limit.

@@ -128,6 +128,23 @@ TEST_F(QueryBox, CutsOffRowsBeyondTheLimitAndSaysSo) {
     EXPECT_TRUE(cut.truncated);
 }
 
+TEST_F(QueryBox, CutsOffFewRowsThatTakeTooMuchMemoryAndSaysSo) {
+    const QueryResult result =
+        run_read_only(database(),
+                      "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 900) "
+                      "SELECT zeroblob(900000) FROM n",
+                      {}, {.row_limit = 1000});
+    EXPECT_TRUE(result.truncated);
+    EXPECT_LT(result.rows.size() * 900'000, 70'000'000u);
+}
+
+// A single step of SQLite's machine, which no clock interrupts, must not take long either.
+TEST_F(QueryBox, RefusesValuesSoLongThatOneStepWouldOutlastTheTimeLimit) {
+    expect_says(refusal("SELECT zeroblob(1000001)"), "too big");
+    expect_says(refusal("SELECT instr(hex(zeroblob(20000000)), hex(zeroblob(10000000)) || 'b')"), "too big");
+    EXPECT_EQ(run_read_only(database(), "SELECT length(zeroblob(1000000))").rows.size(), 1u);
+}
+
 TEST_F(QueryBox, RefusesADatabaseThatWasOpenedForWriting) {
     Database writer = Database::open_existing(folder / "results.db");
     expect_says(error_of([&] { run_read_only(writer, "SELECT 1"); }), "opened for reading");
