@@ -2,24 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "capstan/reports/cable_drawing.h"
 #include "capstan/reports/figure_html.h"
 #include "capstan/reports/html_text.h"
+#include "capstan/storage/node_list.h"
 
 namespace capstan::reports {
 namespace {
 
 std::vector<int> node_list(const Row& row) {
-    return nlohmann::json::parse(row.text("nodes")).get<std::vector<int>>();
+    return storage::parse_node_list(row.text("nodes"));
 }
 
 std::string nodes_in_words(const Row& row, const std::vector<double>& positions_m) {
     std::string numbers, places;
     for (const int node : node_list(row)) {
         numbers += (numbers.empty() ? "" : ", ") + std::to_string(node);
-        const auto index = static_cast<std::size_t>(node - 1);
+        const std::size_t index = static_cast<std::size_t>(node) - 1;
         if (index < positions_m.size())
             places += fmt::format("{}{:.3g}", places.empty() ? "" : ", ", positions_m[index]);
     }

@@ -3,7 +3,19 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "capstan/storage/error.h"
+
 namespace capstan::reports {
+
+namespace {
+
+// No program writes it there, and the schema's types would not let it; but a disk may hold anything.
+[[noreturn]] void refuse(std::string_view column, const char* wanted) {
+    throw storage::Error("Column '" + std::string(column) + "' does not hold " + wanted +
+                         ": the database is damaged. `capstan doctor` examines it; go back to a copy.");
+}
+
+}  // namespace
 
 const Value& Row::at(std::string_view column) const {
     const auto found = std::find(columns_.begin(), columns_.end(), column);
@@ -22,11 +34,13 @@ std::string Row::text(std::string_view column) const {
 double Row::number(std::string_view column) const {
     const Value& value = at(column);
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-    return std::get<double>(value);
+    if (const auto* number = std::get_if<double>(&value)) return *number;
+    refuse(column, "a number");
 }
 
 std::int64_t Row::whole(std::string_view column) const {
-    return std::get<std::int64_t>(at(column));
+    if (const auto* whole = std::get_if<std::int64_t>(&at(column))) return *whole;
+    refuse(column, "a whole number");
 }
 
 std::optional<double> Row::maybe_number(std::string_view column) const {

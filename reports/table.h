@@ -14,7 +14,7 @@ namespace capstan::reports {
 
 using Value = storage::QueryValue;
 
-// One row, read by column name.
+// One row, read by column name. A number that is none is a storage::Error: the file is damaged.
 class Row {
   public:
     Row(const std::vector<std::string>& columns, const std::vector<Value>& values)
