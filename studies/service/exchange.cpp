@@ -1,8 +1,29 @@
 #include "capstan/service/exchange.h"
 
 #include <charconv>
+#include <limits>
 
 namespace capstan::service {
+
+namespace {
+
+int whole_number(const nlohmann::json& value, const char* name) {
+    using Limits = std::numeric_limits<int>;
+    const bool fits = value.is_number_unsigned()
+                          ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max())
+                          : value.is_number_integer() && value.get<std::int64_t>() >= Limits::min() &&
+                                value.get<std::int64_t>() <= Limits::max();
+    if (!fits) throw BadRequest(std::string("'") + name + "' needs whole numbers of ordinary size");
+    return value.get<int>();
+}
+
+const nlohmann::json& found_in(const nlohmann::json& body, const char* name) {
+    const auto found = body.find(name);
+    if (found == body.end()) throw BadRequest(std::string("'") + name + "' is missing");
+    return *found;
+}
+
+}  // namespace
 
 void send_text(httplib::Response& response, const std::string& text, const char* content_type) {
     response.status = 200;
@@ -23,6 +44,20 @@ nlohmann::json body_of(const httplib::Request& request) {
     auto body = nlohmann::json::parse(request.body, nullptr, false);
     if (!body.is_object()) throw BadRequest("the body must be a JSON object");
     return body;
+}
+
+template <>
+int member<int>(const nlohmann::json& body, const char* name) {
+    return whole_number(found_in(body, name), name);
+}
+
+template <>
+std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char* name) {
+    const nlohmann::json& list = found_in(body, name);
+    if (!list.is_array()) throw BadRequest(std::string("'") + name + "' is of another type than expected");
+    std::vector<int> numbers;
+    for (const nlohmann::json& value : list) numbers.push_back(whole_number(value, name));
+    return numbers;
 }
 
 std::int64_t number_in_path(const httplib::Request& request, std::size_t match) {

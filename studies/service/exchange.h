@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "capstan/service/bad_request.h"
 
@@ -34,6 +35,12 @@ Value member(const nlohmann::json& body, const char* name) {
         throw BadRequest(std::string("'") + name + "' is of another type than expected");
     }
 }
+
+/// Whole numbers as they stand: 1.5 or 4294967297 is none, and not another that it could be cut down to.
+template <>
+int member<int>(const nlohmann::json& body, const char* name);
+template <>
+std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char* name);
 
 /// The number that a path's pattern has caught, from 1.
 std::int64_t number_in_path(const httplib::Request& request, std::size_t match = 1);

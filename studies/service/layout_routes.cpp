@@ -22,8 +22,10 @@ std::shared_ptr<LayoutScorer> scorer_of(RouteContext& context, std::int64_t stud
 }
 
 LayoutQuestion question_of(const nlohmann::json& body) {
+    const int noise = member<int>(body, "noise");  // from 1
+    if (noise < 1) throw BadRequest("'noise' counts the study's noise levels from 1");
     return {member<std::vector<int>>(body, "nodes"), member<std::string>(body, "method"),
-            member<std::string>(body, "regime"), member<int>(body, "noise") - 1};
+            member<std::string>(body, "regime"), noise - 1};
 }
 
 ordered_json json_of(const LayoutScore& score) {
