@@ -197,6 +197,16 @@ TEST(RecordingReader, TellsAFewOfManyProblems) {
     }
 }
 
+TEST(RecordingReader, RefusesANumberThatNoMachineHolds) {
+    const TemporaryFolder folder;
+    try {
+        read_recording(folder.write({"run,t\n1,0\n", R"({"sample_rate_hz": 1e999})"}));
+        FAIL() << "taken";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("1e999"), std::string::npos) << error.what();
+    }
+}
+
 TEST(RecordingReader, SaysWhichFileIsMissing) {
     try {
         read_recording("/no/such/bench.csv");
