@@ -37,7 +37,7 @@ po::options_description description_of(const Command& command) {
 }
 
 std::string nearest_option(const Command& command, std::string given) {
-    given = given.substr(0, given.find('='));
+    given.resize(std::min(given.size(), given.find('=')));
     const std::string bare = given.substr(std::min(given.find_first_not_of('-'), given.size()));
     std::vector<std::string> known;
     for (const Option& option : command.options) known.emplace_back(option.name);

@@ -8,7 +8,7 @@ namespace {
 
 using StudyKey = ConfigKey<StudyPlan>;
 
-StudyKey swept_ratio(std::string name, std::string what, std::vector<double> Sweep::*list) {
+StudyKey swept_ratio(std::string name, const std::string& what, std::vector<double> Sweep::*list) {
     StudyKey key = real_list<StudyPlan>(
         {"sweep", std::move(name), "", "Factors on " + what + ", one study each; none: as above."},
         above_zero, {}, [list](auto& plan, int) -> auto& { return plan.sweep.*list; });
