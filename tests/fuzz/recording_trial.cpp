@@ -1,0 +1,29 @@
+#include "recording_trial.h"
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap/recording_reader.h"
+#include "capstan/gap/twin.h"
+#include "target.h"
+
+namespace capstan::fuzz {
+
+namespace {
+
+constexpr int segments = 8;
+constexpr int most_samples = 200;  // longer runs only take longer
+
+}  // namespace
+
+void try_recording(const std::filesystem::path& samples) {
+    try {
+        const gap::Recording recording = gap::read_recording(samples);
+        const auto twin = gap::make_twin(recording, segments);
+        if (recording.runs.front().samples() > most_samples) return;
+        const gap::TwinRun run = twin->run(0, gap::nominal_values(*twin));
+        demand(run.values.size() == recording.channels.size(), "a twin has the recording's channels");
+    } catch (const InvalidInput& refusal) {
+        demand(!refusal.problems().empty(), "a refusal names a problem");
+    }
+}
+
+}  // namespace capstan::fuzz

@@ -1,0 +1,1 @@
+SELECT hex(randomblob(8)), zeroblob(3), x'00ff', char(0, 955)

@@ -1,0 +1,1 @@
+SELECT count(*) FROM sqlite_schema a, sqlite_schema b, sqlite_schema c

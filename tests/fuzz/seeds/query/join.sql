@@ -1,0 +1,1 @@
+SELECT s.name, count(*), avg(e.mean_abs_error_N) FROM study s JOIN v_error_by_layout e USING (study_id) GROUP BY 1 ORDER BY 2 DESC LIMIT 5

@@ -1,0 +1,1 @@
+SELECT value, json_extract('{"a":[1,2]}','$.a[1]') FROM json_each('[1,2,3]')

@@ -1,0 +1,1 @@
+SELECT name FROM study WHERE name LIKE '%a%' OR name GLOB '*[a-z]*' OR instr(name, 'x') OR replace(name,'a','b') REGEXP 'x'

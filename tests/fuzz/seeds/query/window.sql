@@ -1,0 +1,1 @@
+SELECT node, row_number() OVER (PARTITION BY study_id ORDER BY node) FROM (SELECT 1 study_id, 2 node)

@@ -1,0 +1,1 @@
+WITH RECURSIVE n(k) AS (SELECT 1 UNION ALL SELECT k+1 FROM n WHERE k<20) SELECT k, printf('%.3f', sqrt(k)) FROM n

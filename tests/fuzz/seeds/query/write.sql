@@ -1,0 +1,1 @@
+UPDATE study SET name='x'

@@ -1,0 +1,44 @@
+// A bench's configuration: refused with problems, or a plan whose text gives the same plan again, and whose
+// first samples can be simulated.
+#include <algorithm>
+
+#include "capstan/bench/bench_run.h"
+#include "capstan/cable/invalid_input.h"
+#include "capstan/cli/config_problem.h"
+#include "capstan/cli/config_reader.h"
+#include "capstan/cli/config_writer.h"
+#include "target.h"
+
+namespace {
+
+using namespace capstan;
+
+constexpr int most_samples = 20;
+constexpr int most_segments = 30;
+
+void simulate_a_little(bench::BenchPlan plan) {
+    if (plan.cable.segments > most_segments) return;
+    plan.duration_s = std::min(plan.duration_s, most_samples / plan.sample_rate_Hz);
+    try {
+        bench::simulate_bench(plan, [](const bench::BenchInstant&) {});
+    } catch (const InvalidInput&) {
+    }
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        const cli::ReadBench config =
+            cli::parse_plan<bench::BenchPlan>(fuzz::text_of(data, size), "fuzzed.toml");
+        const std::string text = cli::config_text(config.plan, cli::Comments::none);
+        const std::string again =
+            cli::config_text(cli::parse_plan<bench::BenchPlan>(text, "again").plan, cli::Comments::none);
+        fuzz::demand(text == again, "a plan's text gives the same plan:\n" + text + "\n" + again);
+        simulate_a_little(config.plan);
+    } catch (const cli::ConfigError& refusal) {
+        fuzz::demand(!refusal.problems().empty(), "a refusal names a problem");
+        fuzz::demand(std::string(refusal.what()).starts_with("fuzzed.toml"), refusal.what());
+    }
+    return 0;
+}

@@ -1,0 +1,115 @@
+// Requests to the service: bodies of every route that takes one, paths, and whole requests. Whatever comes,
+// the answer is HTTP and blames nobody but the sender: no 500.
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <memory>
+#include <thread>
+
+#include "capstan/cli/service_answers.h"
+#include "capstan/service/service.h"
+#include "sample_database.h"
+#include "target.h"
+
+namespace {
+
+using namespace capstan;
+
+constexpr int most_jobs = 50;  // then the service starts anew: its list of jobs only grows
+
+// A service on loopback, with a program for its jobs that does nothing.
+class Host {
+  public:
+    explicit Host(const fuzz::TemporaryFolder& folder)
+        : jobs_(folder.path() / "sample.db.jobs"),
+          service_({{}, {"/bin/true", folder.path() / "sample.db", 1}, {}, 0.5, cli::service_answers()}),
+          thread_([this] { service_.run(); }) {}
+    ~Host() {
+        service_.stop();
+        thread_.join();
+        std::error_code ignored;
+        std::filesystem::remove_all(jobs_, ignored);
+    }
+
+    int port() const { return service_.port(); }
+
+  private:
+    std::filesystem::path jobs_;
+    service::Service service_;
+    std::thread thread_;
+};
+
+std::string answer_to(const std::string& request, int port) {
+    const int connection = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    std::string answer;
+    if (::connect(connection, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+        for (std::size_t sent = 0; sent < request.size();) {
+            const ssize_t now =
+                ::send(connection, request.data() + sent, request.size() - sent, MSG_NOSIGNAL);
+            if (now <= 0) break;
+            sent += static_cast<std::size_t>(now);
+        }
+        ::shutdown(connection, SHUT_WR);
+        std::array<char, 65536> buffer;
+        for (ssize_t now = 0; (now = ::recv(connection, buffer.data(), buffer.size(), 0)) > 0;)
+            answer.append(buffer.data(), static_cast<std::size_t>(now));
+    }
+    ::close(connection);
+    return answer;
+}
+
+std::string post(const std::string& path, const std::string& type, const std::string& body, int port) {
+    return "POST " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
+           "\r\nContent-Type: " + type + "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
+           body;
+}
+
+// The first byte says what the others are.
+std::string request_of(char what, const std::string& rest, int port) {
+    const std::string json = "application/json";
+    switch (what) {
+        case 'q':
+            return post("/api/query", json, rest, port);
+        case 's':
+            return post("/api/studies", json, rest, port);
+        case 'l':
+            return post("/api/studies/1/layout", json, rest, port);
+        case 'd':
+            return post("/api/diagnoses", "multipart/form-data; boundary=part", rest, port);
+        case 'p':
+            return post(rest.substr(0, rest.find_first_of(" \r\n")), json, "{}", port);
+        case 'g':
+            return "GET " + rest.substr(0, rest.find_first_of(" \r\n")) +
+                   " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n";
+        default:
+            return rest;
+    }
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const fuzz::TemporaryFolder folder;
+    static const auto database = fuzz::make_sample_database(folder);
+    static auto host = std::make_unique<Host>(folder);
+    static int jobs = 0;
+    if (size == 0) return 0;
+    const std::string text = fuzz::text_of(data, size);
+    const std::string answer = answer_to(request_of(text[0], text.substr(1), host->port()), host->port());
+    const std::string head = answer.substr(0, answer.find('\n'));
+    fuzz::demand(answer.empty() || answer.starts_with("HTTP/1.1 "), "an answer is HTTP: " + head);
+    fuzz::demand(!answer.starts_with("HTTP/1.1 500"), "no failure of our own: " + answer);
+    jobs += answer.starts_with("HTTP/1.1 202");
+    if (jobs >= most_jobs) {
+        jobs = 0;
+        host.reset();
+        host = std::make_unique<Host>(folder);
+    }
+    return 0;
+}
