@@ -10,12 +10,19 @@ test_packages=(libgtest-dev libgmock-dev libbenchmark-dev sqlite3 python3 chromi
 # For the test on a Slurm of its own, which is skipped without them.
 slurm_packages=(slurmctld slurmd slurm-client munge)
 
+# For the fuzz targets, the thread sanitizer's own oneTBB, and the checks of the code.
+fuzz_packages=(clang libclang-rt-14-dev)
+thread_packages=(dpkg-dev)
+check_packages=(clang-tidy cppcheck gcovr)
+
 # Programs count however they were installed; a package that only brings programs is missing only without them.
 package_is_there() {
     case $1 in
         g++ | cmake | ccache | npm | sqlite3 | python3 | chromium) command -v "$1" >/dev/null && return ;;
         ninja-build) command -v ninja >/dev/null && return ;;
         nodejs) command -v node >/dev/null && return ;;
+        clang) command -v clang++ >/dev/null && return ;;
+        clang-tidy | cppcheck | gcovr) command -v "$1" >/dev/null && return ;;
     esac
     [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
 }
