@@ -100,9 +100,13 @@ def spdx_id(kind, name):
     return f"SPDXRef-{kind}-" + re.sub(r"[^A-Za-z0-9.-]", "-", name)
 
 
-def debian_entry(package, linked):
-    version, source, architecture = output_of(
-        "dpkg-query", "--show", "--showformat=${Version}\n${source:Package}\n${Architecture}", package).split("\n")[:3]
+def debian_entries(packages, linked):
+    shown = output_of("dpkg-query", "--show",
+                      "--showformat=${Package} ${Version} ${source:Package} ${Architecture}\\n", *packages)
+    return [debian_entry(*line.split(), line.split()[0] in linked) for line in sorted(shown.splitlines())]
+
+
+def debian_entry(package, version, source, architecture, linked):
     return {
         "SPDXID": spdx_id("debian", package),
         "name": package,
@@ -149,7 +153,7 @@ def bill(build):
     version = output_of(program, "--version").split()[1]
     linked = debian_packages(shared_libraries(program))
     compiled = debian_packages(headers_read(build))
-    packages = [debian_entry(name, name in linked) for name in sorted(set(linked) | set(compiled))] + npm_entries()
+    packages = debian_entries(set(linked) | set(compiled), linked) + npm_entries()
     ours = {"SPDXID": "SPDXRef-capstan", "name": "capstan", "versionInfo": version, "downloadLocation": "NOASSERTION",
             "filesAnalyzed": False, "licenseConcluded": "Apache-2.0", "licenseDeclared": "Apache-2.0",
             "copyrightText": "NOASSERTION", "primaryPackagePurpose": "APPLICATION"}

@@ -62,28 +62,31 @@ class BillOfMaterials(unittest.TestCase):
 
     def test_every_library_that_the_program_asks_for_is_on_it(self):
         """The program's own list of needed libraries, and theirs, without the loader's help."""
-        seen, todo = set(), [BUILD / "capstan"]
+        seen, todo = {}, [BUILD / "capstan"]
         while todo:
             text = subprocess.run(["objdump", "--private-headers", todo.pop()], check=True, capture_output=True,
                                   text=True).stdout
             for name in re.findall(r"NEEDED\s+(\S+)", text):
-                if name in seen:
-                    continue
-                seen.add(name)
-                path = self.path_of(name)
-                owners = self.owners_of(path)
-                self.assertTrue(owners & set(self.by_name), f"{name} of {owners} is not on the bill")
-                todo.append(path)
+                if name not in seen:
+                    seen[name] = self.path_of(name)
+                    todo.append(seen[name])
+        owner_of = self.owners_of(seen.values())
+        for name, path in seen.items():
+            owners = {owner_of[other] for other in self.names_of(path) if other in owner_of}
+            self.assertTrue(owners & set(self.by_name), f"{name} of {owners} is not on the bill")
         self.assertIn("libtbb.so.12", seen)
         self.assertGreater(len(seen), 10)
 
     @staticmethod
-    def owners_of(path):
-        """By all names that a merged /usr gives a file."""
+    def names_of(path):
+        """All that a merged /usr gives a file."""
         names = {str(path), str(path.resolve())}
-        names |= {name[len("/usr"):] if name.startswith("/usr/") else "/usr" + name for name in names}
+        return names | {name[len("/usr"):] if name.startswith("/usr/") else "/usr" + name for name in names}
+
+    def owners_of(self, paths):
+        names = sorted({name for path in paths for name in self.names_of(path)})
         answer = subprocess.run(["dpkg-query", "--search", *names], capture_output=True, text=True)
-        return {line.split(":")[0] for line in answer.stdout.splitlines()}
+        return {line.partition(": ")[2]: line.split(":")[0] for line in answer.stdout.splitlines()}
 
     @staticmethod
     def path_of(library):
