@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "capstan/reports/figure_catalogue.h"
 #include "capstan/reports/html_text.h"
@@ -23,14 +24,49 @@ Json compact(const Value& value) {
     return to_json(value);
 }
 
-Json table_json(const Table& table) {
-    Json rows = Json::array();
-    for (const auto& row : table.rows) {
-        Json values = Json::array();
-        for (const Value& value : row) values.push_back(compact(value));
-        rows.push_back(std::move(values));
+// A column whose values come again and again: each of them once, and which of them each row has. Where
+// neighbours are alike, once for all of them: `runs` says how many there are.
+Json repeated_values(Json words, const std::vector<std::size_t>& index) {
+    std::vector<std::size_t> runs, first;
+    for (std::size_t k = 0; k < index.size(); ++k) {
+        if (k > 0 && index[k] == index[k - 1]) {
+            ++runs.back();
+        } else {
+            first.push_back(index[k]);
+            runs.push_back(1);
+        }
     }
-    return {{"meaning", table.meaning}, {"columns", table.columns}, {"rows", std::move(rows)}};
+    if (2 * runs.size() < index.size())
+        return {{"words", std::move(words)}, {"index", first}, {"runs", runs}};
+    return {{"words", std::move(words)}, {"index", index}};
+}
+
+Json column_json(const Table& table, std::size_t column) {
+    Json values = Json::array();
+    for (const auto& row : table.rows) values.push_back(compact(row[column]));
+    std::unordered_map<std::string, std::size_t> place_of;
+    Json words = Json::array();
+    std::vector<std::size_t> index;
+    for (const Json& value : values) {
+        const std::string word = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+        const auto [place, added] = place_of.emplace(word, words.size());
+        if (added) words.push_back(value);
+        index.push_back(place->second);
+        constexpr std::size_t times = 4;  // below, an index takes as much room as the value
+        if (words.size() * times > table.rows.size()) return values;
+    }
+    return repeated_values(std::move(words), index);
+}
+
+// By columns: a table of many thousand rows takes a third of the room, and is taken apart only as far as it is
+// drawn.
+Json table_json(const Table& table) {
+    Json values = Json::array();
+    for (std::size_t k = 0; k < table.columns.size(); ++k) values.push_back(column_json(table, k));
+    return {{"meaning", table.meaning},
+            {"columns", table.columns},
+            {"rows", table.rows.size()},
+            {"values", std::move(values)}};
 }
 
 // No text of a study can end the element or begin a comment in it.

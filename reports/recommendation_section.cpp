@@ -43,7 +43,7 @@ std::string alternatives(const StudyTables& tables, std::int64_t recommendation_
                "all apart.</p>\n";
     return fmt::format(
         R"(<details class="alternatives"><summary>{} other {} the draws cannot tell from it</summary>
-<div class="scroll" tabindex="0" role="region" aria-label="Choices as good as the recommended one"><table><thead><tr><th>Layout</th><th>Nodes</th><th>Fusion method</th><th>Difference [N]</th><th>95% interval</th></tr></thead><tbody>
+<div class="scroll" tabindex="0" role="region" aria-label="Choices as good as the recommended one"><table><thead><tr><th scope="col">Layout</th><th scope="col">Nodes</th><th scope="col">Fusion method</th><th scope="col">Difference [N]</th><th scope="col">95% interval</th></tr></thead><tbody>
 {}</tbody></table></div></details>
 )",
         count, count == 1 ? "choice" : "choices", rows);

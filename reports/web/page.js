@@ -26,18 +26,37 @@
 
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-  // ---- the study's rows
+  // ---- the study's rows. A column is unpacked when a figure first asks for it, a row when it is drawn: a page may
+  // hold some ten thousand rows, of which few are seen.
+  function unpacked({ words, index, runs }) {
+    if (!runs) return index.map((k) => words[k]);
+    const values = [];
+    runs.forEach((length, k) => { for (let left = length; left > 0; --left) values.push(words[index[k]]); });
+    return values;
+  }
+  function column(table, name) {
+    const at = table.columns.indexOf(name);
+    if (at >= 0 && !Array.isArray(table.values[at])) table.values[at] = unpacked(table.values[at]);
+    return table.values[at];
+  }
+  function rowsAt(table, numbers) {
+    const values = table.columns.map((name) => column(table, name));
+    return numbers.map((number) => {
+      const row = {};
+      table.columns.forEach((name, k) => { row[name] = values[k][number]; });
+      if ("family" in row) row.family_title = FAMILIES[row.family]?.[3] ?? capital(row.family);
+      if ("regime" in row) row.regime_title = study.regime_titles[row.regime] ?? row.regime;
+      return row;
+    });
+  }
+  const allOf = (table) => [...Array(table.rows).keys()];
+
   function load() {
     study = JSON.parse(document.getElementById("study-data").textContent);
     tables = {};
     for (const [name, table] of Object.entries(study.tables)) {
-      tables[name] = table.rows.map((values) => {
-        const row = {};
-        table.columns.forEach((column, k) => { row[column] = values[k]; });
-        if ("family" in row) row.family_title = FAMILIES[row.family]?.[3] ?? capital(row.family);
-        if ("regime" in row) row.regime_title = study.regime_titles[row.regime] ?? row.regime;
-        return row;
-      });
+      let rows;
+      Object.defineProperty(tables, name, { enumerable: true, get: () => rows ??= rowsAt(table, allOf(table)) });
     }
   }
   let passes = () => true;  // a reader's filter, where the page has one
@@ -46,16 +65,21 @@
     return box ? Number(box.value) : tables.noise_level?.[0]?.noise_level_id;
   };
 
-  function rowsOf(figure, table) {
+  function rowsOf(figure, name) {
     const { regime, recommendation, run } = figure.dataset;
     const { knowledge } = about(figure);
-    const noise = chosenNoise();
-    return tables[table].filter((row) => passes(row) &&
-      (!regime || !("regime" in row) || row.regime === regime) &&
-      (!recommendation || !("recommendation_id" in row) || row.recommendation_id === Number(recommendation)) &&
-      (!run || !("run" in row) || row.run === Number(run)) &&
-      (recommendation || !("noise_level_id" in row) || row.noise_level_id === noise) &&
-      (!knowledge || !("knowledge" in row) || knowledge.includes(row.knowledge)));
+    const table = study.tables[name];
+    let numbers = allOf(table);
+    const keep = (where, fits) => {
+      const values = column(table, where);
+      if (values) numbers = numbers.filter((number) => fits(values[number]));
+    };
+    if (regime) keep("regime", (value) => value === regime);
+    if (recommendation) keep("recommendation_id", (value) => value === Number(recommendation));
+    else { const noise = chosenNoise(); keep("noise_level_id", (value) => value === noise); }
+    if (run) keep("run", (value) => value === Number(run));
+    if (knowledge) keep("knowledge", (value) => knowledge.includes(value));
+    return rowsAt(table, numbers).filter(passes);
   }
   const about = (figure) => study.figures[figure.dataset.figure].usermeta.capstan;
   const distinct = (rows, column) => [...new Set(rows.map((row) => row[column]))];
@@ -141,7 +165,7 @@
     delete spec.usermeta;
     const title = figure.querySelector("h3").firstChild.textContent;
     const caption = figure.querySelector("figcaption").textContent;
-    return { ...spec, datasets, description: title + ". " + caption, config: theme(), background: null, autosize: { type: "pad", contains: "padding" }, padding: 4 };
+    return { ...spec, datasets, description: title + ". " + caption, config: theme(), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
   }
 
   function theme() {
@@ -156,37 +180,67 @@
     };
   }
 
-  // ---- drawing
+  // ---- drawing: what is in view first, the rest in the browser's idle moments, so that a long page opens at once and
+  // is whole when it is printed.
   let drawing = 0;
+  const idle = () => new Promise((go) => (window.requestIdleCallback ?? setTimeout)(go, { timeout: 300 }));
+  function distanceFromView(figure) {
+    const { top, bottom } = figure.getBoundingClientRect();
+    return Math.max(0, top - innerHeight, -bottom);
+  }
+  function nearest(figures) {
+    let best = { figure: undefined, distance: Infinity };
+    for (const figure of figures) {
+      const distance = distanceFromView(figure);
+      if (distance < best.distance) best = { figure, distance };
+    }
+    return best;
+  }
+
+  async function draw(figure) {
+    const spec = specOf(figure, 0);
+    const empty = spec.datasets[about(figure).tables[0]].length === 0;
+    figure.classList.toggle("empty", empty);
+    if (empty) return;
+    const chart = figure.querySelector(".chart");
+    const options = {
+      renderer: "svg", tooltip: { theme: dark.matches ? "dark" : "light" }, actions: false,
+    };
+    figure.view?.finalize();
+    const place = chart.firstElementChild ?? chart.appendChild(document.createElement("div"));
+    let done = await vegaEmbed(place, spec, options);
+    // Long tick labels and legends take more width than a figure's frame allows for: draw again by as much narrower.
+    const excess = Math.ceil(chart.querySelector("svg").getBoundingClientRect().width) - chart.clientWidth;
+    if (excess > 0) {
+      done.finalize();
+      done = await vegaEmbed(place, specOf(figure, excess + 1), options);
+    }
+    figure.view = done.view;
+    const data = figure.querySelector("details.data");
+    if (data.open) showRows(figure);
+  }
+
   async function drawAll() {
     const mine = ++drawing;
-    document.documentElement.dataset.drawn = "no";
+    const state = document.documentElement.dataset;
+    state.shown = state.drawn = "no";
     for (const card of document.querySelectorAll("[data-noise]")) card.hidden = Number(card.dataset.noise) !== chosenNoise();
-    for (const figure of document.querySelectorAll("figure[data-figure]")) {
-      if (mine !== drawing) return;  // a newer wish came in
-      if (figure.closest("[hidden]")) continue;
-      const empty = rowsOf(figure, about(figure).tables[0]).length === 0;
-      figure.classList.toggle("empty", empty);
-      if (empty) continue;
-      const chart = figure.querySelector(".chart");
-      const options = {
-        renderer: "svg", tooltip: { theme: dark.matches ? "dark" : "light" }, downloadFileName: figure.id,
-        actions: { export: { svg: true, png: true }, source: false, compiled: false, editor: false },
-        i18n: { CLICK_TO_VIEW_ACTIONS: "Save this figure" },
-      };
-      let done = await vegaEmbed(chart, specOf(figure, 0), options);
-      // Long tick labels and legends take more width than a figure's frame allows for: draw again by as much narrower.
-      const excess = Math.ceil(chart.querySelector("svg").getBoundingClientRect().width) - chart.clientWidth;
-      if (excess > 0) {
-        done.finalize();
-        done = await vegaEmbed(chart, specOf(figure, excess + 1), options);
+    const waiting = new Set([...document.querySelectorAll("figure[data-figure]")].filter((figure) => !figure.closest("[hidden]")));
+    while (waiting.size > 0) {
+      const { figure, distance } = nearest(waiting);
+      if (distance > 0) {
+        if (state.shown === "no") performance.mark("figures in view are drawn");
+        state.shown = "yes";
+        await idle();
       }
-      chart.querySelector("summary")?.setAttribute("aria-label", "Save this figure");
-      figure.view = done.view;
-      const data = figure.querySelector("details.data");
-      if (data.open) showRows(figure);
+      if (mine !== drawing) return;  // a newer wish came in
+      const next = nearest(waiting).figure;  // the reader may have scrolled on
+      waiting.delete(next);
+      await draw(next);
+      if (mine !== drawing) return;
     }
-    document.documentElement.dataset.drawn = "yes";
+    state.shown = state.drawn = "yes";
+    performance.mark("all figures are drawn");
   }
 
   // ---- the rows behind a figure
@@ -205,6 +259,49 @@
       setTimeout(() => URL.revokeObjectURL(address), 60000);
     });
     return link;
+  }
+
+  // ---- a figure and its data as files
+  const scale_of_pixels = 2;  // sharp in print
+  const drawnView = async (figure) => {
+    if (!figure.view) await draw(figure);
+    return figure.view;
+  };
+  const ways = {
+    SVG: async (figure) => new Blob([await (await drawnView(figure)).toSVG()], { type: "image/svg+xml" }),
+    PNG: async (figure) => {
+      const canvas = await (await drawnView(figure)).toCanvas(scale_of_pixels);
+      return new Promise((made) => canvas.toBlob(made, "image/png"));
+    },
+  };
+  function hand_over(name, blob) {
+    const link = document.createElement("a");
+    link.download = name;
+    link.href = URL.createObjectURL(blob);
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  }
+  function saveButtons(figure) {
+    const group = document.createElement("div");
+    group.className = "save";
+    group.setAttribute("role", "group");
+    const title = figure.querySelector("h3").firstChild.textContent.trim();
+    group.setAttribute("aria-label", "Save: " + title);
+    const add = (words, save) => {
+      const button = group.appendChild(document.createElement("button"));
+      button.type = "button";
+      button.textContent = words;
+      button.setAttribute("aria-label", words + " of " + title);
+      button.addEventListener("click", save);
+    };
+    for (const [way, made] of Object.entries(ways))
+      add(way, async () => hand_over(figure.id + "." + way.toLowerCase(), await made(figure)));
+    const { tables: names } = about(figure);
+    for (const name of names) {
+      add(names.length === 1 ? "CSV" : "CSV: " + name.replaceAll("_", " "), () =>
+        hand_over(figure.id + "-" + name + ".csv", new Blob([csv(study.tables[name].columns, rowsOf(figure, name))], { type: "text/csv" })));
+    }
+    return group;
   }
 
   function showRows(figure) {
@@ -243,15 +340,16 @@
   // ---- what the words of the page do
   function attach() {
     for (const figure of document.querySelectorAll("figure[data-figure]")) {
+      figure.querySelector("details.data").before(saveButtons(figure));
       figure.querySelector("details.data").addEventListener("toggle", (event) => {
         if (event.target.open) showRows(figure);
       });
     }
     const downloads = document.getElementById("downloads");
     for (const [name, table] of Object.entries(study.tables)) {
-      if (!downloads || table.rows.length === 0) continue;
+      if (!downloads || table.rows === 0) continue;
       const item = downloads.appendChild(document.createElement("li"));
-      item.append(download(name, table.columns, () => tables[name]), " " + table.meaning + " (" + table.rows.length + " rows)");
+      item.append(download(name, table.columns, () => tables[name]), " " + table.meaning + " (" + table.rows + " rows)");
     }
     for (const box of document.querySelectorAll('input[name="noise"]')) box.addEventListener("change", drawAll);
   }

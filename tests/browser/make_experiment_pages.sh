@@ -28,6 +28,12 @@ cat >"$folder/recording.json" <<'SIDECAR'
 SIDECAR
 "$capstan" simulate "$folder/recording.csv" --html "$folder/recording.html" -o /dev/null
 
+# Why a bench disagrees with its model.
+rm -rf "$folder/trial"
+"$capstan" gap-trial --cases 1 --seed 4 --length short --severity strong --keep "$folder/trial" --generate-only \
+    --progress none >/dev/null
+"$capstan" diagnose "$folder/trial/case001.csv" --progress none --html "$folder/diagnosis.html" -o /dev/null
+
 # Two studies beside each other.
 rm -f "$folder"/compared.db*
 for repetitions in 40 60; do

@@ -1,6 +1,6 @@
 // Opens report pages in headless Chromium and looks at what a reader would see.
 // usage: [FEW_VIEWS=1] node report_page.mjs SCREENSHOT_FOLDER PAGE.html...
-import { mkdirSync, mkdtempSync, rmSync, statSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -88,22 +88,122 @@ async function look(browser, file, view) {
   return page;
 }
 
+async function saved(page, action) {
+  const [download] = await Promise.all([page.waitForEvent("download"), action()]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+// Every figure can be taken along: as SVG, as PNG, and its rows as CSV.
+async function saveEveryFigure(page, name) {
+  for (const { id } of await drawnFigures(page)) {
+    const button = (words) => page.locator(`#${id} .save button`, { hasText: words });
+    const svg = await saved(page, () => button("SVG").click());
+    check(svg.name === id + ".svg" && /^<svg[^>]* xmlns=/.test(svg.bytes) && /<path/.test(svg.bytes), `${name}: ${id} can be saved as SVG`);
+    const png = await saved(page, () => button("PNG").click());
+    check(png.name === id + ".png" && png.bytes.readUInt32BE(0) === 0x89504e47 && png.bytes.readUInt32BE(16) > 400, `${name}: ${id} can be saved as PNG`);
+    const tables = await button("CSV").count();
+    check(tables > 0, `${name}: ${id} has data to save`);
+    for (let k = 0; k < tables; ++k) {
+      const csv = await saved(page, () => button("CSV").nth(k).click());
+      const lines = csv.bytes.toString().trimEnd().split("\r\n");
+      const width = lines[0].split(",").length;
+      check(csv.name.startsWith(id + "-") && csv.name.endsWith(".csv") && lines.length > 1 && width > 1 && !/undefined|\[object/.test(csv.bytes),
+        `${name}: the data of ${id} can be saved (${lines.length - 1} rows)`);
+    }
+  }
+}
+
+// What a screen reader goes by.
+async function readAloud(page, name) {
+  const facts = await page.evaluate(() => {
+    const seen = (each) => !each.closest("[hidden], details:not([open]) > :not(summary)");
+    const named = (each) => (each.getAttribute("aria-label") ?? "") + (each.getAttribute("aria-labelledby") ?? "").split(" ").map((id) => document.getElementById(id)?.textContent ?? "").join("") + each.textContent;
+    const levels = [...document.querySelectorAll("h1, h2, h3, h4")].map((each) => Number(each.tagName[1]));
+    return {
+      language: document.documentElement.lang,
+      titles: document.querySelectorAll("h1").length,
+      skipped: levels.filter((level, k) => k > 0 && level > levels[k - 1] + 1).length,
+      unnamed: [...document.querySelectorAll("section, nav, button, a, input, summary, [role=group], [role=region], [role=img]")].filter((each) => seen(each) && (each.labels?.[0] ? named(each.labels[0]) : named(each)).trim() === "").map((each) => each.outerHTML.slice(0, 80)),
+      headless: [...document.querySelectorAll("table")].filter((table) => table.querySelector("th:not([scope])") || !table.querySelector("th[scope=col]")).length,
+      pictures: [...document.querySelectorAll("svg")].filter((svg) => !svg.closest("[role], [aria-hidden=true]") && !svg.querySelector("[role]")).length,
+      doubles: (() => { const ids = [...document.querySelectorAll("[id]")].map((each) => each.id); return ids.length - new Set(ids).size; })(),
+      landmarks: ["header", "nav", "main", "footer"].filter((each) => !document.querySelector(each)),
+    };
+  });
+  check(facts.language === "en" && facts.titles === 1 && facts.skipped === 0, `${name}: headings make an outline: ${JSON.stringify(facts)}`);
+  check(facts.unnamed.length === 0, `${name}: whatever can be reached has a name: ${facts.unnamed.join(" ")}`);
+  check(facts.headless === 0, `${name}: tables have heads`);
+  check(facts.pictures === 0, `${name}: every picture says what it is`);
+  check(facts.doubles === 0, `${name}: no id is used twice`);
+  check(facts.landmarks.length === 0, `${name}: has landmarks`);
+}
+
+// By keyboard alone: past the navigation, on to a figure, and its file saved.
+async function useTheKeyboard(page, name) {
+  await page.evaluate(() => { document.activeElement?.blur(); scrollTo(0, 0); });
+  await page.keyboard.press("Tab");
+  check(await page.evaluate(() => document.activeElement.className) === "skip", `${name}: the first key leads past the navigation`);
+  await page.keyboard.press("Enter");
+  check(await page.evaluate(() => document.activeElement.id) === "content", `${name}: and on to the content`);
+  let reached = "";
+  for (let presses = 0; presses < 60 && reached !== "SVG"; ++presses) {
+    await page.keyboard.press("Tab");
+    reached = await page.evaluate(() => document.activeElement.matches(".save button") ? document.activeElement.textContent : "");
+  }
+  check(reached === "SVG", `${name}: the keyboard reaches a figure`);
+  check(await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle) !== "none", `${name}: and shows where it is`);
+  const svg = await saved(page, () => page.keyboard.press("Enter"));
+  check(svg.name.endsWith(".svg"), `${name}: and saves it`);
+}
+
+// On paper, whatever the screen's theme is: dark on white, nothing cut off, no buttons.
+async function print(page, name) {
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    await page.waitForSelector("html[data-drawn=yes]");
+    await page.pdf({ path: join(folder, `${name}_print_${colorScheme}.pdf`), format: "A4", margin: { top: "12mm", bottom: "12mm", left: "12mm", right: "12mm" } });
+    await page.emulateMedia({ media: "print", colorScheme });
+    const facts = await page.evaluate(() => {
+      const bright = (colour) => colour.match(/[\d.]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part) / 3, 0);
+      return {
+        ground: bright(getComputedStyle(document.body).backgroundColor),
+        letters: bright(getComputedStyle(document.querySelector("h1")).color),
+        axes: bright(getComputedStyle(document.querySelector(".chart svg .role-axis-title text")).fill),
+        buttons: [...document.querySelectorAll("button, nav, details.data")].filter((each) => each.getClientRects().length > 0).length,
+      };
+    });
+    check(facts.ground > 250 && facts.letters < 40 && facts.axes < 80 && facts.buttons === 0, `${name}: prints dark on white from a ${colorScheme} screen: ${JSON.stringify(facts)}`);
+    await page.emulateMedia({ media: "screen", colorScheme });
+  }
+  await page.emulateMedia({ colorScheme: "light" });
+  await page.waitForSelector("html[data-drawn=yes]");
+}
+
+const kinds = new Set();  // of pages; what pages of one kind share is tried once
 async function useThePage(page, name) {
+  const kind = await page.textContent(".kind");
+  const first_of_its_kind = !kinds.has(kind);
+  kinds.add(kind);
+  await readAloud(page, name);
+  if (first_of_its_kind) {
+    await useTheKeyboard(page, name);
+    await saveEveryFigure(page, name);
+  }
   const figure = "#" + await page.$eval("main > section:not(#recommendation) figure", (first) => first.id);
   await page.click(figure + " details.data summary");
   await page.waitForSelector(figure + " .data-rows tbody tr");
-  const [saved] = await Promise.all([page.waitForEvent("download"), page.click(figure + " .data-rows a")]);
-  check(saved.suggestedFilename().endsWith(".csv"), `${name}: the data of a figure can be saved`);
+  const rows = await saved(page, () => page.click(figure + " .data-rows a"));
+  check(rows.name.endsWith(".csv"), `${name}: the data of a figure can be saved`);
 
   const radios = await page.$$('input[name="noise"]');
   if (radios.length > 1) {
     const before = await page.$eval("#figure-error_by_count-mass svg", (svg) => svg.outerHTML);
     await page.focus('input[name="noise"]:checked');
     await page.keyboard.press("ArrowRight");
-    await page.waitForSelector("html[data-drawn=yes]");
-    await page.waitForFunction((old) => document.querySelector("#figure-error_by_count-mass svg").outerHTML !== old, before);
+    await page.waitForFunction((old) => document.documentElement.dataset.drawn === "yes" && document.querySelector("#figure-error_by_count-mass svg").outerHTML !== old, before);
     check((await page.$$(".advice:not([hidden])")).length > 0, `${name}: another noise level has its own recommendations`);
   }
+  if (first_of_its_kind) await print(page, name);
 }
 
 let browser;
@@ -113,7 +213,7 @@ try {
     check(statSync(file).size < largest_page_bytes, `${file}: is below 3 MB`);
     for (const view of views) {
       const page = await look(browser, file, view);
-      if (view.width === 1280 && !view.dark) await useThePage(page, basename(file));
+      if (view.width === 1280 && !view.dark) await useThePage(page, basename(file, ".html"));
       await page.close();
     }
   }

@@ -90,7 +90,7 @@ TEST(StudyPage, HoldsTheDataOfEveryFigureOnce) {
         const std::size_t begin = at + mark.size();
         const std::string id = page.substr(begin, page.find('"', begin) - begin);
         for (const std::string table : data.at("figures").at(id).at("usermeta").at("capstan").at("tables")) {
-            EXPECT_GT(data.at("tables").at(table).at("rows").size(), 0U) << id << " " << table;
+            EXPECT_GT(data.at("tables").at(table).at("rows"), 0) << id << " " << table;
         }
         ++drawn;
     }
