@@ -22,7 +22,9 @@
   const SERIES = [["#56b4e9", "#7cc8f2"], ["#0072b2", "#3f8fe0"], ["#009e73", "#2fbf95"], ["#e69f00", "#f0b429"], ["#d55e00", "#f07c2b"]];
   const BOUND = { method: "known_direction_bound", title: "Bound, direction known" };
   const capital = (word) => word.charAt(0).toUpperCase() + word.slice(1);
-  const shade = (pair) => pair[dark.matches ? 1 : 0];
+  const onPaper = () => "paper" in document.documentElement.dataset;
+  const isDark = () => dark.matches && !onPaper();
+  const shade = (pair) => pair[isDark() ? 1 : 0];
 
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -110,7 +112,7 @@
       series: { range: SERIES.map(shade) },
       ends: { domain: ["motor", "load", "load, ideal transmission"].filter((name) => rows.some((row) => row.series === name)), range: [css("--unknown"), css("--known"), css("--quiet")] },
       bench_and_models: bench_and_models(rows),
-      heat: { zero: true, interpolate: "lab", range: dark.matches ? ["#16212c", "#1f5f86", "#63b5d8", "#f3f1d2"] : ["#f6f8f4", "#a9d3e0", "#3d8bb4", "#123a5e"] },
+      heat: { zero: true, interpolate: "lab", range: isDark() ? ["#16212c", "#1f5f86", "#63b5d8", "#f3f1d2"] : ["#f6f8f4", "#a9d3e0", "#3d8bb4", "#123a5e"] },
     };
   }
 
@@ -219,6 +221,28 @@
     const data = figure.querySelector("details.data");
     if (data.open) showRows(figure);
   }
+
+  // Without waiting for anything, as a print does not wait; for paper, in its width and in ink.
+  function drawForPaper() {
+    ++drawing;
+    document.documentElement.dataset.paper = "";
+    for (const figure of document.querySelectorAll("figure[data-figure]")) {
+      if (figure.closest("[hidden]")) continue;
+      const spec = specOf(figure, 0);
+      if (spec.datasets[about(figure).tables[0]].length === 0) continue;
+      const chart = figure.querySelector(".chart");
+      const place = chart.firstElementChild ?? chart.appendChild(document.createElement("div"));
+      const drawn = (wish) => {
+        figure.view?.finalize();
+        figure.view = new vega.View(vega.parse(vegaLite.compile(wish).spec), { renderer: "svg", container: place }).run();
+        return Math.ceil(chart.querySelector("svg").getBoundingClientRect().width) - chart.clientWidth;
+      };
+      const excess = drawn(spec);
+      if (excess > 0) drawn(specOf(figure, excess + 1));
+    }
+  }
+  addEventListener("beforeprint", drawForPaper);
+  addEventListener("afterprint", () => { delete document.documentElement.dataset.paper; drawAll(); });
 
   async function drawAll() {
     const mine = ++drawing;

@@ -156,24 +156,32 @@ async function useTheKeyboard(page, name) {
   check(svg.name.endsWith(".svg"), `${name}: and saves it`);
 }
 
-// On paper, whatever the screen's theme is: dark on white, nothing cut off, no buttons.
+// On paper, whatever the screen's theme is: dark on white, in the width of a sheet, no figure missing, no buttons.
 async function print(page, name) {
+  const bright = (colour) => colour.match(/[\d.]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part) / 3, 0);
   for (const colorScheme of ["light", "dark"]) {
     await page.emulateMedia({ colorScheme });
-    await page.waitForSelector("html[data-drawn=yes]");
-    await page.pdf({ path: join(folder, `${name}_print_${colorScheme}.pdf`), format: "A4", margin: { top: "12mm", bottom: "12mm", left: "12mm", right: "12mm" } });
-    await page.emulateMedia({ media: "print", colorScheme });
-    const facts = await page.evaluate(() => {
-      const bright = (colour) => colour.match(/[\d.]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part) / 3, 0);
-      return {
-        ground: bright(getComputedStyle(document.body).backgroundColor),
-        letters: bright(getComputedStyle(document.querySelector("h1")).color),
-        axes: bright(getComputedStyle(document.querySelector(".chart svg .role-axis-title text")).fill),
-        buttons: [...document.querySelectorAll("button, nav, details.data")].filter((each) => each.getClientRects().length > 0).length,
-      };
+    await page.evaluate(() => {  // after the page's own preparations
+      addEventListener("beforeprint", () => {
+        const figures = [...document.querySelectorAll("figure[data-figure]:not(.empty)")].filter((each) => !each.closest("[hidden]"));
+        const colour = (selector, property) => getComputedStyle(document.querySelector(selector))[property];
+        window.printed = {
+          ground: colour("body", "backgroundColor"), letters: colour("h1", "color"), axes: colour(".chart svg .role-axis-title text", "fill"),
+          grounds: figures.map((each) => getComputedStyle(each.querySelector(".chart svg")).backgroundColor),
+          missing: figures.filter((each) => !each.querySelector(".chart svg")).map((each) => each.id),
+          wide: figures.filter((each) => each.querySelector(".chart svg").getBoundingClientRect().width > 690).map((each) => each.id),
+        };
+      }, { once: true });
     });
-    check(facts.ground > 250 && facts.letters < 40 && facts.axes < 80 && facts.buttons === 0, `${name}: prints dark on white from a ${colorScheme} screen: ${JSON.stringify(facts)}`);
-    await page.emulateMedia({ media: "screen", colorScheme });
+    await page.pdf({ path: join(folder, `${name}_print_${colorScheme}.pdf`), format: "A4", margin: { top: "12mm", bottom: "12mm", left: "12mm", right: "12mm" } });
+    const facts = await page.evaluate(() => window.printed);
+    check(bright(facts.ground) > 250 && bright(facts.letters) < 40 && bright(facts.axes) < 40 &&
+      facts.grounds.every((each) => /, 0\)$/.test(each) || bright(each) > 250), `${name}: prints dark on white from a ${colorScheme} screen: ${JSON.stringify(facts)}`);
+    check(facts.missing.length === 0 && facts.wide.length === 0, `${name}: prints every figure in the width of a sheet: ${facts.missing} ${facts.wide}`);
+    await page.emulateMedia({ media: "print" });
+    check(await page.evaluate(() => [...document.querySelectorAll("button, nav, details.data")].every((each) => each.getClientRects().length === 0)), `${name}: prints no buttons`);
+    await page.emulateMedia({ media: null });
+    await page.waitForSelector("html[data-drawn=yes]:not([data-paper])");
   }
   await page.emulateMedia({ colorScheme: "light" });
   await page.waitForSelector("html[data-drawn=yes]");
