@@ -58,8 +58,8 @@ Json column_json(const Table& table, std::size_t column) {
     return repeated_values(std::move(words), index);
 }
 
-// By columns: a table of many thousand rows takes a third of the room, and is taken apart only as far as it is
-// drawn.
+// By columns: a table of many thousand rows takes a third of the room, and is taken apart only as far as it
+// is drawn.
 Json table_json(const Table& table) {
     Json values = Json::array();
     for (std::size_t k = 0; k < table.columns.size(); ++k) values.push_back(column_json(table, k));

@@ -45,6 +45,18 @@ std::string tables_json(const std::vector<Table>& tables) {
     return report.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+std::string markdown_of(const NumberTable& numbers) {
+    std::string text = fmt::format("\n## {}\n\n|", numbers.caption);
+    for (const std::string& head : numbers.heads) text += fmt::format(" {} |", head);
+    text += "\n|";
+    for (std::size_t k = 0; k < numbers.heads.size(); ++k) text += " --- |";
+    for (const auto& row : numbers.rows) {
+        text += "\n|";
+        for (const std::string& cell : row) text += fmt::format(" {} |", escape_markdown(cell));
+    }
+    return text + "\n";
+}
+
 std::string escape_markdown(const std::string& text) {
     std::string safe;
     for (const char letter : text) {

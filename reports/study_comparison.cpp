@@ -156,17 +156,7 @@ std::string study_comparison_markdown(storage::Database& database, const Compare
     std::string text =
         fmt::format("# {} and {}\n\n{}\n", escape_markdown(comparison.first.name),
                     escape_markdown(comparison.second.name), escape_markdown(verdict(comparison)));
-    for (const NumberTable& table : number_tables(comparison)) {
-        text += fmt::format("\n## {}\n\n|", table.caption);
-        for (const std::string& head : table.heads) text += fmt::format(" {} |", head);
-        text += "\n|";
-        for (std::size_t k = 0; k < table.heads.size(); ++k) text += " --- |";
-        for (const auto& row : table.rows) {
-            text += "\n|";
-            for (const std::string& cell : row) text += fmt::format(" {} |", escape_markdown(cell));
-        }
-        text += "\n";
-    }
+    for (const NumberTable& table : number_tables(comparison)) text += markdown_of(table);
     return text;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 
 #include "capstan/cli/commands.h"
@@ -21,6 +22,7 @@
 #include "capstan/gap/equivalent_bench.h"
 #include "capstan/gap/estimated_noise.h"
 #include "capstan/gap/recording_reader.h"
+#include "capstan/reports/diagnosis_report.h"
 #include "capstan/storage/diagnosis_store.h"
 
 namespace capstan::cli {
@@ -68,12 +70,31 @@ gap::Recording recorded_bench(const Invocation& invocation) {
 }
 
 void store(const Invocation& invocation, const gap::Recording& recording, const Diagnosis& diagnosis) {
-    storage::DiagnosisRecord record = diagnosis_record(recording, diagnosis, invocation.argument("LOG"));
-    record.sentence = verdict_sentence(diagnosis);
+    storage::DiagnosisRecord record = diagnosis_record(recording, diagnosis);
+    name_log(record, invocation.argument("LOG"));
     storage::Database database = storage::Database::open_or_create(invocation.text("db"));
     const std::int64_t id = storage::write_diagnosis(database, record);
     if (invocation.text("progress") != "none")
         fmt::print(stderr, "Stored as diagnosis {} in {}.\n", id, invocation.text("db"));
+}
+
+// As asked for, else as the file's name ends, else words.
+std::string format_of(const Invocation& invocation) {
+    if (invocation.has("json")) return "json";
+    if (invocation.has("format")) return invocation.text("format");
+    const std::string ending = std::filesystem::path(invocation.text("output")).extension().string();
+    for (const char* known : {"md", "csv", "json"}) {
+        if (ending == std::string(".") + known) return known;
+    }
+    return "words";
+}
+
+std::string answer_in(const std::string& format, const gap::Recording& recording,
+                      const Diagnosis& diagnosis) {
+    if (format == "json") return json_text(in_json(recording, diagnosis));
+    if (format == "md") return reports::diagnosis_markdown(diagnosis_record(recording, diagnosis));
+    if (format == "csv") return reports::diagnosis_csv(diagnosis_record(recording, diagnosis));
+    return in_words(recording, diagnosis);
 }
 
 ExitCode run(const Invocation& invocation) {
@@ -95,15 +116,12 @@ ExitCode run(const Invocation& invocation) {
     const Diagnosis diagnosis = gap::diagnose(recording, options);
     if (on_a_terminal && invocation.text("progress") == "auto") fmt::print(stderr, "\r\033[K");
     if (invocation.has("db")) store(invocation, recording, diagnosis);
-    deliver_page(invocation, [&] {
-        return reports::experiment_page_html(
-            diagnosis_page(recording, diagnosis, verdict_sentence(diagnosis)));
-    });
+    deliver_page(invocation,
+                 [&] { return reports::experiment_page_html(diagnosis_page(recording, diagnosis)); });
     if (invocation.has("corrected"))
         write_file(invocation.text("corrected"),
                    corrected_model_text(recording, diagnosis, verdict_sentence(diagnosis)));
-    deliver(invocation, invocation.has("json") ? json_text(in_json(recording, diagnosis))
-                                               : in_words(recording, diagnosis));
+    deliver(invocation, answer_in(format_of(invocation), recording, diagnosis));
     return ExitCode::success;
 }
 
@@ -116,6 +134,14 @@ const Option calibrate_on_option{
 const Option keep_option{"db", '\0', OptionKind::text, "FILE",
                          "Also keep the diagnosis in this results database; `capstan query \"SELECT * FROM "
                          "v_diagnosis\"` lists them."};
+
+const Option format_option{"format",
+                           '\0',
+                           OptionKind::text,
+                           "words|md|csv|json",
+                           "Default: as FILE ends, else words.",
+                           "",
+                           {"words", "md", "csv", "json"}};
 
 const Option corrected_option{
     "corrected", '\0', OptionKind::text, "FILE",
@@ -133,7 +159,7 @@ Command diagnose_command() {
         "a drive or band of unknown geometry.",
         {log_argument},
         {runs_option, calibrate_on_option, keep_option, corrected_option, jobs_option, output_option,
-         json_option, page_option, progress_option, help_option},
+         format_option, json_option, page_option, progress_option, help_option},
         {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
          "capstan diagnose bench.csv --html bench.html", "capstan diagnose bench.csv --db bench.db",
          "capstan diagnose bench.csv --corrected corrected.toml"},

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "capstan/cli/stored_diagnosis.h"
 #include "capstan/cli/wrapped_text.h"
+#include "capstan/reports/diagnosis_report.h"
 
 namespace capstan::cli {
 
@@ -14,15 +16,6 @@ using gap::ChannelGap;
 using gap::Diagnosis;
 using gap::FittedCause;
 using nlohmann::ordered_json;
-
-constexpr std::string_view judged_channel = "load_torque";
-
-const ChannelGap* find_channel(const Diagnosis& diagnosis, std::string_view name) {
-    for (const ChannelGap& channel : diagnosis.gap.channels) {
-        if (channel.channel == name) return &channel;
-    }
-    return diagnosis.gap.channels.empty() ? nullptr : &diagnosis.gap.channels.front();
-}
 
 std::string numbers_in_words(const FittedCause& cause) {
     std::string text;
@@ -108,85 +101,14 @@ std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis
     return next.empty() ? text : text + "\n" + wrapped(next, 100, "  ", "  ") + "\n";
 }
 
-namespace {
-
-ordered_json number_or_null(double value) {
-    return std::isnan(value) ? ordered_json(nullptr) : ordered_json(value);
-}
-
-ordered_json optional_text(const std::string& text) {
-    return text.empty() ? ordered_json(nullptr) : ordered_json(text);
-}
-
-}  // namespace
-
 ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis) {
-    ordered_json json = {{"case", recording.name}, {"ranked", ordered_json::array()}};
-    for (const gap::RankedEffect& each : diagnosis.ranked)
-        json["ranked"].push_back({{"effect", each.effect}, {"probability", each.probability}});
-    json["where"] = {
-        {"component", optional_text(diagnosis.component)},
-        {"end", optional_text(diagnosis.end)},
-        {"s_m", diagnosis.position_m ? ordered_json(*diagnosis.position_m) : ordered_json(nullptr)},
-        {"worst_run", diagnosis.gap.worst_run},
-        {"worst_channel", diagnosis.gap.worst_channel}};
-    if (const ChannelGap* channel = find_channel(diagnosis, judged_channel)) {
-        json["channel"] = channel->channel;
-        json["rms_before"] = channel->before_rms;
-        json["rms_after"] = channel->after_rms;
-        json["unit"] = channel->unit;
-    }
-    json["causes"] = ordered_json::array();
-    for (const FittedCause& cause : diagnosis.causes) {
-        ordered_json numbers = ordered_json::object();
-        for (const gap::FittedNumber& number : cause.numbers)
-            numbers[number.name] = {{"value", number.value}, {"unit", number.unit}};
-        json["causes"].push_back({{"effect", cause.effect},
-                                  {"variant", optional_text(cause.variant)},
-                                  {"component", cause.component},
-                                  {"numbers", numbers}});
-    }
-    json["nominal_ratios"] = {{"friction", diagnosis.friction_ratio},
-                              {"stiffness", diagnosis.stiffness_ratio},
-                              {"pretension", diagnosis.pretension_ratio}};
-    json["misfit"] = {{"before", diagnosis.misfit_before}, {"after", diagnosis.misfit_after}};
-    json["independent_samples"] = diagnosis.independent_samples;
-    json["candidates"] = ordered_json::array();
-    for (const gap::CandidateScore& each : diagnosis.candidates)
-        json["candidates"].push_back({{"effects", each.effects},
-                                      {"variants", each.variants},
-                                      {"open_numbers", each.open_numbers},
-                                      {"misfit", each.misfit},
-                                      {"nominal_price", each.nominal_price},
-                                      {"visibility", each.visibility},
-                                      {"evidence", each.evidence}});
+    ordered_json json = reports::diagnosis_json(diagnosis_record(recording, diagnosis));
     json["indistinct"] = {{"group", diagnosis.indistinct.group}, {"experiments", ordered_json::array()}};
     for (const gap::ExperimentScore& each : diagnosis.indistinct.experiments)
         json["indistinct"]["experiments"].push_back({{"kind", each.kind},
                                                      {"name", each.name},
                                                      {"description", each.description},
                                                      {"told_apart", each.told_apart}});
-    json["channels"] = ordered_json::array();
-    for (const ChannelGap& channel : diagnosis.gap.channels)
-        json["channels"].push_back({{"channel", channel.channel},
-                                    {"unit", channel.unit},
-                                    {"noise", channel.noise},
-                                    {"rms_before", channel.before_rms},
-                                    {"rms_after", channel.after_rms},
-                                    {"rms_held_out", channel.held_out_rms},
-                                    {"rms_runner_up", channel.runner_up_rms},
-                                    {"closed_share", number_or_null(channel.closed)},
-                                    {"closed_low", number_or_null(channel.closed_low)},
-                                    {"closed_high", number_or_null(channel.closed_high)}});
-    json["gap_map"] = ordered_json::array();
-    for (const gap::GapShare& share : diagnosis.gap.map)
-        json["gap_map"].push_back({{"by", share.by},
-                                   {"name", share.name},
-                                   {"share", share.share},
-                                   {"low", share.low},
-                                   {"high", share.high},
-                                   {"share_of_samples", share.of_samples}});
-    json["gap_in_words"] = gap::gap_sentence(diagnosis.gap.map);
     return json;
 }
 

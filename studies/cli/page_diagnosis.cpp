@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "capstan/cli/diagnosis_words.h"
-#include "capstan/cli/program.h"
+#include "capstan/cli/stored_diagnosis.h"
+#include "capstan/reports/diagnosis_report.h"
 
 namespace capstan::cli {
 
@@ -19,30 +19,10 @@ using reports::Table;
 
 // Of all curves together: each takes about 60 bytes a sample, and the page stays below 3 MB.
 constexpr std::size_t drawn_samples = 6000;
-constexpr std::size_t shown_causes = 8;
 
 constexpr const char* measured_name = "measured";
 constexpr const char* nominal_name = "model without the cause";
 constexpr const char* corrected_name = "model with the cause";
-
-Table ranking_table(const Diagnosis& diagnosis) {
-    Table table{"ranking", "Probability of each cause", {"effect", "probability"}, {}};
-    for (const gap::RankedEffect& each : diagnosis.ranked) {
-        if (table.rows.size() < shown_causes) table.rows.push_back({each.effect, each.probability});
-    }
-    return table;
-}
-
-Table map_table(const Diagnosis& diagnosis) {
-    Table table{"gap_map",
-                "Share of the gap's energy by part of the recording",
-                {"part", "share", "low", "high", "share_of_samples"},
-                {}};
-    for (const gap::GapShare& share : diagnosis.gap.map)
-        table.rows.push_back(
-            {share.by + ": " + share.name, share.share, share.low, share.high, share.of_samples});
-    return table;
-}
 
 struct Curves {
     Table run{"run", "Runs of the recording", {"run", "protocol", "samples"}, {}};
@@ -118,39 +98,6 @@ Curves curves_of(const Recording& recording, const Diagnosis& diagnosis) {
     return curves;
 }
 
-NumberTable shrinkage_table(const Diagnosis& diagnosis) {
-    NumberTable table{
-        "RMS of measured less modelled, over whole runs",
-        {"Channel", "Unit", "Noise", "Before", "After", "Held out", "Runner-up", "Share closed, held out"},
-        {}};
-    for (const gap::ChannelGap& channel : diagnosis.gap.channels) {
-        const auto number = [](double value) { return fmt::format("{:.3g}", value); };
-        table.rows.push_back(
-            {channel.channel, channel.unit, number(channel.noise), number(channel.before_rms),
-             number(channel.after_rms), number(channel.held_out_rms), number(channel.runner_up_rms),
-             std::isnan(channel.closed) ? "no gap"
-                                        : fmt::format("{:.2f} ({:.2f} to {:.2f})", channel.closed,
-                                                      channel.closed_low, channel.closed_high)});
-    }
-    return table;
-}
-
-NumberTable fitted_table(const Diagnosis& diagnosis) {
-    NumberTable table{"What was fitted", {"Of", "Number", "Value", "Unit"}, {}};
-    for (const gap::FittedCause& cause : diagnosis.causes) {
-        for (const gap::FittedNumber& number : cause.numbers)
-            table.rows.push_back({cause.effect + (cause.variant.empty() ? "" : ", " + cause.variant),
-                                  number.name, fmt::format("{:.4g}", number.value), number.unit});
-    }
-    const auto add = [&](const char* name, double ratio) {
-        table.rows.push_back({"nominal model", name, fmt::format("{:.4f}", ratio), "of stated"});
-    };
-    add("friction", diagnosis.friction_ratio);
-    add("stiffness", diagnosis.stiffness_ratio);
-    add("pretension", diagnosis.pretension_ratio);
-    return table;
-}
-
 NumberTable experiments_table(const gap::Indistinct& indistinct) {
     constexpr std::size_t shown_experiments = 6;
     NumberTable table{
@@ -164,25 +111,12 @@ NumberTable experiments_table(const gap::Indistinct& indistinct) {
 
 }  // namespace
 
-reports::ExperimentPage diagnosis_page(const Recording& recording, const Diagnosis& diagnosis,
-                                       const std::string& verdict) {
+reports::ExperimentPage diagnosis_page(const Recording& recording, const Diagnosis& diagnosis) {
     Curves curves = curves_of(recording, diagnosis);
-    reports::ExperimentPage page;
-    page.id = "diagnosis";
-    page.kind = "Why a bench disagrees with its model";
-    page.title = recording.name;
-    page.verdict = verdict;
-    page.sections = {
-        {"verdict",
-         "The cause",
-         "Every cause that is known is fitted with the nominal numbers free within their "
-         "uncertainty; what it leaves is weighed against how many numbers it needed.",
-         {fitted_table(diagnosis), shrinkage_table(diagnosis)},
-         "Held out: each run predicted with numbers fitted to the others. Runner-up: the best cause that the verdict "
-         "does not name. Share closed: of the mean square beyond noise, with its 95% interval."},
-        {"where", "Where it lies", gap::gap_sentence(diagnosis.gap.map), {}, ""},
-        {"runs", "Measured, nominal, corrected", "Long runs are thinned evenly for drawing.", {}, ""},
-        {"loops", "Loops", "", {}, ""}};
+    reports::ExperimentPage page = reports::diagnosis_page(diagnosis_record(recording, diagnosis));
+    page.sections.push_back(
+        {"runs", "Measured, nominal, corrected", "Long runs are thinned evenly for drawing.", {}, ""});
+    page.sections.push_back({"loops", "Loops", "", {}, ""});
     if (const std::string next = next_experiment_in_words(diagnosis.indistinct); !next.empty())
         page.sections.insert(
             page.sections.begin() + 1,
@@ -192,9 +126,8 @@ reports::ExperimentPage diagnosis_page(const Recording& recording, const Diagnos
              {experiments_table(diagnosis.indistinct)},
              "Each experiment is simulated with every explanation as it was fitted; the others may move all "
              "their numbers to imitate it. 0.5 is a guess."});
-    page.tables = {ranking_table(diagnosis),  map_table(diagnosis),       std::move(curves.run),
-                   std::move(curves.channel), std::move(curves.residual), std::move(curves.loop)};
-    page.program_version = program_version();
+    for (Table* curve : {&curves.run, &curves.channel, &curves.residual, &curves.loop})
+        page.tables.push_back(std::move(*curve));
     return page;
 }
 

@@ -7,8 +7,7 @@
 namespace capstan::cli {
 
 /// A diagnosis as a page: the verdict and its probabilities, where the gap is, measured, nominal and
-/// corrected channels, residuals before and after, loops. `verdict`: the sentence at its head.
-reports::ExperimentPage diagnosis_page(const gap::Recording& recording, const gap::Diagnosis& diagnosis,
-                                       const std::string& verdict);
+/// corrected channels, residuals before and after, loops.
+reports::ExperimentPage diagnosis_page(const gap::Recording& recording, const gap::Diagnosis& diagnosis);
 
 }  // namespace capstan::cli

@@ -1,10 +1,12 @@
 #include "capstan/cli/stored_diagnosis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "capstan/cli/diagnosis_words.h"
 #include "capstan/cli/program.h"
 #include "capstan/gap/gap_map.h"
 #include "capstan/gap_trial/sealed_labels.h"
@@ -35,6 +37,8 @@ storage::DiagnosisCauseRecord cause_record(const gap::FittedCause& cause) {
                                          cause.end,    cause.position_m, {}};
     for (const gap::FittedNumber& number : cause.numbers)
         record.numbers.push_back({number.name, number.value, number.unit});
+    std::sort(record.numbers.begin(), record.numbers.end(),  // as they come back
+              [](const auto& a, const auto& b) { return a.name < b.name; });
     return record;
 }
 
@@ -59,12 +63,9 @@ std::string verdict_name(const gap::Diagnosis& diagnosis) {
     return diagnosis.causes[0].effect + " + " + diagnosis.causes[1].effect;
 }
 
-storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const gap::Diagnosis& diagnosis,
-                                          const std::filesystem::path& log) {
+storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const gap::Diagnosis& diagnosis) {
     storage::DiagnosisRecord record;
     record.recording = recording.name;
-    record.log_file = log.string();
-    record.log_sha256 = hash_of(log);
     record.program_version = program_version();
     std::vector<int> runs;
     for (const gap::RecordedRun& run : recording.runs) runs.push_back(run.number);
@@ -82,6 +83,7 @@ storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const
     record.misfit_before_ratio = diagnosis.misfit_before;
     record.misfit_after_ratio = diagnosis.misfit_after;
     record.independent_samples_count = diagnosis.independent_samples;
+    record.sentence = verdict_sentence(diagnosis);
     record.gap_sentence = gap::gap_sentence(diagnosis.gap.map);
     for (const gap::RankedEffect& each : diagnosis.ranked)
         record.effects.push_back({each.effect, each.probability});
@@ -97,6 +99,11 @@ storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const
         record.gap.push_back({each.by, each.name, each.share, each.low, each.high, each.of_samples});
     }
     return record;
+}
+
+void name_log(storage::DiagnosisRecord& record, const std::filesystem::path& log) {
+    record.log_file = log.string();
+    record.log_sha256 = hash_of(log);
 }
 
 }  // namespace capstan::cli

@@ -12,9 +12,10 @@ namespace capstan::cli {
 /// The names of the causes: 'backlash', 'backlash + drift', 'none' or 'unknown'.
 std::string verdict_name(const gap::Diagnosis& diagnosis);
 
-/// A diagnosis as the database keeps it, but for its words (`sentence`), which the caller has. `log` is
-/// hashed.
-storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const gap::Diagnosis& diagnosis,
-                                          const std::filesystem::path& log);
+/// A diagnosis as the database keeps it, but for the log that it was made of.
+storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const gap::Diagnosis& diagnosis);
+
+/// Says which log it was made of, and what its bytes hash to.
+void name_log(storage::DiagnosisRecord& record, const std::filesystem::path& log);
 
 }  // namespace capstan::cli

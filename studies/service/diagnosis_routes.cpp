@@ -1,4 +1,5 @@
 // Recordings to be diagnosed, and the diagnoses that are stored.
+#include "capstan/reports/diagnosis_report.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/job_json.h"
 #include "capstan/service/routes.h"
@@ -28,13 +29,22 @@ Job start(RouteContext& context, const httplib::Request& request) {
     return context.queue.add_diagnosis(title_of(request), request.get_file_value("log").content, sidecar);
 }
 
-// As the command wrote it, where the diagnosis was made here.
+// As the command wrote it, where the diagnosis was made here; else what the database holds of it, which is
+// all but the experiments that would tell its explanations apart.
 std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
     for (const Job& job : context.queue.jobs()) {
-        if (job.kind == JobKind::diagnosis && job.state == JobState::done && job.result_id == diagnosis_id)
-            return context.queue.answer_of(job);
+        if (job.kind != JobKind::diagnosis || job.state != JobState::done || job.result_id != diagnosis_id)
+            continue;
+        if (std::string answer = context.queue.answer_of(job); !answer.empty()) return answer;
     }
-    return "";
+    storage::Database database = context.open();
+    for (const auto& each : storage::list_diagnoses(database)) {
+        if (each.diagnosis_id == diagnosis_id)
+            return reports::diagnosis_json(storage::load_diagnosis(database, diagnosis_id))
+                       .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+                   "\n";
+    }
+    throw BadRequest("there is no diagnosis " + std::to_string(diagnosis_id), 404);
 }
 
 }  // namespace
@@ -51,10 +61,7 @@ void add_diagnosis_routes(httplib::Server& server, RouteContext& context) {
         send_json(response, job_json(start(context, request)), 202);
     });
     server.Get(R"(/api/diagnoses/(\d+))", [&](const httplib::Request& request, httplib::Response& response) {
-        const std::string answer = answer_of(context, number_in_path(request));
-        if (answer.empty())
-            throw BadRequest("the answer of this diagnosis is not kept here; /api/query has its tables", 404);
-        send_text(response, answer, "application/json");
+        send_text(response, answer_of(context, number_in_path(request)), "application/json");
     });
 }
 

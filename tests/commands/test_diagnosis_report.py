@@ -1,0 +1,52 @@
+"""A diagnosis that the database keeps is told as when it was made: as a page, Markdown, CSV and JSON, and by the service."""
+
+import csv
+import io
+import json
+import unittest
+
+from capstan_service import ServiceTest
+
+
+class DiagnosisReport(ServiceTest):
+    def setUp(self):
+        super().setUp()
+        self.run_capstan("gap-trial", "--cases", 1, "--seed", 4, "--length", "short", "--severity", "strong",
+                         "--keep", "kept", "--generate-only", "--progress", "none")
+        self.log = self.folder / "kept" / "case001.csv"
+
+    def report(self, file_format):
+        return self.run_capstan("report", "--diagnosis", "latest", "--format", file_format, "--db", "kept.db").stdout
+
+    def test_a_stored_diagnosis_is_told_as_it_was_made(self):
+        made = json.loads(self.run_capstan("diagnose", self.log, "--json", "--db", "kept.db", "--progress", "none").stdout)
+        self.assertIn("experiments", made.pop("indistinct"))  # the one thing that no table keeps
+        self.assertEqual(json.loads(self.report("json")), made)
+        self.run_capstan("report", "--diagnosis", 1, "-o", "named.json", "--db", "kept.db")
+        self.assertEqual(json.loads((self.folder / "named.json").read_text()), made)
+
+        self.run_capstan("diagnose", self.log, "-o", "again.md", "--progress", "none")
+        self.assertEqual((self.folder / "again.md").read_text(), self.report("md"))
+        self.assertIn("| " + made["ranked"][0]["effect"] + " |", self.report("md"))
+
+        rows = list(csv.DictReader(io.StringIO(self.report("csv"))))
+        probabilities = {row["name"]: float(row["value"]) for row in rows if row["part"] == "effect"}
+        self.assertEqual(probabilities, {each["effect"]: each["probability"] for each in made["ranked"]})
+        closed = {row["name"]: float(row["value"]) for row in rows if row["quantity"] == "rms_held_out"}
+        self.assertEqual(closed, {each["channel"]: each["rms_held_out"] for each in made["channels"]})
+
+        page = self.report("html")
+        for part in ("<h1>case001</h1>", 'id="figure-ranking"', 'id="figure-gap_map"', made["ranked"][0]["effect"]):
+            self.assertIn(part, page)
+
+        self.serve(db="kept.db")
+        self.assertEqual(self.get("/api/diagnoses/1"), made)
+        self.get("/api/diagnoses/2", expect=404)
+
+        self.assertIn("no diagnosis 7", self.run_capstan("report", "--diagnosis", 7, "--db", "kept.db", expect=3).stderr)
+        self.assertIn("neither a number nor latest", self.run_capstan("report", "--diagnosis", "x", "--db", "kept.db", expect=2).stderr)
+        self.run_capstan("report", "--diagnosis", 1, "--compare", 1, "--db", "kept.db", expect=2)
+
+
+if __name__ == "__main__":
+    unittest.main()
