@@ -1,6 +1,5 @@
 #include "capstan/reports/parquet_file.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <stdexcept>
@@ -16,7 +15,7 @@ using Rows = std::vector<std::vector<QueryValue>>;
 static_assert(std::endian::native == std::endian::little);  // as Parquet's values are
 
 constexpr const char* magic = "PAR1";
-constexpr std::size_t rows_in_a_group = 500'000;
+constexpr std::size_t rows_in_a_group = 50'000;  // what is kept in memory
 // Numbers of the format's enumerations.
 constexpr int plain = 0, rle = 3, optional = 1, uncompressed = 0, utf8 = 0, data_page = 0;
 
@@ -60,12 +59,12 @@ void append_value(std::string& bytes, const ParquetColumn& column, const QueryVa
 }
 
 // Which rows have a value: runs of equal levels (1: there), after their length in bytes.
-std::string definition_levels(const Rows& rows, std::size_t column, std::size_t first, std::size_t end) {
+std::string definition_levels(const Rows& rows, std::size_t column) {
     std::string runs;
-    for (std::size_t row = first; row < end;) {
+    for (std::size_t row = 0; row < rows.size();) {
         const bool there = !is_null(rows[row][column]);
         std::size_t length = 1;
-        while (row + length < end && !is_null(rows[row + length][column]) == there) ++length;
+        while (row + length < rows.size() && !is_null(rows[row + length][column]) == there) ++length;
         for (std::uint64_t header = length << 1;; header >>= 7) {
             runs += static_cast<char>(header >= 0x80 ? header | 0x80 : header);
             if (header < 0x80) break;
@@ -77,40 +76,6 @@ std::string definition_levels(const Rows& rows, std::size_t column, std::size_t 
     append(levels, static_cast<std::uint32_t>(runs.size()));
     return levels + runs;
 }
-
-struct Chunk {
-    std::size_t offset = 0;
-    std::size_t bytes = 0;
-};
-
-// One column of one row group: a page's header and the page.
-Chunk append_chunk(std::string& file, const ParquetColumn& column, const Rows& rows, std::size_t index,
-                   std::size_t first, std::size_t end) {
-    std::string page = definition_levels(rows, index, first, end);
-    for (std::size_t row = first; row < end; ++row) {
-        if (!is_null(rows[row][index])) append_value(page, column, rows[row][index]);
-    }
-    const Chunk chunk{file.size(), 0};
-    ThriftWriter header(file);
-    header.i32(1, data_page);
-    header.i32(2, static_cast<std::int32_t>(page.size()));
-    header.i32(3, static_cast<std::int32_t>(page.size()));
-    header.structure(5);
-    ThriftWriter inner(file);
-    inner.i32(1, static_cast<std::int32_t>(end - first));
-    inner.i32(2, plain);
-    inner.i32(3, rle);
-    inner.i32(4, rle);
-    inner.end();
-    header.end();
-    file += page;
-    return {chunk.offset, file.size() - chunk.offset};
-}
-
-struct Group {
-    std::size_t rows = 0;
-    std::vector<Chunk> chunks;  // columns
-};
 
 void append_schema(std::string& footer, const std::vector<ParquetColumn>& columns) {
     ThriftWriter root(footer);
@@ -127,23 +92,74 @@ void append_schema(std::string& footer, const std::vector<ParquetColumn>& column
     }
 }
 
-void append_group(std::string& footer, const std::vector<ParquetColumn>& columns, const Group& group) {
+}  // namespace
+
+ParquetWriter::ParquetWriter(std::vector<ParquetColumn> columns, Sink sink)
+    : columns_(std::move(columns)), sink_(std::move(sink)) {
+    write(magic);
+}
+
+void ParquetWriter::write(std::string_view bytes) {
+    sink_(bytes);
+    written_bytes_ += bytes.size();
+}
+
+void ParquetWriter::add(std::vector<QueryValue> row) {
+    rows_.push_back(std::move(row));
+    if (rows_.size() == rows_in_a_group) write_group();
+}
+
+void ParquetWriter::write_group() {
+    if (rows_.empty()) return;
+    Group& group = groups_.emplace_back();
+    group.rows = rows_.size();
+    for (std::size_t k = 0; k < columns_.size(); ++k) group.chunks.push_back(write_chunk(k));
+    written_rows_ += rows_.size();
+    rows_.clear();
+}
+
+// One column of one row group: a page's header and the page.
+ParquetWriter::Chunk ParquetWriter::write_chunk(std::size_t column) {
+    std::string page = definition_levels(rows_, column);
+    for (const auto& row : rows_) {
+        if (!is_null(row[column])) append_value(page, columns_[column], row[column]);
+    }
+    std::string head;
+    ThriftWriter header(head);
+    header.i32(1, data_page);
+    header.i32(2, static_cast<std::int32_t>(page.size()));
+    header.i32(3, static_cast<std::int32_t>(page.size()));
+    header.structure(5);
+    ThriftWriter inner(head);
+    inner.i32(1, static_cast<std::int32_t>(rows_.size()));
+    inner.i32(2, plain);
+    inner.i32(3, rle);
+    inner.i32(4, rle);
+    inner.end();
+    header.end();
+    const std::size_t offset = written_bytes_;
+    write(head);
+    write(page);
+    return {offset, written_bytes_ - offset};
+}
+
+void ParquetWriter::append_group(std::string& footer, const Group& group) const {
     ThriftWriter writer(footer);
-    writer.list(1, ThriftType::structure, columns.size());
+    writer.list(1, ThriftType::structure, columns_.size());
     std::size_t bytes = 0;
-    for (std::size_t k = 0; k < columns.size(); ++k) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
         const Chunk& chunk = group.chunks[k];
         bytes += chunk.bytes;
         ThriftWriter outer(footer);
         outer.i64(2, static_cast<std::int64_t>(chunk.offset));
         outer.structure(3);
         ThriftWriter about(footer);
-        about.i32(1, type_number(columns[k].type));
+        about.i32(1, type_number(columns_[k].type));
         about.list(2, ThriftType::i32, 2);
         about.plain_i32(plain);
         about.plain_i32(rle);
         about.list(3, ThriftType::binary, 1);
-        about.plain_text(columns[k].name);
+        about.plain_text(columns_[k].name);
         about.i32(4, uncompressed);
         about.i64(5, static_cast<std::int64_t>(group.rows));
         about.i64(6, static_cast<std::int64_t>(chunk.bytes));
@@ -157,31 +173,21 @@ void append_group(std::string& footer, const std::vector<ParquetColumn>& columns
     writer.end();
 }
 
-}  // namespace
-
-std::string parquet_file(const std::vector<ParquetColumn>& columns, const Rows& rows) {
-    std::string file = magic;
-    std::vector<Group> groups;
-    for (std::size_t first = 0; first < rows.size(); first += rows_in_a_group) {
-        const std::size_t end = std::min(first + rows_in_a_group, rows.size());
-        Group& group = groups.emplace_back();
-        group.rows = end - first;
-        for (std::size_t k = 0; k < columns.size(); ++k)
-            group.chunks.push_back(append_chunk(file, columns[k], rows, k, first, end));
-    }
+void ParquetWriter::finish() {
+    write_group();
     std::string footer;
     ThriftWriter about(footer);
     about.i32(1, 1);
-    about.list(2, ThriftType::structure, columns.size() + 1);
-    append_schema(footer, columns);
-    about.i64(3, static_cast<std::int64_t>(rows.size()));
-    about.list(4, ThriftType::structure, groups.size());
-    for (const Group& group : groups) append_group(footer, columns, group);
+    about.list(2, ThriftType::structure, columns_.size() + 1);
+    append_schema(footer, columns_);
+    about.i64(3, static_cast<std::int64_t>(written_rows_));
+    about.list(4, ThriftType::structure, groups_.size());
+    for (const Group& group : groups_) append_group(footer, group);
     about.text(6, "capstan");
     about.end();
-    file += footer;
-    append(file, static_cast<std::uint32_t>(footer.size()));
-    return file + magic;
+    append(footer, static_cast<std::uint32_t>(footer.size()));
+    write(footer);
+    write(magic);
 }
 
 }  // namespace capstan::reports

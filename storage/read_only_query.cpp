@@ -4,6 +4,7 @@
 
 #include "capstan/storage/error.h"
 #include "capstan/storage/query_guard.h"
+#include "capstan/storage/visited_rows.h"
 
 namespace capstan::storage {
 namespace {
@@ -95,13 +96,13 @@ std::size_t bytes_of(const std::vector<QueryValue>& row) {
 
 // Prepares the one statement that the text holds.
 GuestStatement prepare(sqlite3* connection, std::string_view sql, const QueryGuard& guard,
-                       const QueryLimits& limits) {
+                       double time_limit_s) {
     const char* const end = sql.data() + sql.size();
     sqlite3_stmt* raw = nullptr;
     const char* tail = end;
     const int code = sqlite3_prepare_v2(connection, sql.data(), static_cast<int>(sql.size()), &raw, &tail);
     GuestStatement statement(raw);
-    if (code != SQLITE_OK) explain(connection, guard, limits.time_limit_s);
+    if (code != SQLITE_OK) explain(connection, guard, time_limit_s);
     if (!statement)
         throw Error("The query is empty. Write one SELECT; `capstan query --schema` shows the tables.");
     if (!only_blanks_follow(connection, tail, end)) {
@@ -122,8 +123,8 @@ void bind_all(sqlite3_stmt* statement, const std::vector<QueryValue>& parameters
 
 }  // namespace
 
-QueryResult run_read_only(Database& database, std::string_view sql, const std::vector<QueryValue>& parameters,
-                          const QueryLimits& limits) {
+void visit_read_only(Database& database, std::string_view sql, const RowVisitor& visitor,
+                     const std::vector<QueryValue>& parameters, double time_limit_s) {
     sqlite3* const connection = database.connection();
     if (!database.is_read_only()) {
         throw Error("The query box needs a database that was opened for reading only: " +
@@ -132,26 +133,40 @@ QueryResult run_read_only(Database& database, std::string_view sql, const std::v
     sqlite3_limit(connection, SQLITE_LIMIT_ATTACHED, 0);
     sqlite3_limit(connection, SQLITE_LIMIT_LENGTH, longest_value_bytes);
 
-    const QueryGuard guard(connection, limits.time_limit_s);
-    const GuestStatement statement = prepare(connection, sql, guard, limits);
+    const QueryGuard guard(connection, time_limit_s);
+    const GuestStatement statement = prepare(connection, sql, guard, time_limit_s);
     bind_all(statement.get(), parameters);
 
-    QueryResult result;
+    std::vector<std::string> names;
     const int columns = sqlite3_column_count(statement.get());
-    for (int i = 0; i < columns; ++i) result.columns.emplace_back(sqlite3_column_name(statement.get(), i));
+    for (int i = 0; i < columns; ++i) names.emplace_back(sqlite3_column_name(statement.get(), i));
+    visitor.begin(names);
+    std::vector<QueryValue> row;
     int code = SQLITE_DONE;
-    std::size_t bytes = 0;
     while ((code = sqlite3_step(statement.get())) == SQLITE_ROW) {
-        if (limits.row_limit && (result.rows.size() == *limits.row_limit || bytes >= most_bytes)) {
-            result.truncated = true;
-            return result;
-        }
-        auto& row = result.rows.emplace_back();
+        row.clear();
         row.reserve(static_cast<std::size_t>(columns));
         for (int i = 0; i < columns; ++i) row.push_back(value_at(statement.get(), i));
-        bytes += bytes_of(row);
+        if (!visitor.visit(row)) return;
     }
-    if (code != SQLITE_DONE) explain(connection, guard, limits.time_limit_s);
+    if (code != SQLITE_DONE) explain(connection, guard, time_limit_s);
+}
+
+QueryResult run_read_only(Database& database, std::string_view sql, const std::vector<QueryValue>& parameters,
+                          const QueryLimits& limits) {
+    QueryResult result;
+    std::size_t bytes = 0;
+    const auto keep = [&](std::vector<QueryValue>& row) {
+        result.truncated =
+            limits.row_limit && (result.rows.size() == *limits.row_limit || bytes >= most_bytes);
+        if (result.truncated) return false;
+        bytes += bytes_of(row);
+        result.rows.push_back(std::move(row));
+        return true;
+    };
+    visit_read_only(database, sql,
+                    {[&](const std::vector<std::string>& columns) { result.columns = columns; }, keep},
+                    parameters, limits.time_limit_s);
     return result;
 }
 

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <sstream>
+#include <utility>
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/nearest_name.h"
-#include "capstan/cli/output.h"
-#include "capstan/cli/text_table.h"
+#include "capstan/cli/row_text.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/cli/whole_file.h"
 #include "capstan/reports/parquet_file.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/schema_documentation.h"
+#include "capstan/storage/visited_rows.h"
 
 namespace capstan::cli {
 
@@ -40,30 +44,83 @@ std::vector<DocumentedTable> chosen_tables(const Invocation& invocation) {
 }
 
 // As declared; a view's computed column says by its values.
-reports::ParquetType type_of(const storage::DocumentedColumn& column, const storage::QueryResult& result,
-                             std::size_t index) {
+reports::ParquetType type_of(storage::Database& database, const DocumentedTable& table,
+                             const storage::DocumentedColumn& column) {
     if (column.type == "INTEGER") return reports::ParquetType::whole;
     if (column.type == "REAL") return reports::ParquetType::real;
     if (column.type == "TEXT") return reports::ParquetType::text;
-    bool whole = !result.rows.empty();
-    for (const auto& row : result.rows) {
-        if (std::holds_alternative<std::string>(row[index])) return reports::ParquetType::text;
-        if (!std::holds_alternative<std::int64_t>(row[index])) whole = false;
-    }
-    return whole ? reports::ParquetType::whole : reports::ParquetType::real;
+    const auto found = storage::run_read_only(
+        database,
+        fmt::format(
+            "SELECT coalesce(max(typeof({0}) = 'text'), 0), coalesce(min(typeof({0}) = 'integer'), 0) FROM {1}",
+            column.name, table.name),
+        {}, patient);
+    const auto holds = [&](std::size_t k) { return std::get<std::int64_t>(found.rows.at(0).at(k)) == 1; };
+    if (holds(0)) return reports::ParquetType::text;
+    return holds(1) ? reports::ParquetType::whole : reports::ParquetType::real;
 }
 
-std::string as_parquet(const DocumentedTable& table, const storage::QueryResult& result) {
+// The rows on their way into a file, in a format.
+struct RowsToFile {
+    storage::RowVisitor visitor;
+    std::function<void()> end;
+};
+
+RowsToFile as_csv_file(WholeFile& file) {
+    return {{[&](const std::vector<std::string>& columns) { file.append(csv_head(columns)); },
+             [&](std::vector<storage::QueryValue>& row) {
+                 file.append(csv_line(row));
+                 return true;
+             }},
+            [] {}};
+}
+
+RowsToFile as_json_file(WholeFile& file) {
+    struct State {
+        std::vector<std::string> columns;
+        bool empty = true;
+    };
+    const auto state = std::make_shared<State>();
+    return {{[state](const std::vector<std::string>& names) { state->columns = names; },
+             [state, &file](std::vector<storage::QueryValue>& row) {
+                 file.append(std::exchange(state->empty, false) ? "[\n" : ",\n");
+                 file.append(json_object(state->columns, row));
+                 return true;
+             }},
+            [state, &file] { file.append(state->empty ? "[]\n" : "\n]\n"); }};
+}
+
+RowsToFile as_parquet_file(WholeFile& file, storage::Database& database, const DocumentedTable& table) {
     std::vector<reports::ParquetColumn> columns;
-    for (std::size_t k = 0; k < table.columns.size(); ++k)
-        columns.push_back({table.columns[k].name, type_of(table.columns[k], result, k)});
-    return reports::parquet_file(columns, result.rows);
+    for (const auto& column : table.columns)
+        columns.push_back({column.name, type_of(database, table, column)});
+    const auto writer = std::make_shared<reports::ParquetWriter>(
+        columns, [&file](std::string_view bytes) { file.append(bytes); });
+    return {{[](const std::vector<std::string>&) {},
+             [writer](std::vector<storage::QueryValue>& row) {
+                 writer->add(row);
+                 return true;
+             }},
+            [writer] { writer->finish(); }};
 }
 
-std::string formatted(const std::string& format, const DocumentedTable& table,
-                      const storage::QueryResult& result) {
-    if (format == "csv") return as_csv(result);
-    return format == "json" ? as_json(result) : as_parquet(table, result);
+// Row by row: a table may be larger than memory. Returns how many there were.
+std::size_t export_table(storage::Database& database, const DocumentedTable& table,
+                         const std::filesystem::path& path, const std::string& format) {
+    WholeFile file(path);
+    const RowsToFile rows = format == "csv"    ? as_csv_file(file)
+                            : format == "json" ? as_json_file(file)
+                                               : as_parquet_file(file, database, table);
+    std::size_t count = 0;
+    const auto counted = [&](std::vector<storage::QueryValue>& row) {
+        ++count;
+        return rows.visitor.visit(row);
+    };
+    storage::visit_read_only(database, "SELECT * FROM " + table.name, {rows.visitor.begin, counted}, {},
+                             patient.time_limit_s);
+    rows.end();
+    file.finish();
+    return count;
 }
 
 ExitCode run(const Invocation& invocation) {
@@ -76,10 +133,9 @@ ExitCode run(const Invocation& invocation) {
     if (problem)
         throw std::runtime_error(fmt::format("cannot make {}: {}", folder.string(), problem.message()));
     for (const DocumentedTable& table : tables) {
-        const auto result = storage::run_read_only(database, "SELECT * FROM " + table.name, {}, patient);
         const std::filesystem::path file = folder / (table.name + "." + format);
-        write_file(file, formatted(format, table, result));
-        fmt::print(stderr, "{}: {} rows\n", file.string(), result.rows.size());
+        const std::size_t rows = export_table(database, table, file, format);
+        fmt::print(stderr, "{}: {} rows\n", file.string(), rows);
     }
     return ExitCode::success;
 }

@@ -9,8 +9,10 @@
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "capstan/cli/usage_error.h"
+#include "capstan/cli/whole_file.h"
 
 namespace capstan::cli {
 
@@ -56,14 +58,7 @@ bool is_special(const std::filesystem::path& path) {
            !std::filesystem::is_directory(path, ignored);
 }
 
-void write_directly(const std::filesystem::path& path, std::string_view text) {
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0) refuse(path.string(), errno);
-    const bool written = write_all(descriptor, text);
-    const int error = errno;
-    ::close(descriptor);
-    if (!written) refuse(path.string(), error);
-}
+constexpr std::size_t piece_bytes = 1 << 20;
 
 }  // namespace
 
@@ -72,28 +67,52 @@ void write_standard_output(std::string_view text) {
     if (!write_all(STDOUT_FILENO, text)) refuse("to standard output", errno);
 }
 
-void write_file(const std::filesystem::path& named, std::string_view text) {
+WholeFile::WholeFile(const std::filesystem::path& named) : named_(named) {
     std::error_code ignored;
     if (std::filesystem::is_directory(named, ignored)) refuse(named.string(), EISDIR);
-    if (is_special(named)) return write_directly(named, text);
-
     // A link keeps pointing where it does: what it names is replaced.
-    const std::filesystem::path path = std::filesystem::is_symlink(named, ignored)
-                                           ? std::filesystem::weakly_canonical(named, ignored)
-                                           : named;
-    const std::string temporary = fmt::format("{}.part-{}", path.string(), ::getpid());
-    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0) refuse(named.string(), errno);
-    bool good = write_all(descriptor, text) && ::fsync(descriptor) == 0;
-    int error = errno;
-    good = ::close(descriptor) == 0 && good;
-    if (good && ::rename(temporary.c_str(), path.c_str()) != 0) {
-        good = false;
-        error = errno;
+    path_ = std::filesystem::is_symlink(named, ignored) ? std::filesystem::weakly_canonical(named, ignored)
+                                                        : named;
+    if (is_special(named)) {
+        descriptor_ = ::open(named.c_str(), O_WRONLY | O_CLOEXEC);
+    } else {
+        temporary_ = fmt::format("{}.part-{}", path_.string(), ::getpid());
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }
-    if (good) return;
-    ::unlink(temporary.c_str());
-    refuse(named.string(), error);
+    if (descriptor_ < 0) {
+        temporary_.clear();
+        refuse(named.string(), errno);
+    }
+}
+
+WholeFile::~WholeFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void WholeFile::write_pieces() {
+    if (!write_all(descriptor_, pieces_)) refuse(named_.string(), errno);
+    pieces_.clear();
+}
+
+void WholeFile::append(std::string_view text) {
+    pieces_ += text;
+    if (pieces_.size() >= piece_bytes) write_pieces();
+}
+
+void WholeFile::finish() {
+    write_pieces();
+    const bool renamed = !temporary_.empty();
+    if (renamed && ::fsync(descriptor_) != 0) refuse(named_.string(), errno);
+    if (::close(std::exchange(descriptor_, -1)) != 0) refuse(named_.string(), errno);
+    if (renamed && ::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(named_.string(), errno);
+    temporary_.clear();
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+    WholeFile file(path);
+    file.append(text);
+    file.finish();
 }
 
 void deliver(const Invocation& invocation, std::string_view text) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cli/json_text.h"
+#include "capstan/cli/row_text.h"
 #include "capstan/cli/wrapped_text.h"
 
 namespace capstan::cli {
@@ -87,28 +88,44 @@ std::string as_table(const QueryResult& result) {
     return without_trailing_blanks(std::move(head)) + without_trailing_blanks(std::move(rule)) + body;
 }
 
-std::string as_csv(const QueryResult& result) {
+std::string csv_head(const std::vector<std::string>& columns) {
     std::string text;
-    for (std::size_t c = 0; c < result.columns.size(); ++c)
-        text += (c == 0 ? "" : ",") + ForCsv{}(result.columns[c]);
-    text += "\n";
-    for (const auto& row : result.rows) {
-        for (std::size_t c = 0; c < row.size(); ++c)
-            text += (c == 0 ? "" : ",") + std::visit(ForCsv{}, row[c]);
-        text += "\n";
-    }
+    for (std::size_t c = 0; c < columns.size(); ++c) text += (c == 0 ? "" : ",") + ForCsv{}(columns[c]);
+    return text + "\n";
+}
+
+std::string csv_line(const std::vector<storage::QueryValue>& row) {
+    std::string text;
+    for (std::size_t c = 0; c < row.size(); ++c) text += (c == 0 ? "" : ",") + std::visit(ForCsv{}, row[c]);
+    return text + "\n";
+}
+
+std::string as_csv(const QueryResult& result) {
+    std::string text = csv_head(result.columns);
+    for (const auto& row : result.rows) text += csv_line(row);
     return text;
 }
 
-std::string as_json(const QueryResult& result) {
-    auto rows = nlohmann::ordered_json::array();
-    for (const auto& row : result.rows) {
-        auto object = nlohmann::ordered_json::object();
-        for (std::size_t c = 0; c < row.size(); ++c)
-            object[result.columns[c]] = std::visit(ForJson{}, row[c]);
-        rows.push_back(std::move(object));
+std::string json_object(const std::vector<std::string>& columns,
+                        const std::vector<storage::QueryValue>& row) {
+    auto object = nlohmann::ordered_json::object();
+    for (std::size_t c = 0; c < row.size(); ++c) object[columns[c]] = std::visit(ForJson{}, row[c]);
+    std::string text = json_text(object);
+    text.pop_back();  // its line break
+    std::string indented = "  ";
+    for (const char letter : text) {
+        indented += letter;
+        if (letter == '\n') indented += "  ";
     }
-    return json_text(rows);
+    return indented;
+}
+
+std::string as_json(const QueryResult& result) {
+    if (result.rows.empty()) return "[]\n";
+    std::string text = "[";
+    for (const auto& row : result.rows)
+        text += (text.size() == 1 ? "\n" : ",\n") + json_object(result.columns, row);
+    return text + "\n]\n";
 }
 
 }  // namespace capstan::cli
