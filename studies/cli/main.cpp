@@ -1,5 +1,30 @@
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include "capstan/cli/exit_code.h"
 #include "capstan/cli/program.h"
 
+namespace {
+
+// Where memory ends in a place that no handler reaches, as between two threads, there is still something to
+// say.
+[[noreturn]] void end_in_words() {
+    try {
+        if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
+    } catch (const std::bad_alloc&) {
+        std::fputs("capstan: out of memory\n", stderr);
+        std::_Exit(static_cast<int>(capstan::cli::ExitCode::failure));
+    } catch (...) {
+        std::abort();
+    }
+    std::abort();
+}
+
+}  // namespace
+
 int main(int argument_count, char** arguments) {
+    std::set_terminate(end_in_words);
     return static_cast<int>(capstan::cli::run_program({arguments + 1, arguments + argument_count}));
 }

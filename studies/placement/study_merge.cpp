@@ -8,6 +8,7 @@
 #include "capstan/placement/study_conclusion.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
+#include "capstan/storage/write_ahead_log.h"
 
 namespace capstan {
 
@@ -206,6 +207,7 @@ RunEnd merge_shards(const fs::path& merged, const std::vector<fs::path>& paths, 
     try {
         Database database = Database::open_or_create(unfinished);
         end = write_merged(shards, database, options);
+        if (end == RunEnd::complete) storage::fold_write_ahead_log(database);
     } catch (...) {
         remove_database(unfinished);
         throw;
