@@ -27,7 +27,10 @@ double noise_of(const Recording& recording, std::size_t channel) {
 Recording with_estimated_noise(Recording recording) {
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         Channel& described = recording.channels[channel];
-        if (!described.noise_std) described.noise_std = noise_of(recording, channel);
+        if (described.noise_std) continue;
+        // Second differences of a rounded channel are steps: what they explain is no noise beside them.
+        const double found = noise_of(recording, channel);
+        described.noise_std = found > described.step.value_or(0.0) ? found : 0.0;
     }
     return recording;
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/gap/estimated_noise.h"
 #include "capstan/gap/json_file.h"
 #include "capstan/gap/recording_reader.h"
 #include "capstan/gap_trial/recording_files.h"
@@ -83,7 +84,8 @@ void answer_trial(const TrialFolder& folder, const TrialOptions& options, const 
         [&](const std::string& name) {
             gap::DiagnosisOptions one_thread;
             one_thread.threads = 1;
-            const gap::Recording recording = gap::read_recording(folder.recording(name));
+            const gap::Recording recording =
+                gap::with_estimated_noise(gap::read_recording(folder.recording(name)));  // as the command does
             write_answer(folder.answer(name), answer_of(name, gap::diagnose(recording, one_thread)), seal);
         });
 }

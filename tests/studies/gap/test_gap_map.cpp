@@ -77,6 +77,19 @@ TEST(EstimatedNoise, IsThatOfTheSamples) {
     EXPECT_NEAR(*with_estimated_noise(recording).channels[channel].noise_std, 0.03, 0.002);
 }
 
+TEST(EstimatedNoise, IsNoneBesideAStepThatExplainsIt) {
+    Recording recording = driven_session();
+    const auto channel = static_cast<std::size_t>(*recording.channel("motor_angle"));
+    recording.channels[channel].noise_std.reset();
+    recording.channels[channel].step = 0.01;
+    for (RecordedRun& run : recording.runs) {
+        run.values[channel].clear();
+        for (const double time_s : run.time_s)
+            run.values[channel].push_back(0.01 * std::round(std::sin(time_s) / 0.01));
+    }
+    EXPECT_EQ(*with_estimated_noise(recording).channels[channel].noise_std, 0.0);
+}
+
 TEST(UnstatedStep, ShowsWhereValuesLieOnALattice) {
     Recording recording = driven_session();
     const auto channel = static_cast<std::size_t>(*recording.channel("load_torque"));
