@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <sstream>
 
+#include "capstan/cli/answer_format.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/config_truth.h"
@@ -78,17 +78,6 @@ void store(const Invocation& invocation, const gap::Recording& recording, const 
         fmt::print(stderr, "Stored as diagnosis {} in {}.\n", id, invocation.text("db"));
 }
 
-// As asked for, else as the file's name ends, else words.
-std::string format_of(const Invocation& invocation) {
-    if (invocation.has("json")) return "json";
-    if (invocation.has("format")) return invocation.text("format");
-    const std::string ending = std::filesystem::path(invocation.text("output")).extension().string();
-    for (const char* known : {"md", "csv", "json"}) {
-        if (ending == std::string(".") + known) return known;
-    }
-    return "words";
-}
-
 std::string answer_in(const std::string& format, const gap::Recording& recording,
                       const Diagnosis& diagnosis) {
     if (format == "json") return json_text(in_json(recording, diagnosis));
@@ -121,7 +110,7 @@ ExitCode run(const Invocation& invocation) {
     if (invocation.has("corrected"))
         write_file(invocation.text("corrected"),
                    corrected_model_text(recording, diagnosis, verdict_sentence(diagnosis)));
-    deliver(invocation, answer_in(format_of(invocation), recording, diagnosis));
+    deliver(invocation, answer_in(answer_format(invocation, "words"), recording, diagnosis));
     return ExitCode::success;
 }
 

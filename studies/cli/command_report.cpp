@@ -3,8 +3,8 @@
 
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 
+#include "capstan/cli/answer_format.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/json_text.h"
@@ -20,17 +20,6 @@
 namespace capstan::cli {
 
 namespace {
-
-// As asked for, else as the file's name ends, else HTML.
-std::string format_of(const Invocation& invocation) {
-    if (invocation.has("json")) return "json";
-    if (invocation.has("format")) return invocation.text("format");
-    const std::string ending = std::filesystem::path(invocation.text("output")).extension().string();
-    for (const char* known : {"md", "csv", "json"}) {
-        if (ending == std::string(".") + known) return known;
-    }
-    return "html";
-}
 
 std::string report_of(storage::Database& database, std::int64_t id, const std::string& format) {
     if (format == "md") return reports::study_report_markdown(database, id);
@@ -79,7 +68,7 @@ std::string chosen_report(const Invocation& invocation, storage::Database& datab
 }
 
 ExitCode run(const Invocation& invocation) {
-    const std::string format = format_of(invocation);
+    const std::string format = answer_format(invocation, "html");
     const std::string& file = invocation.text("output");
     if (invocation.has("diagnosis") && invocation.has("compare"))
         throw UsageError(
