@@ -15,3 +15,4 @@ if ! cmp -s "$here/package-lock.json" "$work/installed-lock.json"; then
     npm --prefix "$work" ci --ignore-scripts --loglevel=error
     cp "$here/package-lock.json" "$work/installed-lock.json"
 fi
+cp "$here/checks.mjs" "$work/"

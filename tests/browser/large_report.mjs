@@ -5,21 +5,11 @@ import { mkdirSync, mkdtempSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { check, finish, launch } from "./checks.mjs";
 
 const [folder, cells, file] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
-const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-  "--disable-component-update", "--disable-sync"];
-
-let checks = 0, failures = 0;
-function check(holds, fact) {
-  ++checks;
-  if (holds) return;
-  ++failures;
-  console.error("FAILED: " + fact);
-}
 
 // Notes, at the moment when the page says that it can be read, which figures are drawn and which are in view.
 function watch() {
@@ -58,7 +48,7 @@ async function open(browser, { jump }) {
 
 let browser;
 try {
-  browser = await chromium.launchPersistentContext(profile, { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags });
+  browser = await launch(profile);
   check(Number(cells) >= 100000, `the study has 100,000 cells: ${cells}`);
   const times_ms = [];
   for (let turn = 0; turn < 5; ++turn) {
@@ -84,5 +74,4 @@ try {
   await browser?.close();
   rmSync(profile, { recursive: true, force: true });
 }
-console.log(`${checks - failures} passed, ${failures} failed`);
-process.exit(failures === 0 ? 0 : 1);
+finish();

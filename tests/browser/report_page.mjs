@@ -4,25 +4,15 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs"
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { check, finish, launch } from "./checks.mjs";
 
 const [folder, ...pages] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
-const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-  "--disable-component-update", "--disable-sync"];
 const largest_page_bytes = 3e6;
 const all_views = [{ width: 1280, dark: false }, { width: 1280, dark: true }, { width: 700, dark: false }];
 const few_views = [{ width: 1280, dark: false }, { width: 700, dark: true }];
 const views = process.env.FEW_VIEWS ? few_views : all_views;
-
-let checks = 0, failures = 0;
-function check(holds, fact) {
-  ++checks;
-  if (holds) return;
-  ++failures;
-  console.error("FAILED: " + fact);
-}
 
 async function open(browser, file, { width, dark }) {
   const page = await browser.newPage();
@@ -216,7 +206,7 @@ async function useThePage(page, name) {
 
 let browser;
 try {
-  browser = await chromium.launchPersistentContext(profile, { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags });
+  browser = await launch(profile);
   for (const file of pages) {
     check(statSync(file).size < largest_page_bytes, `${file}: is below 3 MB`);
     for (const view of views) {
@@ -229,5 +219,4 @@ try {
   await browser?.close();
   rmSync(profile, { recursive: true, force: true });
 }
-console.log(`${checks - failures} passed, ${failures} failed`);
-process.exit(failures === 0 ? 0 : 1);
+finish();

@@ -3,22 +3,12 @@
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { chromium } from "playwright-core";
+import { check, finish, launch } from "./checks.mjs";
 
 const [folder, address, log, sidecar] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
-const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-  "--disable-component-update", "--disable-sync"];
 const patience = { timeout: 240000 };  // for work that a busy machine may take long for
-
-let checks = 0, failures = 0;
-function check(holds, fact) {
-  ++checks;
-  if (holds) return;
-  ++failures;
-  console.error("FAILED: " + fact);
-}
 
 const requests = [], complaints = [];
 async function open(browser, path) {
@@ -141,7 +131,7 @@ async function diagnose(page) {
 
 let browser;
 try {
-  browser = await chromium.launchPersistentContext(profile, { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags });
+  browser = await launch(profile);
   const front = await open(browser, "/");
   await front.waitForSelector("html[data-ready=yes]");
   const silent = complaints.length;
@@ -177,5 +167,4 @@ try {
   await browser?.close();
   rmSync(profile, { recursive: true, force: true });
 }
-console.log(`${checks - failures} passed, ${failures} failed`);
-process.exit(failures === 0 ? 0 : 1);
+finish();

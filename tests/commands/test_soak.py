@@ -11,49 +11,16 @@ import time
 import unittest
 
 from capstan_service import ServiceTest
+from small_study import SMALL_STUDY
 
 SECONDS = float(os.environ.get("CAPSTAN_SOAK_SECONDS", "20"))
 SHARE = float(os.environ.get("CAPSTAN_SOAK_SHARE", "1"))
 TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 KEPT_STUDIES = 12  # so that the database, and with it the work that a question asks for, does not grow
 
-STUDY = """
-name = "soak {number}"
-repetitions = 20
-seed = {number}
-
-[transmission]
-segments = 6
-axial_stiffness_N = 2000
-dynamic_friction = 0.2
-static_friction = 0.3
-pretension_N = 10
-
-[[transmission.curvature]]
-length_m = 0.7
-bend_radius_m = 0.2
-
-[motion]
-sample_rate_Hz = 100
-samples = 100
-
-[motion.proximal]
-amplitude_m = 0.003
-frequency_Hz = 1
-
-[[regime]]
-name = "mass"
-samples = [15, 45]
-duty_share = 1
-
-[[noise]]
-label = "5 %"
-multiplicative_ratio = 0.05
-
-[layouts]
-families = "all"
-counts = [1, 2, 3]
-"""
+STUDY = (SMALL_STUDY.replace('name = "small"', 'name = "soak {seed}"')
+         .replace("samples = [15, 18, 21, 39, 42, 45]", "samples = [15, 45]")
+         .replace('[[noise]]\nlabel = "0.2 N"\nadditive_N = 0.2\n\n', ""))
 
 
 def quarters(values):
@@ -105,7 +72,7 @@ class Soak(ServiceTest):
         self.timed("GET", "/api/studies")
 
     def one_round(self, number):
-        toml = STUDY.format(number=number)
+        toml = STUDY.format(seed=number)
         job = self.post("/api/studies", {"config_toml": toml}, expect=202)[0]["job"]
         study_id = self.await_job(job, "done")["study_id"]
         before = self.processor_s()

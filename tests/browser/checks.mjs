@@ -1,0 +1,24 @@
+// What all browser tests share: a Chromium that asks nothing of the network, and facts that are counted.
+import { chromium } from "playwright-core";
+
+const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync"];
+
+export function launch(profile) {
+  return chromium.launchPersistentContext(profile,
+    { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags });
+}
+
+let checks = 0, failures = 0;
+export function check(holds, fact) {
+  ++checks;
+  if (holds) return;
+  ++failures;
+  console.error("FAILED: " + fact);
+}
+
+// Tells how many facts held, and ends the program with it.
+export function finish() {
+  console.log(`${checks - failures} passed, ${failures} failed`);
+  process.exit(failures === 0 ? 0 : 1);
+}
