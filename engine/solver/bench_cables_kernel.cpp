@@ -58,7 +58,7 @@ HWY_INLINE InnerEnd inner_end(const Laws& laws, const NodeGuess& node, const Seg
     const Lanes pressing_N = hn::Max(lanes_of(0.0), segment.tension_N);
     const Lanes q = way * hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), node.friction * node.bend);
     const Lanes grown = (one + q) / (one - q);
-    const Lanes rigid_N = laws.rigid_N_per_m * span;
+    const Lanes rigid_N = hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), laws.rigid_N_per_m * span);
     const Lanes viscous_N_per_m = laws.viscous_N_per_m2 * span;
     const Lanes by_bend_N = lanes_of(2.0) * node.friction * pressing_N / ((one - q) * (one - q)) + rigid_N;
     const Lanes stiffness = segment.per_m * grown;
@@ -95,7 +95,7 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
         store(by_motor[c], cable.by_motor[0], lane);
     }
 
-    const Lanes rigid_N = laws.rigid_N_per_m * lanes_of(group.segment_m);
+    const Lanes full_rigid_N = laws.rigid_N_per_m * lanes_of(group.segment_m);
     const Lanes viscous_N_per_m = laws.viscous_N_per_m2 * lanes_of(group.segment_m);
     for (int node = 1; node < last; ++node) {
         for (int c = 0; c < cables; ++c) {
@@ -104,7 +104,9 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
             const NodeGuess here = node_guess(cable, laws, node, lane);
             // A slack stretch presses on nothing.
             const Lanes sum_N = hn::Max(zero, before[c].tension_N + behind.tension_N);
-            const Lanes q = hn::IfThenElseZero(hn::Gt(sum_N, zero), here.friction * here.bend);
+            const Which pressed = hn::Gt(sum_N, zero);
+            const Lanes q = hn::IfThenElseZero(pressed, here.friction * here.bend);
+            const Lanes rigid_N = hn::IfThenElseZero(pressed, full_rigid_N);
             const Lanes out_of_balance_N = behind.tension_N - before[c].tension_N - q * sum_N -
                                            rigid_N * here.bend - viscous_N_per_m * here.slid_m;
             const Lanes lower = before[c].per_m * (one + q);
@@ -214,6 +216,9 @@ void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& 
     }
 }
 
+// No node goes further in one iteration: one between slack segments might go anywhere.
+constexpr double farthest_m = 0.05;
+
 LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
                 const LaneValues& share_values) {
     LaneValues largest;
@@ -230,7 +235,9 @@ LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const Lan
                 if (group.motor_turns) move_m = move_m + motor * load(cable.by_motor[node], lane);
                 if (group.load_turns) move_m = move_m + turned * load(cable.by_load[node], lane);
                 const Lanes here = load(cable.displacement_m[node], lane);
-                store(hn::IfThenElse(moves, here + share * move_m, here), cable.displacement_m[node], lane);
+                const Lanes step_m =
+                    hn::Min(hn::Max(share * move_m, lanes_of(-farthest_m)), lanes_of(farthest_m));
+                store(hn::IfThenElse(moves, here + step_m, here), cable.displacement_m[node], lane);
                 // A move that is no number is the largest.
                 const Lanes size = hn::Abs(move_m);
                 most = hn::IfThenElse(hn::Le(size, most), most, size);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
@@ -168,38 +169,63 @@ void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, Lane
     }
 }
 
-// Where contact opens and closes Newton's method can go to and fro. The torque left on the load pulley falls
-// as it turns, so its angle is bracketed and the bracket closed (Illinois), all else solved for each.
-void BenchSimulations::bracket_load(const BenchInputs& inputs, const Free& free, int lane, EachAngles& angles,
-                                    EachReport& reports) {
-    constexpr double first_width_rad = 0.005;
+// One bench alone, its pulleys beginning there.
+void BenchSimulations::solve(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from,
+                             EachAngles& angles, EachReport& reports) {
+    LaneFlags only;
+    only.of[lane] = true;
+    begin(inputs, only);
+    angles[static_cast<std::size_t>(lane)] = from;
+    iterate(inputs, free, only, angles, reports);
+    if (!reports[static_cast<std::size_t>(lane)].converged)
+        bracket(inputs, free, lane, from, angles, reports);
+}
+
+// Where contact opens and closes, or a cable falls slack, Newton's method can go to and fro. The torque left
+// on a free pulley falls as it turns, so its angle is bracketed and the bracket closed (Illinois), all else
+// solved for each: the load pulley's first, the motor's within.
+void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from,
+                               EachAngles& angles, EachReport& reports) {
+    constexpr double first_load_width_rad = 0.005;
     constexpr double angle_tolerance_rad = 1e-9;
     constexpr double balanced_Nm = 1e-7;
     constexpr int most_trials = 60;
     const auto bench = static_cast<std::size_t>(lane);
+    const bool of_load = free.load.of[lane];
+    if (!of_load && !free.motor.of[lane]) return;
     LaneFlags only;
     only.of[lane] = true;
     Free held = free;
-    held.load.of[lane] = false;
-    const auto torque_left = [&](double load_rad) {
-        begin(inputs, only);
-        angles[bench] = {pulleys_[bench].start(inputs).motor_rad, load_rad};
-        iterate(inputs, held, only, angles, reports);
+    (of_load ? held.load : held.motor).of[lane] = false;
+    double best_rad = 0.0;
+    double least_left_Nm = std::numeric_limits<double>::infinity();
+    const auto torque_left = [&](double angle_rad) {
+        (of_load ? from.load_rad : from.motor_rad) = angle_rad;
+        solve(inputs, held, lane, from, angles, reports);
         const Pull pull = linearise(only, angles, inputs.session_time_s);
-        return radii_.load_radius_m * pull.load.value_N.of[lane] +
-               pulleys_[bench].load_balance(inputs, load_rad).value_Nm;
+        const double left_Nm = of_load ? radii_.load_radius_m * pull.load.value_N.of[lane] +
+                                             pulleys_[bench].load_balance(inputs, angle_rad).value_Nm
+                                       : -radii_.motor_radius_m * pull.motor.value_N.of[lane] -
+                                             pulleys_[bench].motor_balance(inputs, angle_rad).value_Nm;
+        if (std::abs(left_Nm) < least_left_Nm) {
+            least_left_Nm = std::abs(left_Nm);
+            best_rad = angle_rad;
+        }
+        return left_Nm;
     };
-    reports[bench].converged = false;
-    double low = pulleys_[bench].angles().load_rad;
+    const auto give_up = [&] {
+        torque_left(best_rad);
+        reports[bench].converged = false;
+    };
+    const double first_width_rad =
+        of_load ? first_load_width_rad : first_load_width_rad * radii_.load_radius_m / radii_.motor_radius_m;
+    double low = of_load ? pulleys_[bench].angles().load_rad : pulleys_[bench].angles().motor_rad;
     double at_low = torque_left(low);
     double width = at_low > 0.0 ? first_width_rad : -first_width_rad;
     double high = low + width;
     double at_high = torque_left(high);
     for (int trial = 0; at_low * at_high > 0.0; ++trial) {
-        if (trial == most_trials || !std::isfinite(at_high)) {
-            reports[bench].converged = false;
-            return;
-        }
+        if (trial == most_trials || !std::isfinite(at_high)) return give_up();
         low = high;
         at_low = at_high;
         width *= 1.6;
@@ -221,7 +247,7 @@ void BenchSimulations::bracket_load(const BenchInputs& inputs, const Free& free,
         high = middle;
         at_high = at_middle;
     }
-    reports[bench].converged = false;
+    give_up();
 }
 
 std::array<BenchReport, bench_lanes> BenchSimulations::advance(const BenchInputs& inputs) {
@@ -240,8 +266,9 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(const BenchInputs
     begin(inputs, all);
     iterate(inputs, free, all, angles, reports);
     for (int lane = 0; lane < count_; ++lane) {
-        if (!reports[static_cast<std::size_t>(lane)].converged && free.load.of[lane])
-            bracket_load(inputs, free, lane, angles, reports);
+        const auto bench = static_cast<std::size_t>(lane);
+        if (!reports[bench].converged)
+            bracket(inputs, free, lane, pulleys_[bench].start(inputs), angles, reports);
     }
     cables_.store();
     for (int lane = 0; lane < count_; ++lane) {

@@ -64,8 +64,10 @@ class BenchSimulations {
     Pull linearise(const LaneFlags& active, const EachAngles& angles, double session_time_s);
     void iterate(const BenchInputs& inputs, const Free& free, LaneFlags active, EachAngles& angles,
                  EachReport& reports);
-    void bracket_load(const BenchInputs& inputs, const Free& free, int lane, EachAngles& angles,
-                      EachReport& reports);
+    void solve(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from, EachAngles& angles,
+               EachReport& reports);
+    void bracket(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from, EachAngles& angles,
+                 EachReport& reports);
 
     int count_;
     Pulleys radii_;

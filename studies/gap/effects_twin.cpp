@@ -17,7 +17,7 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
     const NominalBench& bench = *recording.nominal;
     CableSpecification cable;
     cable.curvature = bench.curvature;
-    cable.segments = segments;
+    cable.segments = recording.mode == BenchMode::single_cable ? 2 * segments : segments;
     cable.axial_stiffness_N = numbers.stiffness_ratio * bench.axial_stiffness_N;
     cable.dynamic_friction = cable.static_friction = numbers.friction_ratio * bench.dynamic_friction;
     cable.pretension_N = numbers.pretension_ratio * *run.pretension_N;

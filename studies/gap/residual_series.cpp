@@ -9,12 +9,12 @@ namespace {
 
 // Where the quasi-static model itself ends, for a channel that varies by `spread` in a run: ringing after
 // motion has run through, breakaway, the discretisation. Measured on recordings without a gap: about 1% of a
-// torque or tension, and of a motor angle 2% where it only stretches the cables, less where it turns with the
-// load.
-double model_floor(const std::string& channel, double spread) {
+// torque or tension, 2% of what arrives at a load end that is held, and of a motor angle 2% where it only
+// stretches the cables, less where it turns with the load.
+double model_floor(const std::string& channel, bool load_is_held, double spread) {
     constexpr double turning_rad = 0.13;
     if (channel == "motor_angle") return 0.02 * spread / (1.0 + spread / turning_rad);
-    return 0.012 * spread;
+    return (channel == "load_torque" && load_is_held ? 0.02 : 0.012) * spread;
 }
 
 double standard_deviation(const std::vector<double>& values) {
@@ -57,8 +57,8 @@ std::vector<ResidualSeries> residual_series(const Recording& recording, const Ef
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
             if (nominal.values[channel].empty()) continue;
             const Channel& described = recording.channels[channel];
-            const double floor =
-                model_floor(described.name, standard_deviation(recording.runs[run].values[channel]));
+            const double floor = model_floor(described.name, recording.runs[run].output != OutputKind::handle,
+                                             standard_deviation(recording.runs[run].values[channel]));
             const double scale = std::hypot(sample_noise(described), floor);
             const int first = end_of_first_loading(recording, recording.runs[run]) / twin.stride();
             const std::size_t rows = nominal.values[channel].size() - static_cast<std::size_t>(first);

@@ -170,6 +170,37 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(effect_catalo
                              return name;
                          });
 
+// A tight conduit and a stiff cable: the one that is let go falls slack, and comes back.
+TEST(BenchSimulation, FollowsACableThatFallsSlack) {
+    CableSpecification specification;
+    specification.curvature = {{2.0, 0.28}};
+    specification.axial_stiffness_N = 4000.0;
+    specification.dynamic_friction = specification.static_friction = 0.21;
+    specification.pretension_N = 10.0;
+    BenchEffects effects;
+    effects.bending_stiffness.drag_N_per_m = 0.2;
+    std::vector<double> load_torque_Nm[2];
+    double least_N = 1e3;
+    for (const int refinement : {0, 1}) {
+        specification.segments = refinement == 0 ? 40 : 80;
+        BenchSimulation bench({Cable(specification), true, pulleys, {}}, effects);
+        for (int step = 1; step <= 1600; ++step) {
+            const double time_s = step * time_step_s;
+            const double turns = 2.0 * std::numbers::pi * time_s;
+            const double angle =
+                0.35 * std::sin(0.4 * turns) * std::min(1.0, time_s) + 0.02 * std::sin(2.3 * turns);
+            const BenchInputs inputs{MotorTorque{-0.6 * angle}, LoadAngle{angle}, time_step_s, time_s};
+            ASSERT_TRUE(bench.advance(inputs).converged) << "step " << step;
+            load_torque_Nm[refinement].push_back(bench.load_torque_Nm());
+            for (const int cable : {0, 1}) least_N = std::min(least_N, bench.load_tension_N(cable));
+        }
+    }
+    EXPECT_LT(std::abs(least_N), effects.bending_stiffness.drag_N_per_m * 2.0 / 40);  // of a segment
+    double largest_Nm = 0.0;
+    for (const double torque_Nm : load_torque_Nm[1]) largest_Nm = std::max(largest_Nm, std::abs(torque_Nm));
+    EXPECT_LT(rms_difference(load_torque_Nm[0], load_torque_Nm[1]), 0.02 * largest_Nm);
+}
+
 TEST(BenchSimulation, RefusesInputsThatMoveNothingDefinite) {
     BenchSimulation bench({cable_with(10), true, pulleys, {}}, {});
     EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadTorque{0.1}, time_step_s, 0.0}), InvalidInput);
