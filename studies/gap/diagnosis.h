@@ -1,26 +1,17 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "capstan/gap/candidate_cause.h"
-#include "capstan/gap/evidence.h"
+#include "capstan/gap/cause_search.h"
 #include "capstan/gap/gap_measure.h"
 #include "capstan/gap/next_experiment.h"
 #include "capstan/gap/recording.h"
 
 namespace capstan::gap {
 
-struct DiagnosisOptions {
-    int segments = 40;  ///< of a cable while causes are sought
-    int stride = 1;     ///< every how manieth sample a step goes to meanwhile
-    int threads = 0;    ///< 0: as many as the machine has
-    /// Told what is going on, and how much of the work is done.
-    std::function<void(const std::string& doing, double share_done)> on_progress = [](const std::string&,
-                                                                                      double) {};
-};
+using DiagnosisOptions = CauseSearchOptions;
 
 struct FittedNumber {
     std::string name;

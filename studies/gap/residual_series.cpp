@@ -57,7 +57,7 @@ std::vector<ResidualSeries> residual_series(const Recording& recording, const Ef
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
             if (nominal.values[channel].empty()) continue;
             const Channel& described = recording.channels[channel];
-            const double floor = model_floor(described.name, recording.runs[run].output != OutputKind::handle,
+            const double floor = model_floor(described.name, recording.runs[run].output == OutputKind::locked,
                                              standard_deviation(recording.runs[run].values[channel]));
             const double scale = std::hypot(sample_noise(described), floor);
             const int first = end_of_first_loading(recording, recording.runs[run]) / twin.stride();
