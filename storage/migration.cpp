@@ -3,6 +3,7 @@
 #include "capstan/storage/error.h"
 #include "capstan/storage/file_identity.h"
 #include "capstan/storage/migration_to_3.h"
+#include "capstan/storage/migration_to_4.h"
 #include "capstan/storage/statement.h"
 #include "capstan/storage/transaction.h"
 
@@ -51,6 +52,7 @@ std::span<const Migration> migrations() {
          "CREATE TABLE shard (shard INTEGER PRIMARY KEY CHECK (shard > 0), "
          "shards INTEGER NOT NULL CHECK (shards >= shard)) STRICT;"},
         {2, migration_to_3},
+        {3, migration_to_4},
     };
     return steps;
 }

@@ -1,4 +1,4 @@
--- The results database of capstan, version 3. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 4. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a share or a ratio has no unit and says so in its
 -- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
@@ -202,8 +202,8 @@ CREATE TABLE cell (
 CREATE TABLE cell_node (
     cell_id          INTEGER NOT NULL REFERENCES cell ON DELETE CASCADE,  -- its cell
     node             INTEGER NOT NULL CHECK (node > 0),  -- from 1
-    mean_abs_error_N REAL    NOT NULL,
-    bias_N           REAL    NOT NULL,
+    mean_abs_error_N REAL    NOT NULL,             -- over repetitions
+    bias_N           REAL    NOT NULL,             -- mean of estimate - truth
     PRIMARY KEY (cell_id, node)
 ) STRICT, WITHOUT ROWID;
 
@@ -223,6 +223,39 @@ CREATE TABLE known_direction_bound (
     sensor_set_id    INTEGER NOT NULL REFERENCES sensor_set ON DELETE CASCADE,  -- its sensors
     mean_abs_error_N REAL    NOT NULL,             -- smallest an unbiased estimate can have, over nodes
     PRIMARY KEY (scenario_id, noise_level_id, sensor_set_id)
+) STRICT, WITHOUT ROWID;
+
+-- The error by layout and count of a complete study, as v_error_by_layout has it: worked out once, when the study is
+-- completed, since such a study does not change. So a question is answered at once among ten million cells.
+CREATE TABLE layout_error (
+    study_id           INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    regime             TEXT    NOT NULL,           -- of the instants
+    noise_level_id     INTEGER NOT NULL,           -- its noise level
+    family             TEXT    NOT NULL,           -- of the layouts, as in layout
+    sensor_count       INTEGER NOT NULL,           -- how many nodes carry one
+    method             TEXT    NOT NULL,           -- how the readings are fused
+    instants           INTEGER NOT NULL,           -- scenarios that are averaged
+    mean_abs_error_N   REAL    NOT NULL,           -- over instants and variants of the layout
+    standard_error_N   REAL    NOT NULL,           -- of mean_abs_error_N
+    rms_error_N        REAL    NOT NULL,           -- root of the mean square error
+    bias_N             REAL    NOT NULL,           -- mean of estimate - truth
+    worst_node_error_N REAL    NOT NULL,           -- the largest of any instant
+    unverified_share   REAL    NOT NULL,           -- of the single-sensor estimates that were fused
+    ambiguous_share    REAL    NOT NULL,           -- likewise
+    best               INTEGER NOT NULL CHECK (best IN (0, 1)),  -- 1: of its layouts, the method of v_best_method
+    PRIMARY KEY (study_id, regime, noise_level_id, family, sensor_count, method)
+) STRICT, WITHOUT ROWID;
+
+-- e_ij of a complete study, as v_single_sensor_matrix has it: kept likewise.
+CREATE TABLE sensor_matrix (
+    study_id         INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    regime           TEXT    NOT NULL,             -- of the instants
+    noise_level_id   INTEGER NOT NULL,             -- its noise level
+    knowledge        TEXT    NOT NULL,             -- whether the direction of motion is known
+    sensor_node      INTEGER NOT NULL,             -- i, where the sensor is
+    node             INTEGER NOT NULL,             -- j, where the error is
+    mean_abs_error_N REAL    NOT NULL,             -- e_ij
+    PRIMARY KEY (study_id, regime, noise_level_id, knowledge, sensor_node, node)
 ) STRICT, WITHOUT ROWID;
 
 -- What to do. One row per noise level and scope.
@@ -384,9 +417,45 @@ CREATE TABLE diagnosis_gap (
 CREATE INDEX scenario_of_study ON scenario (study_id, regime);
 CREATE INDEX layout_of_set ON layout (sensor_set_id);
 CREATE INDEX cell_of_set ON cell (sensor_set_id);
+CREATE INDEX best_layout_error ON layout_error (study_id, regime, noise_level_id, family, sensor_count, method,
+                                                mean_abs_error_N, standard_error_N) WHERE best = 1;
 
--- Error by layout and count: averaged over the instants of a regime and, for Even, over both starts.
--- Instants are drawn independently; the two starts share draws, so their standard errors are averaged, not reduced.
+-- What layout_error will hold of the studies that still run: averaged over the instants of a regime and, for Even, over
+-- both starts. Instants are drawn independently; the two starts share draws, so their standard errors are averaged, not
+-- reduced. CROSS JOIN begins with the few studies that run, so that no question goes through the cells of all the others.
+CREATE VIEW v_running_layout_error AS
+-- study_id: its study
+-- regime: of the instants
+-- noise_level_id: its noise level
+-- instants: scenarios that are averaged
+-- mean_abs_error_N: over instants and variants of the layout
+-- standard_error_N: of mean_abs_error_N
+-- bias_N: mean of estimate - truth
+-- worst_node_error_N: the largest of any instant
+-- best: 1: of its layouts, the method of v_best_method
+WITH per_instant AS (
+    SELECT s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method,
+           avg(c.mean_abs_error_N) AS mean_abs_error_N, avg(c.standard_error_N) AS standard_error_N,
+           avg(c.rms_error_N) AS rms_error_N, avg(c.bias_N) AS bias_N, max(c.worst_node_error_N) AS worst_node_error_N,
+           avg(c.unverified_share) AS unverified_share, avg(c.ambiguous_share) AS ambiguous_share
+    FROM study t CROSS JOIN scenario s USING (study_id) CROSS JOIN cell c USING (scenario_id)
+    CROSS JOIN layout l USING (sensor_set_id)
+    WHERE t.status = 'running'
+    GROUP BY s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method),
+over_instants AS (
+    SELECT study_id, regime, noise_level_id, family, sensor_count, method, count(*) AS instants,
+           avg(mean_abs_error_N) AS mean_abs_error_N,
+           sqrt(sum(standard_error_N * standard_error_N)) / count(*) AS standard_error_N, avg(rms_error_N) AS rms_error_N,
+           avg(bias_N) AS bias_N, max(worst_node_error_N) AS worst_node_error_N, avg(unverified_share) AS unverified_share,
+           avg(ambiguous_share) AS ambiguous_share
+    FROM per_instant GROUP BY study_id, regime, noise_level_id, family, sensor_count, method)
+SELECT o.*, f.knowledge <> 'direction_known' AND
+       row_number() OVER (PARTITION BY o.study_id, o.regime, o.noise_level_id, o.family, o.sensor_count
+                          ORDER BY f.knowledge = 'direction_known', o.mean_abs_error_N, o.method) = 1 AS best
+FROM over_instants o JOIN fusion_method f USING (study_id, method);
+
+-- Error by layout and count: of a complete study as it is kept, of a running one as it is now. CROSS JOIN gives each row its
+-- names as it comes: the first rows of many are there at once.
 CREATE VIEW v_error_by_layout AS
 -- study_id: its study
 -- study: its name
@@ -400,25 +469,15 @@ CREATE VIEW v_error_by_layout AS
 -- standard_error_N: of mean_abs_error_N
 -- interval_low_N: 95% interval of mean_abs_error_N
 -- interval_high_N: upper end of that interval
+-- bias_N: mean of estimate - truth
 -- worst_node_error_N: the largest of any instant
-WITH per_instant AS (
-    SELECT s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method,
-           avg(c.mean_abs_error_N) AS mean_abs_error_N, avg(c.standard_error_N) AS standard_error_N,
-           avg(c.rms_error_N) AS rms_error_N, avg(c.bias_N) AS bias_N, max(c.worst_node_error_N) AS worst_node_error_N,
-           avg(c.unverified_share) AS unverified_share, avg(c.ambiguous_share) AS ambiguous_share
-    FROM cell c JOIN scenario s USING (scenario_id) JOIN layout l USING (sensor_set_id)
-    GROUP BY s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method)
-SELECT p.study_id, t.name AS study, p.regime, p.noise_level_id, n.label AS noise, p.family, p.sensor_count, p.method,
-       f.title AS method_title, f.knowledge, count(*) AS instants,
-       avg(p.mean_abs_error_N) AS mean_abs_error_N,
-       sqrt(sum(p.standard_error_N * p.standard_error_N)) / count(*) AS standard_error_N,
-       avg(p.mean_abs_error_N) - 1.959963984540054 * sqrt(sum(p.standard_error_N * p.standard_error_N)) / count(*) AS interval_low_N,
-       avg(p.mean_abs_error_N) + 1.959963984540054 * sqrt(sum(p.standard_error_N * p.standard_error_N)) / count(*) AS interval_high_N,
-       avg(p.rms_error_N) AS rms_error_N, avg(p.bias_N) AS bias_N, max(p.worst_node_error_N) AS worst_node_error_N,
-       avg(p.unverified_share) AS unverified_share, avg(p.ambiguous_share) AS ambiguous_share
-FROM per_instant p JOIN study t USING (study_id) JOIN noise_level n USING (noise_level_id)
-JOIN fusion_method f ON f.study_id = p.study_id AND f.method = p.method
-GROUP BY p.study_id, p.regime, p.noise_level_id, p.family, p.sensor_count, p.method;
+SELECT e.study_id, t.name AS study, e.regime, e.noise_level_id, n.label AS noise, e.family, e.sensor_count, e.method,
+       f.title AS method_title, f.knowledge, e.instants, e.mean_abs_error_N, e.standard_error_N,
+       e.mean_abs_error_N - 1.959963984540054 * e.standard_error_N AS interval_low_N,
+       e.mean_abs_error_N + 1.959963984540054 * e.standard_error_N AS interval_high_N,
+       e.rms_error_N, e.bias_N, e.worst_node_error_N, e.unverified_share, e.ambiguous_share
+FROM (SELECT * FROM layout_error UNION ALL SELECT * FROM v_running_layout_error) e
+CROSS JOIN study t USING (study_id) CROSS JOIN noise_level n USING (noise_level_id) CROSS JOIN fusion_method f USING (study_id, method);
 
 -- The best method per regime, noise level, layout family and count, of those that need not know the direction.
 CREATE VIEW v_best_method AS
@@ -427,30 +486,49 @@ CREATE VIEW v_best_method AS
 -- noise_level_id: its noise level
 -- noise: its label
 -- method_title: as figures write it
+-- mean_abs_error_N: over instants and variants of the layout
 -- interval_low_N: 95% interval of mean_abs_error_N
 -- interval_high_N: upper end of that interval
-SELECT study_id, study, regime, noise_level_id, noise, family, sensor_count, method, method_title,
-       mean_abs_error_N, interval_low_N, interval_high_N
-FROM (SELECT *, row_number() OVER (PARTITION BY study_id, regime, noise_level_id, family, sensor_count
-                                   ORDER BY mean_abs_error_N, method) AS place
-      FROM v_error_by_layout WHERE knowledge <> 'direction_known')
-WHERE place = 1;
+SELECT e.study_id, t.name AS study, e.regime, e.noise_level_id, n.label AS noise, e.family, e.sensor_count, e.method,
+       f.title AS method_title, e.mean_abs_error_N,
+       e.mean_abs_error_N - 1.959963984540054 * e.standard_error_N AS interval_low_N,
+       e.mean_abs_error_N + 1.959963984540054 * e.standard_error_N AS interval_high_N
+FROM (SELECT study_id, regime, noise_level_id, family, sensor_count, method, mean_abs_error_N, standard_error_N
+      FROM layout_error WHERE best = 1
+      UNION ALL
+      SELECT study_id, regime, noise_level_id, family, sensor_count, method, mean_abs_error_N, standard_error_N
+      FROM v_running_layout_error WHERE best = 1) e
+CROSS JOIN study t USING (study_id) CROSS JOIN noise_level n USING (noise_level_id) CROSS JOIN fusion_method f USING (study_id, method);
+
+-- What sensor_matrix will hold of the studies that still run.
+CREATE VIEW v_running_sensor_matrix AS
+-- study_id: its study
+-- regime: of the instants
+-- noise_level_id: its noise level
+-- knowledge: whether the direction of motion is known
+-- sensor_node: i, where the sensor is
+-- node: j, where the error is
+-- mean_abs_error_N: e_ij
+SELECT s.study_id, s.regime, e.noise_level_id, e.knowledge, e.sensor_node, e.node, avg(e.mean_abs_error_N) AS mean_abs_error_N
+FROM study t CROSS JOIN scenario s USING (study_id) CROSS JOIN single_sensor_node e USING (scenario_id)
+WHERE t.status = 'running'
+GROUP BY s.study_id, s.regime, e.noise_level_id, e.knowledge, e.sensor_node, e.node;
 
 -- e_ij: the error at node j of the estimate from the sensor at node i, averaged over the instants of a regime.
 CREATE VIEW v_single_sensor_matrix AS
 -- study_id: its study
 -- study: its name
+-- regime: of the instants
 -- noise_level_id: its noise level
 -- noise: its label
 -- knowledge: whether the direction of motion is known
 -- sensor_node: i, where the sensor is
 -- node: j, where the error is
 -- mean_abs_error_N: e_ij
-SELECT s.study_id, t.name AS study, s.regime, e.noise_level_id, n.label AS noise, e.knowledge, e.sensor_node, e.node,
-       avg(e.mean_abs_error_N) AS mean_abs_error_N
-FROM single_sensor_node e JOIN scenario s USING (scenario_id) JOIN study t USING (study_id)
-JOIN noise_level n USING (noise_level_id)
-GROUP BY s.study_id, s.regime, e.noise_level_id, e.knowledge, e.sensor_node, e.node;
+SELECT e.study_id, t.name AS study, e.regime, e.noise_level_id, n.label AS noise, e.knowledge, e.sensor_node, e.node,
+       e.mean_abs_error_N
+FROM (SELECT * FROM sensor_matrix UNION ALL SELECT * FROM v_running_sensor_matrix) e
+CROSS JOIN study t USING (study_id) CROSS JOIN noise_level n USING (noise_level_id);
 
 -- How far each study has come.
 CREATE VIEW v_progress AS

@@ -35,6 +35,16 @@ void require_all_units_done(Database& database, std::int64_t study_id) {
                 " of its work units are not done. `capstan study resume` does them.");
 }
 
+// While the study still counts as running, the views work these out.
+void keep_averages(Database& database, std::int64_t study_id) {
+    for (const std::string table : {"layout_error", "sensor_matrix"}) {
+        Statement insert(database, "INSERT INTO " + table + " SELECT * FROM v_running_" + table +
+                                       " WHERE study_id = ?1 ORDER BY 1, 2, 3, 4, 5, 6");
+        insert.bind(1, study_id);
+        insert.run("keep the averages of the study");
+    }
+}
+
 void mark_complete(Database& database, std::int64_t study_id) {
     Statement update(database,
                      "UPDATE study SET status = 'complete' WHERE study_id = ?1 AND status = 'running'");
@@ -115,6 +125,7 @@ void finish_study(Database& database, std::int64_t study_id,
     Transaction transaction(database);
     const StudyIds ids = load_study_ids(database, study_id);
     require_all_units_done(database, study_id);
+    keep_averages(database, study_id);
     mark_complete(database, study_id);
     write_recommendations(database, ids, recommendations);
     RowWriter<PaperComparisonRecord> rows(database, "paper_comparison", "study_id, row_index");

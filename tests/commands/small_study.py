@@ -2,6 +2,9 @@
 
 import sqlite3
 
+from capstan_program import CONFIGS
+
+BACK_TO_VERSION_3 = CONFIGS.parent / "tests" / "storage" / "back_to_version_3.sql"
 UNITS = 24  # of the study below: two stages, twelve pairs of an instant and a noise level
 
 SMALL_STUDY = """
@@ -50,10 +53,8 @@ counts = [1, 2, 3]
 def to_version_1(path):
     """What the first schema had, with the rows as they are: an older file to be migrated."""
     connection = sqlite3.connect(path)
-    connection.execute("PRAGMA foreign_keys = OFF")
-    for view in connection.execute("SELECT name FROM sqlite_schema WHERE type = 'view'").fetchall():
-        if view[0] == "v_diagnosis":
-            connection.execute("DROP VIEW v_diagnosis")
+    connection.executescript("PRAGMA foreign_keys = OFF;" + BACK_TO_VERSION_3.read_text())
+    connection.execute("DROP VIEW v_diagnosis")
     for (table,) in connection.execute("SELECT name FROM sqlite_schema WHERE type = 'table' AND name LIKE 'diagnosis%'").fetchall():
         connection.execute(f"DROP TABLE {table}")
     connection.execute("DROP TABLE shard")

@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "capstan/storage/migration.h"
@@ -108,7 +110,7 @@ TEST(OpeningADatabase, ANewerSchemaIsRefusedUntouchedAndBothVersionsAreNamed) {
     const TemporaryFolder folder;
     Database::open_or_create(folder / "results.db");
     run_plain_sqlite(folder / "results.db", "PRAGMA user_version = 42");
-    expect_refused_untouched(folder, "results.db", "version 42, newer than version 3");
+    expect_refused_untouched(folder, "results.db", "version 42, newer than version 4");
 }
 
 TEST(OpeningADatabase, AFolderIsRefused) {
@@ -261,8 +263,11 @@ TEST(Migrating, AVersionWithoutAWayIsRefused) {
     expect_says(error_of([&] { migrate(database, {}, schema_version + 1); }), "knows no way");
 }
 
+// What version 4 added.
+const std::string back_to_version_3 = bytes_of(CAPSTAN_TESTS_STORAGE "/back_to_version_3.sql");
+
 // What version 3 added.
-const std::string back_to_version_2 = R"sql(
+const std::string back_to_version_2 = back_to_version_3 + R"sql(
 DROP VIEW v_diagnosis; DROP TABLE diagnosis_gap; DROP TABLE diagnosis_channel; DROP TABLE diagnosis_candidate;
 DROP TABLE diagnosis_number; DROP TABLE diagnosis_cause; DROP TABLE diagnosis_effect; DROP TABLE diagnosis;
 ALTER TABLE noise_level DROP COLUMN quantisation_N; ALTER TABLE noise_level DROP COLUMN range_N;
@@ -295,6 +300,52 @@ TEST(Migrating, AFileOfVersion2IsOpenedWithItsStudiesAndLooksLikeANewOne) {
     Database::open_or_create(folder / "new.db");
     EXPECT_EQ(shape_of(folder / "results.db"), shape_of(folder / "new.db"));
     EXPECT_TRUE(std::filesystem::exists(folder / "results.db.version2"));
+}
+
+// What the views that read kept rows say, of studies that are complete and that are not.
+std::vector<std::vector<QueryValue>> averages_of(const std::filesystem::path& path) {
+    Database database = Database::open_read_only(path);
+    std::vector<std::vector<QueryValue>> rows;
+    for (const char* sql : {"SELECT * FROM v_error_by_layout ORDER BY 1, 3, 4, 6, 7, 8",
+                            "SELECT * FROM v_best_method ORDER BY 1, 3, 4, 6, 7",
+                            "SELECT * FROM v_single_sensor_matrix ORDER BY 1, 3, 4, 6, 7, 8"}) {
+        std::ranges::move(run_read_only(database, sql).rows, std::back_inserter(rows));
+    }
+    return rows;
+}
+
+TEST(Migrating, AFileOfVersion3KeepsWhatItsViewsSay) {
+    const TemporaryFolder folder;
+    {
+        Database database = Database::open_or_create(folder / "results.db");
+        const auto complete = begin_study(database, example_study());
+        for (const int unit : pending_units(database, complete)) write_unit(database, complete, unit);
+        finish_study(database, complete, example_recommendations(), example_paper_comparison());
+        const auto running = begin_study(database, example_study());
+        write_unit(database, running, 0);
+        write_unit(database, running, 1);
+    }
+    const auto before = averages_of(folder / "results.db");
+    {
+        Database database = Database::open_existing(folder / "results.db");
+        EXPECT_GT(number_from(database, "SELECT count(*) FROM layout_error"), 0);
+        database.execute(back_to_version_3, "make an older file");
+        EXPECT_EQ(
+            number_from(
+                database,
+                "SELECT (SELECT count(*) FROM v_error_by_layout) + (SELECT count(*) FROM v_best_method) "
+                "+ (SELECT count(*) FROM v_single_sensor_matrix)"),
+            static_cast<int>(before.size()));
+    }
+    {
+        Database database = Database::open_existing(folder / "results.db");
+        EXPECT_EQ(number_from(database, "PRAGMA user_version"), schema_version);
+        EXPECT_EQ(number_from(database, "SELECT count(DISTINCT study_id) FROM layout_error"), 1);
+        EXPECT_EQ(number_from(database, "SELECT count(DISTINCT study_id) FROM sensor_matrix"), 1);
+    }
+    EXPECT_EQ(averages_of(folder / "results.db"), before);
+    Database::open_or_create(folder / "new.db");
+    EXPECT_EQ(shape_of(folder / "results.db"), shape_of(folder / "new.db"));
 }
 
 // What version 2 added is taken away again.

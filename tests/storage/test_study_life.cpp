@@ -114,6 +114,49 @@ TEST_F(StudyLife, AStudyIsFinishedWhenEveryUnitIsDoneAndOnlyOnce) {
                 "already");
 }
 
+TEST_F(StudyLife, WhatIsKeptWhenItIsFinishedIsWhatTheViewsSaidWhileItRan) {
+    complete_study();  // another one, so that there is something to confuse it with
+    const auto study_id = begin_study(database, example_study());
+    for (const int unit : pending_units(database, study_id)) write_unit(database, study_id, unit);
+    const auto said = [&](const std::string& view) {
+        Database reader = Database::open_read_only(folder / "results.db");
+        return run_read_only(reader, "SELECT * FROM " + view +
+                                         " WHERE study_id = " + std::to_string(study_id) +
+                                         " ORDER BY study_id, regime, noise_level_id, 6, 7, 8")
+            .rows;
+    };
+    std::map<std::string, std::vector<std::vector<QueryValue>>> before;
+    for (const char* view : {"v_error_by_layout", "v_best_method", "v_single_sensor_matrix"}) {
+        before[view] = said(view);
+        EXPECT_FALSE(before[view].empty()) << view;
+    }
+    EXPECT_GT(number_from(database, "SELECT count(*) FROM v_running_layout_error"), 0);
+    finish_study(database, study_id, {}, {});
+    for (const auto& [view, rows] : before) EXPECT_TRUE(said(view) == rows) << view;
+    EXPECT_EQ(number_from(database, "SELECT count(*) FROM v_running_layout_error"), 0);
+    EXPECT_EQ(number_from(database, "SELECT count(*) FROM v_running_sensor_matrix"), 0);
+}
+
+TEST_F(StudyLife, TheBestMethodNeedNotKnowTheDirectionAndThereIsOneOfEach) {
+    complete_study();
+    EXPECT_EQ(
+        number_from(database, "SELECT count(*) FROM v_best_method"),
+        number_from(
+            database,
+            "SELECT count(*) FROM (SELECT DISTINCT study_id, regime, noise_level_id, family, sensor_count "
+            "FROM v_error_by_layout WHERE knowledge <> 'direction_known')"));
+    EXPECT_EQ(
+        number_from(database,
+                    "SELECT count(*) FROM v_best_method b JOIN v_error_by_layout e "
+                    "USING (study_id, regime, noise_level_id, family, sensor_count) "
+                    "WHERE e.knowledge <> 'direction_known' AND e.mean_abs_error_N < b.mean_abs_error_N"),
+        0);
+    EXPECT_EQ(number_from(database,
+                          "SELECT count(*) FROM v_best_method JOIN fusion_method USING (study_id, method) "
+                          "WHERE knowledge = 'direction_known'"),
+              0);
+}
+
 TEST_F(StudyLife, DeletingAStudyLeavesNothingOfItAndAllOfTheOthers) {
     const auto kept = complete_study();
     const auto before = tables_of(database);
