@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "capstan/cli/nearest_name.h"
+#include "capstan/cli/second_reading.h"
 #include "capstan/cli/usage_error.h"
 
 namespace capstan::cli {
@@ -48,14 +49,17 @@ std::string nearest_option(const Command& command, std::string given) {
 po::variables_map parse(const Command& command, const std::vector<std::string>& arguments) {
     // Without guessing: an abbreviation that works today would change its meaning with the next option.
     constexpr int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-    const po::options_description description = description_of(command);
     po::positional_options_description positions;
     positions.add(positional, -1);
     po::variables_map values;
     try {
-        po::store(
-            po::command_line_parser(arguments).options(description).positional(positions).style(style).run(),
-            values);
+        values = read_again_if_wrong<po::error>([&] {
+            const po::options_description description = description_of(command);
+            po::command_line_parser parser(arguments);
+            po::variables_map found;
+            po::store(parser.options(description).positional(positions).style(style).run(), found);
+            return found;
+        });
     } catch (const po::unknown_option& error) {
         refuse(command, nearest_option(command, error.get_option_name()));
     } catch (const po::multiple_occurrences& error) {

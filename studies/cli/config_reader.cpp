@@ -14,6 +14,7 @@
 #include "capstan/cli/config_problem.h"
 #include "capstan/cli/config_writer.h"
 #include "capstan/cli/nearest_name.h"
+#include "capstan/cli/second_reading.h"
 
 namespace capstan::cli {
 
@@ -381,16 +382,22 @@ std::string content_of(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, ignored)) {
         throw ConfigError(file, {{0, 0, "", "is a folder; name the configuration file in it"}});
     }
-    std::ifstream stream(path, std::ios::binary);
-    std::string content{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) throw ConfigError(file, {{0, 0, "", "cannot be read; check its permissions"}});
-    return content;
+    return read_again_if_wrong<ConfigError>([&] {
+        std::ifstream stream(path, std::ios::binary);
+        std::string content{std::istreambuf_iterator<char>(stream), {}};
+        if (!stream) throw ConfigError(file, {{0, 0, "", "cannot be read; check its permissions"}});
+        return content;
+    });
+}
+
+toml::table parsed(std::string_view toml, const std::string& file) {
+    return read_again_if_wrong<toml::parse_error>([&] { return toml::table(toml::parse(toml, file)); });
 }
 
 // A bench without the key that says so has pulleys all the same.
 bool describes_a_bench(std::string_view toml) {
     try {
-        const toml::table root = toml::parse(toml);
+        const toml::table root = parsed(toml, "");
         return root["kind"].value<std::string>() == "bench" || root.contains("pulleys");
     } catch (const toml::parse_error&) {
         return false;
@@ -425,7 +432,7 @@ ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file) {
     ReadPlan<Plan> config{file, {}, {}};
     toml::table root;
     try {
-        root = toml::parse(toml, file);
+        root = parsed(toml, file);
     } catch (const toml::parse_error& error) {
         const auto& at = error.source().begin;
         throw ConfigError(file, {{static_cast<int>(at.line), static_cast<int>(at.column), "",
