@@ -16,7 +16,8 @@ namespace capstan::service {
 
 namespace {
 
-constexpr int stopped_code = 130;  // of the program's commands, after a request to end
+constexpr int stopped_code = 130;        // of the program's commands, after a request to end
+constexpr std::size_t most_jobs = 1000;  // that the list tells of; the oldest that have ended are forgotten
 
 std::int64_t last_id(const JobCommands& commands, JobKind kind) {
     storage::Database database = storage::Database::open_read_only(commands.database);
@@ -80,6 +81,13 @@ int JobQueue::next_number() const {
 
 Job JobQueue::add(Job job) {
     jobs_.push_back(std::move(job));
+    while (jobs_.size() > most_jobs) {
+        const auto ended = std::ranges::find_if(jobs_, [](const Job& each) {
+            return each.state == JobState::done || each.state == JobState::failed;
+        });
+        if (ended == jobs_.end()) break;
+        jobs_.erase(ended);
+    }
     folder_.write(jobs_);
     changed_.notify_all();
     return jobs_.back();

@@ -1,21 +1,47 @@
 #include "capstan/service/report_shelf.h"
 
+#include <algorithm>
+
 namespace capstan::service {
 
 namespace {
 
 constexpr std::chrono::milliseconds moment{500};
-constexpr std::size_t most_places = 64;  // of studies and questions looked at
-constexpr std::size_t largest_kept = 4'000'000;
+constexpr std::size_t most_places = 32;  // of studies and questions that are looked at now
+constexpr std::size_t most_bytes = 16'000'000;
+constexpr std::size_t largest_kept = 4'000'000;  // the report of 100,000 cells has 3.5 million
 
 }  // namespace
 
 std::shared_ptr<ReportShelf::Place> ReportShelf::place(const std::string& name) {
     const std::lock_guard lock(mutex_);
-    if (places_.size() >= most_places && places_.count(name) == 0) places_.clear();
-    auto& place = places_[name];
-    if (!place) place = std::make_shared<Place>();
+    Entry& entry = places_[name];
+    if (!entry.place) entry.place = std::make_shared<Place>();
+    entry.asked = ++asked_;
+    const auto place = entry.place;
+    drop_the_oldest();
     return place;
+}
+
+// For a text that is about to be kept there. Whoever still reads one that goes has it for as long.
+void ReportShelf::make_room(const std::string& name, std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    const auto own = places_.find(name);
+    if (own == places_.end()) return;
+    own->second.bytes = bytes;
+    own->second.asked = ++asked_;
+    drop_the_oldest();
+}
+
+void ReportShelf::drop_the_oldest() {
+    std::size_t bytes = 0;
+    for (const auto& [name, entry] : places_) bytes += entry.bytes;
+    while (places_.size() > most_places || bytes > most_bytes) {
+        const auto oldest =
+            std::ranges::min_element(places_, {}, [](const auto& named) { return named.second.asked; });
+        bytes -= oldest->second.bytes;
+        places_.erase(oldest);
+    }
 }
 
 std::shared_ptr<const std::string> ReportShelf::get(const std::string& name, const std::string& state,
@@ -38,6 +64,7 @@ std::shared_ptr<const std::string> ReportShelf::get(const std::string& name, con
     if (auto text = look(moment)) return text;  // made while this one waited
     auto text = std::make_shared<const std::string>(make());
     if (text->size() > largest_kept) return text;
+    make_room(name, text->size());
     const std::lock_guard lock(kept->reading);
     kept->text = text;
     kept->state = state;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -11,7 +12,8 @@ namespace capstan::service {
 
 /// Texts that take a while to make, kept as long as what they were made from is the same. While one is made
 /// again, others who ask for no exact one get the one before; and such a text is made again no sooner than a
-/// moment after the last time, however fast its study goes. Texts beyond some size are not kept.
+/// moment after the last time, however fast its study goes. Where there are too many texts to keep, or too
+/// long ones, the one goes that nobody has asked for the longest.
 class ReportShelf {
   public:
     using Maker = std::function<std::string()>;
@@ -36,11 +38,19 @@ class ReportShelf {
         std::shared_ptr<const std::string> text;
         Clock::time_point made;
     };
+    struct Entry {
+        std::shared_ptr<Place> place;
+        std::uint64_t asked = 0;  // the larger, the later it was asked for
+        std::size_t bytes = 0;    // of its text
+    };
 
     std::shared_ptr<Place> place(const std::string& name);
+    void make_room(const std::string& name, std::size_t bytes);
+    void drop_the_oldest();  // but one, until there is room; while locked
 
     std::mutex mutex_;
-    std::map<std::string, std::shared_ptr<Place>> places_;
+    std::map<std::string, Entry> places_;
+    std::uint64_t asked_ = 0;
 };
 
 }  // namespace capstan::service

@@ -1,5 +1,6 @@
 """Running the program under test in a folder of its own."""
 
+import contextlib
 import os
 import pathlib
 import sqlite3
@@ -43,11 +44,10 @@ class CapstanTest(unittest.TestCase):
 
     def tables(self, name):
         """Every row of every table; Python prints and compares doubles bit for bit."""
-        connection = sqlite3.connect(self.folder / name)
-        self.addCleanup(connection.close)
-        names = [row[0] for row in connection.execute("SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name")]
-        self.assertIn("cell", names)
-        return {table: sorted(connection.execute(f"SELECT * FROM {table}").fetchall(), key=repr) for table in names}
+        with contextlib.closing(sqlite3.connect(self.folder / name)) as connection:
+            names = [row[0] for row in connection.execute("SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name")]
+            self.assertIn("cell", names)
+            return {table: sorted(connection.execute(f"SELECT * FROM {table}").fetchall(), key=repr) for table in names}
 
     def assert_same_bits(self, expected, actual):
         """Names the first difference instead of printing two databases."""

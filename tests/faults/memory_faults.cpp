@@ -1,16 +1,10 @@
 // Loaded before the program (LD_PRELOAD): lets one request for memory fail, counted from the beginning of
-// main().
-//   CAPSTAN_FAULT_AT     which one, from 1; 0: none
-//   CAPSTAN_FAULT_COUNT  a file that gets the number of requests when main() has returned
-#include <dlfcn.h>
-#include <fcntl.h>
-#include <unistd.h>
-
+// main(). What is to fail is the request's number, from 1; 0: none. forked_main.h tells how it is asked for.
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
+
+#include "forked_main.h"
 
 extern "C" {
 
@@ -52,32 +46,14 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) {
     return *memory == nullptr ? ENOMEM : 0;
 }
 
-using Main = int(int, char**, char**);
-static Main* real_main = nullptr;
-
-static int counted_main(int count, char** words, char** environment) {
-    counting = true;
-    const int code = real_main(count, words, environment);
-    counting = false;
-    if (const char* path = std::getenv("CAPSTAN_FAULT_COUNT")) {
-        char text[32];
-        const int length = std::snprintf(text, sizeof text, "%ld\n", requests.load());
-        const int file = ::open(path, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-        if (file >= 0) {
-            if (::write(file, text, static_cast<std::size_t>(length)) < 0) std::perror(path);
-            ::close(file);
-        }
-    }
-    return code;
-}
-
-int __libc_start_main(Main* main, int count, char** words, void (*init)(), void (*fini)(),
-                      void (*rtld_fini)(), void* stack_end) {
-    using Start = int(Main*, int, char**, void (*)(), void (*)(), void (*)(), void*);
-    auto* const start = reinterpret_cast<Start*>(dlsym(RTLD_NEXT, "__libc_start_main"));
-    if (const char* at = std::getenv("CAPSTAN_FAULT_AT")) fails_at = std::atol(at);
-    real_main = main;
-    return start(counted_main, count, words, init, fini, rtld_fini, stack_end);
-}
-
 }  // extern "C"
+
+void faults::begin(const char* line) {
+    fails_at = std::atol(line);
+    counting = true;
+}
+
+void faults::end() {
+    counting = false;
+    say_count(requests.load());
+}

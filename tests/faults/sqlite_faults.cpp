@@ -1,15 +1,16 @@
 // Loaded before the program (LD_PRELOAD): stands between SQLite and the file system, and lets one of its
-// writes, syncs and truncations fail.
-//   CAPSTAN_FAULT_AT     which one, from 1; 0: none
-//   CAPSTAN_FAULT_KIND   full (as ENOSPC), error (as EIO), short (half is written, then ENOSPC), stays_full
-//   (every write
-//                        from then on)
-//   CAPSTAN_FAULT_COUNT  a file that gets the number of such operations when the program ends
+// writes, syncs and truncations fail. What is to fail is its number, from 1 (0: none), and how: "17 short".
+// forked_main.h tells how it is asked.
+//   full        as ENOSPC
+//   error       as EIO
+//   short       half is written, then ENOSPC
+//   stays_full  every write from then on
 #include <sqlite3.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+#include "forked_main.h"
 
 namespace {
 
@@ -120,21 +121,7 @@ int open(sqlite3_vfs*, const char* name, sqlite3_file* file, int flags, int* out
     return code;
 }
 
-void say_count() {
-    const char* path = std::getenv("CAPSTAN_FAULT_COUNT");
-    if (path == nullptr) return;
-    if (std::FILE* file = std::fopen(path, "w")) {
-        std::fprintf(file, "%ld\n", operations);
-        std::fclose(file);
-    }
-}
-
 [[gnu::constructor]] void stand_between() {
-    if (const char* at = std::getenv("CAPSTAN_FAULT_AT")) fails_at = std::atol(at);
-    const char* name = std::getenv("CAPSTAN_FAULT_KIND");
-    if (name != nullptr && std::strcmp(name, "error") == 0) kind = Kind::error;
-    if (name != nullptr && std::strcmp(name, "short") == 0) kind = Kind::short_write;
-    if (name != nullptr && std::strcmp(name, "stays_full") == 0) kind = Kind::stays_full;
     methods = {2,
                close,
                read,
@@ -161,7 +148,19 @@ void say_count() {
     shim.szOsFile = static_cast<int>(sizeof(File)) + real_vfs->szOsFile;
     shim.xOpen = open;
     sqlite3_vfs_register(&shim, 1);
-    std::atexit(say_count);
 }
 
 }  // namespace
+
+void faults::begin(const char* line) {
+    char* how = nullptr;
+    fails_at = std::strtol(line, &how, 10);
+    operations = 0;
+    if (std::strcmp(how, " error") == 0) kind = Kind::error;
+    if (std::strcmp(how, " short") == 0) kind = Kind::short_write;
+    if (std::strcmp(how, " stays_full") == 0) kind = Kind::stays_full;
+}
+
+void faults::end() {
+    say_count(operations);
+}

@@ -1,17 +1,15 @@
-"""Every request for memory failing in turn, over a small study: a clear error, no crash, nothing corrupt, and going on ends
-with the same bits.
+"""Every request for memory in a study failing in turn: a clear error or an answer as without it, nothing corrupt, and going on
+ends with the same bits.
 
-CAPSTAN_MEMORY_FAULTS says how many requests are tried, spread evenly (150); `all` tries every one."""
+CAPSTAN_MEMORY_FAULTS says how many requests are tried, spread evenly (600); `all` tries every one."""
 
 import os
-import subprocess
 import unittest
 
-from capstan_program import PROGRAM, CapstanTest
-from small_study import SMALL_STUDY, integrity
+from faulty_program import FaultyTest
+from small_study import SMALL_STUDY
 
-SHIM = os.environ["CAPSTAN_ALLOCATION_FAULTS"]
-TRIED = os.environ.get("CAPSTAN_MEMORY_FAULTS", "150")
+TRIED = os.environ.get("CAPSTAN_MEMORY_FAULTS", "600")
 
 TINY = SMALL_STUDY.format(seed=1)
 for one, other in (("samples = [15, 18, 21, 39, 42, 45]", "samples = [15]"), ("repetitions = 20", "repetitions = 3"),
@@ -21,49 +19,48 @@ for one, other in (("samples = [15, 18, 21, 39, 42, 45]", "samples = [15]"), ("r
     TINY = TINY.replace(one, other)
 
 
-class MemoryFaults(CapstanTest):
-    def faulty(self, at, *words):
-        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=300,
-                              env={**os.environ, "LD_PRELOAD": SHIM, "CAPSTAN_FAULT_AT": str(at), "CAPSTAN_FAULT_COUNT": "count"})
+class MemoryFaults(FaultyTest):
+    shim = os.environ["CAPSTAN_ALLOCATION_FAULTS"]
 
     def test_a_study(self):
         self.write("tiny.toml", TINY)
         self.run_capstan("study", "run", "tiny.toml", "--db", "whole.db")
         expected = self.tables("whole.db")
         words = ("study", "run", "tiny.toml", "--db", "faulty.db", "--jobs", 1, "--progress", "none")
-        done = self.faulty(0, *words)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        answer = done.stdout
-        count = int((self.folder / "count").read_text())
+        count, answer = self.count_of(*words)
         self.assertGreater(count, 1000)
         wanted = count if TRIED == "all" else min(count, int(TRIED))
+        process = self.start_faulty(*words)
         ended, crashes = 0, []
         for k in range(wanted):
             at = 1 + k * (count - 1) // max(1, wanted - 1)
-            for path in self.folder.glob("faulty.db*"):
-                path.unlink()
-            done = self.faulty(at, *words)
+            if k % 1000 == 999:
+                print(f"  {k + 1} of {wanted} requests tried", flush=True)
+            self.remove("faulty.db*")
+            done = self.faulty(process, at)
             if done.returncode == 0:
                 self.assertEqual(done.stdout, answer, f"request {at}")
             else:
                 ended += 1
                 if done.returncode not in (1, 3) or "out of memory" not in done.stderr.lower():
                     crashes.append((at, done.returncode, done.stderr))
-            path = self.folder / "faulty.db"
-            if path.exists():
-                self.assertEqual(integrity(path), ["ok"], f"request {at}")
+                    print(f"request {at}: code {done.returncode}, {done.stderr}", flush=True)
+            if self.left_before("faulty.db*", done.returncode):
+                continue
+            self.assert_whole("faulty.db", f"request {at}")
             if done.returncode != 0:
+                if not self.is_new(at, "faulty.db*"):
+                    continue
                 self.go_on()
             self.assert_same_bits(expected, self.tables("faulty.db"))
         self.assertEqual(crashes, [], f"{len(crashes)} of {wanted}")
         self.assertGreater(ended, wanted // 2)
         print(f"{wanted} of {count} requests for memory failed, one in each run: {ended} runs ended with an error that says "
-              f"so, the others did without", flush=True)
+              f"so, the others did without; {len(self.judged)} different files were left, of {len(self.continued)} different "
+              f"contents, each gone on from", flush=True)
 
     def go_on(self):
-        resumed = subprocess.run([PROGRAM, "study", "resume", "latest", "--db", "faulty.db"], cwd=self.folder,
-                                 capture_output=True, timeout=300)
-        if resumed.returncode != 0:
+        if self.run_capstan_any("study", "resume", "latest", "--db", "faulty.db").returncode != 0:
             self.run_capstan("study", "run", "tiny.toml", "--db", "faulty.db")  # it had not begun
 
 

@@ -55,5 +55,32 @@ TEST(AReportShelf, KeepsATextAsLongAsItsStateIsTheSame) {
     EXPECT_EQ(*shelf.get("a", "2 of 2", exact, make), "3");
 }
 
+TEST(AReportShelf, HasRoomForSoMuchAndDropsWhatNobodyHasAskedForTheLongest) {
+    using enum ReportShelf::Freshness;
+    ReportShelf shelf;
+    int made = 0;
+    const auto times_made = [&](const std::string& name, std::size_t bytes) {
+        const int before = made;
+        shelf.get(name, "complete", exact, [&] { return ++made, std::string(bytes, 'x'); });
+        return made - before;
+    };
+    for (const char* name : {"a", "b", "c", "d"}) EXPECT_EQ(times_made(name, 4'000'000), 1);
+    EXPECT_EQ(times_made("a", 4'000'000), 0);
+    EXPECT_EQ(times_made("e", 4'000'000), 1);  // in the place of "b"
+    EXPECT_EQ(times_made("a", 4'000'000), 0);
+    EXPECT_EQ(times_made("b", 4'000'000), 1);
+    EXPECT_EQ(times_made("too long", 4'000'001), 1);
+    EXPECT_EQ(times_made("too long", 4'000'001), 1);
+    for (int k = 0; k < 100; ++k) times_made(std::to_string(k), 1);  // many short ones
+    EXPECT_EQ(times_made("99", 1), 0);
+    EXPECT_EQ(times_made("0", 1), 1);
+    // What cannot be made is not kept, however many ask for it.
+    for (int k = 0; k < 100; ++k) {
+        EXPECT_THROW(shelf.get("wrong " + std::to_string(k), "complete", exact,
+                               []() -> std::string { throw std::runtime_error("no such table"); }),
+                     std::runtime_error);
+    }
+}
+
 }  // namespace
 }  // namespace capstan::service
