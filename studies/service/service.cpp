@@ -18,15 +18,11 @@ namespace {
 constexpr int request_threads = 64;  // they mostly wait; more people than that queue
 constexpr int patience_s = 10;       // for a slow sender or reader
 
-// Left to itself, the C library gives many threads heaps of their own, each of which grows as far as the
-// largest answer that its threads have made; and what is freed of a large piece, it asks of the heap from
-// then on. With one heap for all, and large pieces always the system's own, memory stays as it is after the
-// first answers.
-void keep_memory_flat() {
-    constexpr int large_bytes = 256 * 1024;
-    ::mallopt(M_ARENA_MAX, 1);
-    ::mallopt(M_MMAP_THRESHOLD, large_bytes);
-    ::mallopt(M_TRIM_THRESHOLD, 2 * large_bytes);
+// Left to itself, the C library gives 64 threads up to eight heaps for each processor, and each grows as far
+// as the largest answers that happened to be made in it. Two are enough for threads that mostly wait, and
+// soon as large as they get.
+void share_memory_among_threads() {
+    ::mallopt(M_ARENA_MAX, 2);
 }
 
 RequestHead head_of(const httplib::Request& request) {
@@ -89,7 +85,7 @@ struct Service::Parts {
 };
 
 Service::Service(ServiceOptions options) : parts_(std::make_unique<Parts>(std::move(options))) {
-    keep_memory_flat();
+    share_memory_among_threads();
     httplib::Server& server = parts_->server;
     Access& access = parts_->options.access;
     server.new_task_queue = [] { return new httplib::ThreadPool(request_threads); };
