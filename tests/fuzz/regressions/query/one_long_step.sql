@@ -1,1 +1,1 @@
-SELECT instr(printf('%.*c', 20000000, 'a'), printf('%.*c', 10000000, 'a') || 'b')
+SELECT instr(printf('%*s', 20000000, 'a'), printf('%*s', 10000000, 'a') || 'b')
