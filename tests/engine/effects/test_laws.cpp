@@ -87,5 +87,33 @@ TEST(Catalogue, NamesEachVariantOnceWithParametersInTheirLimits) {
     }
 }
 
+TEST(Catalogue, WithEveryEffectAbsentNoneIsThere) {
+    EXPECT_TRUE(effects_there(absent_effects()).empty());
+    EXPECT_EQ(effects_with(absent_effects()).creep.ratio, BenchEffects{}.creep.ratio);
+}
+
+TEST(Catalogue, AnEffectIsThereUnderItsOwnNameAndAlone) {
+    for (std::size_t k = 0; k < effect_catalogue().size(); ++k) {
+        const Effect& effect = effect_catalogue()[k];
+        EffectValues values = absent_effects();
+        for (std::size_t p = 0; p < effect.parameters.size(); ++p) values[k][p] = effect.parameters[p].typical;
+        const std::vector<std::string> there = effects_there(values);
+        ASSERT_EQ(there.size(), 1u) << effect.name;
+        EXPECT_EQ(there[0].substr(0, effect.name.size()), effect.name);
+        EXPECT_NE(there[0].find(effect.variant), std::string::npos);
+    }
+}
+
+TEST(Catalogue, ValuesReachTheBench) {
+    EffectValues values = absent_effects();
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (effect_catalogue()[k].name == "creep") values[k] = {0.3, 5.0};
+    }
+    const BenchEffects effects = effects_with(values);
+    EXPECT_EQ(effects.creep.ratio, 0.3);
+    EXPECT_EQ(effects.creep.time_constant_s, 5.0);
+    EXPECT_EQ(effects.load_backlash.half_gap_rad, 0.0);
+}
+
 }  // namespace
 }  // namespace capstan

@@ -1,0 +1,90 @@
+// Each fault of a sensor by its closed form: what it makes of a constant, a step, a ramp and a slow cycle (E36).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/effects/sensor_faults.h"
+
+namespace capstan {
+namespace {
+
+constexpr double time_step_s = 0.01;
+
+std::vector<double> ramp(int samples) {
+    std::vector<double> signal;
+    for (int k = 0; k < samples; ++k) signal.push_back(2.0 * k);
+    return signal;
+}
+
+TEST(SensorFaults, NoneChangesNoBit) {
+    const std::vector<double> signal{0.1, 0.7, 0.3};
+    EXPECT_EQ(sensed(signal, {}, time_step_s), signal);
+}
+
+TEST(SensorFaults, OfASingleSampleNothingIsMade) {
+    SensorFaults all{0.5, 0.1, 0.03, 1.1, 0.2, 0.25};
+    EXPECT_EQ(sensed({4.0}, all, time_step_s), std::vector<double>{4.0});
+    EXPECT_TRUE(sensed({}, all, time_step_s).empty());
+}
+
+TEST(SensorFaults, GainAndOffsetAreAStraightLine) {
+    SensorFaults faults;
+    faults.gain = 1.2;
+    faults.offset = -0.5;
+    const std::vector<double> readings = sensed({0.0, 10.0, -10.0}, faults, time_step_s);
+    EXPECT_DOUBLE_EQ(readings[0], -0.5);
+    EXPECT_DOUBLE_EQ(readings[1], 11.5);
+    EXPECT_DOUBLE_EQ(readings[2], -12.5);
+}
+
+TEST(SensorFaults, QuantisedReadingsAreTheNearestMultiples) {
+    SensorFaults faults;
+    faults.step = 0.25;
+    EXPECT_EQ(sensed({0.1, 0.13, -0.37, 1.0}, faults, time_step_s),
+              (std::vector<double>{0.0, 0.25, -0.25, 1.0}));
+}
+
+TEST(SensorFaults, ALagFollowsAStepExponentially) {
+    SensorFaults faults;
+    faults.lag_s = 0.05;
+    std::vector<double> step(40, 1.0);
+    step[0] = 0.0;
+    const std::vector<double> readings = sensed(step, faults, time_step_s);
+    for (std::size_t k = 0; k < step.size(); ++k) {
+        EXPECT_NEAR(readings[k], -std::expm1(-static_cast<double>(k) * time_step_s / 0.05), 1e-12) << k;
+    }
+}
+
+TEST(SensorFaults, ADelayedRampIsTheRampLater) {
+    SensorFaults late;
+    late.delay_s = 2.5 * time_step_s;
+    const std::vector<double> after = sensed(ramp(10), late, time_step_s);
+    SensorFaults early;
+    early.delay_s = -2.5 * time_step_s;
+    const std::vector<double> before = sensed(ramp(10), early, time_step_s);
+    for (int k = 0; k < 10; ++k) {
+        EXPECT_NEAR(after[static_cast<std::size_t>(k)], 2.0 * std::max(k - 2.5, 0.0), 1e-12) << k;
+        EXPECT_NEAR(before[static_cast<std::size_t>(k)], 2.0 * std::min(k + 2.5, 9.0), 1e-12) << k;
+    }
+}
+
+TEST(SensorFaults, HysteresisTrailsASlowCycleByHalfTheLoopEitherWay) {
+    SensorFaults faults;
+    faults.hysteresis = 0.5;
+    std::vector<double> cycle;
+    for (int k = 0; k < 200; ++k) cycle.push_back(0.05 * k);
+    for (int k = 200; k > 0; --k) cycle.push_back(0.05 * k);
+    const std::vector<double> readings = sensed(cycle, faults, time_step_s);
+    EXPECT_NEAR(readings[100], cycle[100] - 0.5, 1e-3);
+    EXPECT_NEAR(readings[300], cycle[300] + 0.5, 1e-3);
+}
+
+TEST(SensorFaults, ASignalThatStandsStillIsReadAsItIs) {
+    const SensorFaults slow{0.5, 0.1, 0.03, 1.0, 0.0, 0.0};
+    const std::vector<double> still(5, 7.0);
+    for (const double reading : sensed(still, slow, time_step_s)) EXPECT_NEAR(reading, 7.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace capstan
