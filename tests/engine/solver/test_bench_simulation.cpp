@@ -209,5 +209,19 @@ TEST(BenchSimulation, RefusesInputsThatMoveNothingDefinite) {
     EXPECT_EQ(bench.motor_angle_rad(), 0.0);
 }
 
+TEST(BenchSimulation, NamesEveryProblemOfItsInputsAtOnce) {
+    const double nan = std::nan("");
+    BenchSimulation single({cable_with(10), false, pulleys, {}}, {});
+    try {
+        single.advance({MotorAngle{nan}, LoadSpring{0.0, nan}, time_step_s, 0.0});
+        FAIL();
+    } catch (const InvalidInput& refusal) {
+        EXPECT_EQ(refusal.problems().size(), 4u) << refusal.what();
+    }
+    EXPECT_THROW(single.advance({MotorAngle{0.0}, LoadTorque{0.1}, time_step_s, 0.0}), InvalidInput);
+    EXPECT_THROW(single.advance({MotorAngle{0.0}, LoadAngle{nan}, time_step_s, 0.0}), InvalidInput);
+    EXPECT_NO_THROW(single.advance({MotorAngle{0.0}, LoadAngle{0.0}, time_step_s, 0.0}));
+}
+
 }  // namespace
 }  // namespace capstan
