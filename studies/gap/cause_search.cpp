@@ -1,0 +1,203 @@
+#include "capstan/gap/cause_search.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+namespace capstan::gap {
+
+namespace {
+
+// How many causes the quick look leaves for a full fit.
+constexpr std::size_t most_fitted = 8;
+// How many of the best single causes are looked at with a second, and with how many others.
+constexpr std::size_t most_first_causes = 2;
+constexpr std::size_t most_second_causes = 3;
+constexpr int most_exchanges = 2;
+// Effects whose residuals look much alike (a cosine of 0.95 and more over all protocols).
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> imitators = {{
+    {"conduit_compliance", "environment_coupling"},
+    {"pretension_drift", "param_T0"},
+    {"pretension_drift", "param_mu"},
+    {"pretension_drift", "creep"},
+    {"sensor_lag", "time_misalignment"},
+    {"cable_stiffness_nonlinear", "conduit_compliance"},
+    {"local_bend", "pulley_friction"},
+    {"bending_stiffness", "load_dependent_friction"},
+}};
+// A search that promises a misfit this many times the best so far is given up.
+constexpr double hopeless_factor = 2.5;
+// The quick look does with fewer segments and samples.
+constexpr int screening_segments = 24;
+constexpr int screening_stride_factor = 2;
+
+std::vector<std::string> imitators_of(std::string_view effect) {
+    std::vector<std::string> found;
+    for (const auto& [one, other] : imitators) {
+        if (effect == one) found.emplace_back(other);
+        if (effect == other) found.emplace_back(one);
+    }
+    return found;
+}
+
+double least_sum(const std::vector<ScoredFit>& fits) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const ScoredFit& each : fits) least = std::min(least, each.fit.sum_of_squares);
+    return least;
+}
+
+Hypothesis with(Hypothesis present, const Screened& added) {
+    present.causes.push_back(added.cause);
+    const Eigen::Index known = present.coordinates.size();
+    present.coordinates.conservativeResize(known + added.start.size());
+    present.coordinates.tail(added.start.size()) = added.start;
+    return present;
+}
+
+// One of a pair's causes as it is there.
+Hypothesis only(const CauseFit& pair, std::size_t kept) {
+    Eigen::Index first = nominal_coordinates;
+    for (std::size_t k = 0; k < kept; ++k) first += static_cast<Eigen::Index>(pair.causes[k]->numbers.size());
+    const auto count = static_cast<Eigen::Index>(pair.causes[kept]->numbers.size());
+    Hypothesis one{{pair.causes[kept]}, Eigen::VectorXd(nominal_coordinates + count)};
+    one.coordinates << pair.coordinates.head(nominal_coordinates), pair.coordinates.segment(first, count);
+    return one;
+}
+
+// A wrong nominal number beside a cause that lets the same number go far already.
+bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
+    const auto goes_far = [](double std) { return std > nominal_log_std; };
+    return cause.numbers.empty() && ((goes_far(cause.friction_std) && goes_far(first.friction_std)) ||
+                                     (goes_far(cause.stiffness_std) && goes_far(first.stiffness_std)) ||
+                                     (goes_far(cause.pretension_std) && goes_far(first.pretension_std)));
+}
+
+}  // namespace
+
+void sort_by_evidence(std::vector<ScoredFit>& fits) {
+    std::stable_sort(fits.begin(), fits.end(),
+                     [](const ScoredFit& a, const ScoredFit& b) { return a.evidence > b.evidence; });
+}
+
+CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& options)
+    : options_(options),
+      fitter_(recording, {options.segments, options.stride}, options.threads),
+      screener_(recording, {screening_segments, screening_stride_factor * options.stride}, options.threads),
+      evidence_(fitter_.independent_samples()),
+      causes_(candidate_causes(recording)) {}
+
+FoundCauses CauseSearch::run() {
+    tell("nominal model", 0.0);
+    nominal_ = {{}, Eigen::VectorXd::Zero(nominal_coordinates)};
+    nominal_misfit_ = fitter_.residuals(nominal_.causes, nominal_.coordinates).squaredNorm() /
+                      static_cast<double>(fitter_.data_rows());
+    FoundCauses found;
+    found.singles = {scored(fitter_.fit({{&causes_.front()}, nominal_.coordinates}, {}))};
+    tell("looking at every cause", 0.02);
+    const std::vector<Screened> screened = screen(screener_, causes_, nominal_);
+    fit_best(screened, found.singles);
+    sort_by_evidence(found.singles);
+    found.pairs = pairs_with(found.singles);
+    if (found.pairs.empty() || found.pairs.front().evidence < found.singles.front().evidence)
+        fit_imitators(screened, found.singles);
+    found.nominal_misfit = nominal_misfit_;
+    found.evaluations = evaluations_;
+    return found;
+}
+
+ScoredFit CauseSearch::scored(CauseFit fit) {
+    evaluations_ += fit.evaluations;
+    ScoredFit scored;
+    scored.fit = std::move(fit);
+    scored.misfit = fitter_.misfit(scored.fit);
+    scored.nominal_price = fitter_.nominal_price(scored.fit);
+    scored.shape_price = fitter_.shape_price(scored.fit);
+    scored.visibility = fitter_.visibility({&scored.fit, 1}).front();
+    scored.evidence = evidence_.of(scored);
+    return scored;
+}
+
+// Full fits of the most promising.
+void CauseSearch::fit_best(const std::vector<Screened>& screened, std::vector<ScoredFit>& fits) {
+    std::size_t fitted = 0;
+    for (const Screened& each : screened) {
+        // A wrong nominal number is always worth a fit: the quick look lets every cause have it on top.
+        const bool nominal_number = each.cause->numbers.empty();
+        if (fitted == most_fitted && !nominal_number) continue;
+        if (!nominal_number) ++fitted;
+        tell("fitting " + each.cause->effect + " " + each.cause->variant,
+             0.2 + 0.4 * static_cast<double>(fits.size()) / (most_fitted + nominal_coordinates));
+        CauseFitter::FitOptions options;
+        options.hopeless_sum_of_squares = hopeless_factor * least_sum(fits);
+        fits.push_back(scored(fitter_.fit(with(nominal_, each), options)));
+    }
+}
+
+// The quick look is along straight lines; what looks much like the best so far must not fall through it.
+void CauseSearch::fit_imitators(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles) {
+    const std::string best = singles.front().fit.causes.front()->effect;
+    const auto is_fitted = [&](const std::string& effect) {
+        return std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& single) {
+            return single.fit.causes.front()->effect == effect;
+        });
+    };
+    for (const std::string& imitator : imitators_of(best)) {
+        if (is_fitted(imitator)) continue;
+        const auto found = std::find_if(screened.begin(), screened.end(),
+                                        [&](const Screened& each) { return each.cause->effect == imitator; });
+        if (found == screened.end()) continue;
+        CauseFitter::FitOptions options;
+        options.hopeless_sum_of_squares = hopeless_factor * least_sum(singles);
+        singles.push_back(scored(fitter_.fit(with(nominal_, *found), options)));
+    }
+    sort_by_evidence(singles);
+}
+
+// The best single causes, each with the most promising others; then each of the best two is asked again
+// whether another would go better with its partner.
+std::vector<ScoredFit> CauseSearch::pairs_with(const std::vector<ScoredFit>& singles) {
+    std::vector<ScoredFit> pairs;
+    if (!worth_a_second_cause(singles.front().misfit, nominal_misfit_)) return pairs;
+    std::vector<std::string> firsts;
+    for (const ScoredFit& single : singles) {
+        const std::string& first = single.fit.causes.front()->effect;
+        if (first == "none" || firsts.size() == most_first_causes ||
+            std::find(firsts.begin(), firsts.end(), first) != firsts.end())
+            continue;
+        firsts.push_back(first);
+        add_pairs(single.fit.hypothesis(), pairs);
+    }
+    sort_by_evidence(pairs);
+    for (int round = 0; round < most_exchanges && !pairs.empty(); ++round) {
+        if (!worth_a_second_cause(pairs.front().misfit, nominal_misfit_)) break;
+        const CauseFit best = pairs.front().fit;
+        for (std::size_t kept = 0; kept < best.causes.size(); ++kept) add_pairs(only(best, kept), pairs);
+        sort_by_evidence(pairs);
+        if (pairs.front().fit.causes == best.causes) break;
+    }
+    return pairs;
+}
+
+void CauseSearch::add_pairs(const Hypothesis& present, std::vector<ScoredFit>& pairs) {
+    const CandidateCause* first = present.causes.front();
+    std::size_t seconds = 0;
+    for (const Screened& each : screen(screener_, causes_, present)) {
+        if (seconds == most_second_causes) break;
+        if (each.cause->effect == first->effect || is_part_of(*each.cause, *first)) continue;
+        ++seconds;
+        const auto same = [&](const ScoredFit& pair) {
+            return std::is_permutation(pair.fit.causes.begin(), pair.fit.causes.end(),
+                                       std::array{first, each.cause}.begin());
+        };
+        if (std::any_of(pairs.begin(), pairs.end(), same)) continue;
+        tell("fitting " + first->effect + " with " + each.cause->effect,
+             std::min(0.9, 0.6 + 0.03 * static_cast<double>(pairs.size())));
+        CauseFitter::FitOptions options;
+        options.hopeless_sum_of_squares = hopeless_factor * least_sum(pairs);
+        pairs.push_back(scored(fitter_.fit(with(present, each), options)));
+    }
+}
+
+}  // namespace capstan::gap
