@@ -16,7 +16,7 @@ namespace capstan::service {
 
 namespace {
 
-constexpr int stopped_code = 130;        // of the program's commands, after a request to end
+constexpr int signal_code = 128;         // above: ended by a signal, or by a request to end (the program's 130)
 constexpr std::size_t most_jobs = 1000;  // that the list tells of; the oldest that have ended are forgotten
 
 std::int64_t last_id(const JobCommands& commands, JobKind kind) {
@@ -304,7 +304,7 @@ void JobQueue::run(Job job) {
             each.share_done = 1.0;
         } else if (ending_) {
             each.state = JobState::running;  // goes on at the next start
-        } else if (stop_asked_ && (code == stopped_code || code > 128)) {
+        } else if (stop_asked_ && code > signal_code) {
             each.state = JobState::stopped;
         } else {
             each.state = JobState::failed;
