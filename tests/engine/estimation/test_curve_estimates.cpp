@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/estimation/curve_peak.h"
 #include "fusion_bench.h"
 
 namespace capstan {
@@ -149,6 +150,33 @@ TEST(CurveLikelihood, IsFiniteWhereTheCableIsSlack) {
             for (const double node_N : tension_N) ASSERT_TRUE(std::isfinite(node_N)) << reading_N << " N";
         }
     }
+}
+
+// The peak is found while two rows are added; equal tops count at their first place.
+TEST(CurvePeak, FoundWhileAddingIsTheFirstLargestOfTheSum) {
+    for (const int points : {8, 16, 24, 64}) {
+        for (int top = 0; top < points; ++top) {
+            std::vector<double> before(static_cast<std::size_t>(points));
+            std::vector<double> sensor(before.size());
+            std::vector<double> sum(before.size());
+            for (int k = 0; k < points; ++k) {
+                before[static_cast<std::size_t>(k)] = -std::abs(std::sin(3.0 * k)) - 0.1;
+                sensor[static_cast<std::size_t>(k)] = -0.01 * k;
+            }
+            before[static_cast<std::size_t>(top)] = 1.0;
+            sensor[static_cast<std::size_t>(top)] = 0.0;
+            before.back() = 1.0;
+            sensor.back() = 0.0;
+            EXPECT_EQ(add_log_likelihood_and_find_peak(before, sensor, sum), top) << points;
+            for (std::size_t k = 0; k < sum.size(); ++k) ASSERT_EQ(sum[k], before[k] + sensor[k]);
+            EXPECT_EQ(most_likely_point(sum), top) << points;
+        }
+    }
+}
+
+TEST(CurvePeak, OfNoNumberIsTheFirstPoint) {
+    const std::vector<double> none(16, std::nan(""));
+    EXPECT_EQ(most_likely_point(none), 0);
 }
 
 }  // namespace

@@ -124,5 +124,11 @@ TEST(FusionMethods, MaximumLikelihoodStandsBeforeThePosteriorMean) {
     EXPECT_LT(place("maximum_likelihood"), place("posterior_mean"));
 }
 
+TEST(FusionMethods, TheCatalogueHasMethodsOfEveryKindOfKnowledge) {
+    std::set<std::string_view> kinds;
+    for (const FusionMethod& method : fusion_methods()) kinds.insert(name_of(method.knowledge));
+    EXPECT_EQ(kinds, (std::set<std::string_view>{"direction_known", "direction_unknown", "feasible_curve"}));
+}
+
 }  // namespace
 }  // namespace capstan

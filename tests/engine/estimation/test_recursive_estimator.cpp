@@ -198,5 +198,20 @@ TEST(RecursiveEstimator, RefusesWhatItCannotUse) {
     EXPECT_EQ(before, std::vector<double>(estimator.mean_N().begin(), estimator.mean_N().end()));
 }
 
+TEST(RecursiveEstimator, AtANodeItsMomentsAreTheNodesAndBetweenNodesTheMeanIsInterpolated) {
+    const CableState start = pretensioned(paper_model().cable());
+    RecursiveSettings settings;
+    settings.wander.distal_m = 1e-4;
+    RecursiveEstimator estimator(paper_model(), start, settings);
+    for (int step = 1; step <= 10; ++step) estimator.step({proximal_m(paper_model().cable(), step), 0.0}, {});
+    for (int node = 0; node <= 10; ++node) {
+        const auto moments = estimator.at(spot_of_node(paper_model().cable(), node));
+        EXPECT_NEAR(moments.mean_N, estimator.mean_N()[static_cast<std::size_t>(node)], 1e-12);
+        EXPECT_NEAR(moments.deviation_N, estimator.deviation_N()[static_cast<std::size_t>(node)], 1e-12);
+    }
+    EXPECT_NEAR(estimator.at({4, 0.25}).mean_N, 0.75 * estimator.mean_N()[4] + 0.25 * estimator.mean_N()[5],
+                1e-12);
+}
+
 }  // namespace
 }  // namespace capstan

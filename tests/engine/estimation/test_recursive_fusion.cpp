@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimation/recursive_fusion.h"
@@ -55,6 +56,33 @@ TEST(RecursiveFusion, RefusesWeightsNoReadingsAndNodesBeyondTheCable) {
     EXPECT_THROW(fusion.step(0.0, {}), InvalidInput);
     const NodeReading beyond{11, 10.0};
     EXPECT_THROW(fusion.step(0.0, {&beyond, 1}), InvalidInput);
+}
+
+TEST(RecursiveFusion, RefusesMorePatternsThanItCanTry) {
+    const QuasiStaticStep model(test::paper_cable(most_estimated_segments + 1), ModelRules::cured());
+    const CableState start = pretensioned(model.cable());
+    EXPECT_THROW(RecursiveFusion(model, start, mean_method, DistalSide::admitted), InvalidInput);
+}
+
+// To and fro with a spring at the far end: rest, motion from the near end, all of the cable, and back.
+TEST(RecursiveFusion, WithoutNoiseAndASensorAtEveryNodeItFollowsEveryKindOfMotion) {
+    const QuasiStaticStep model(test::paper_cable(6), ModelRules::cured());
+    CableState truth = pretensioned(model.cable());
+    RecursiveFusion fusion(model, truth, mean_r_method, DistalSide::admitted);
+    std::set<MotionKind> seen;
+    for (int step = 1; step <= 200; ++step) {
+        const double near_m = proximal_m(model.cable(), step);
+        const double far_m = step > 100 ? 1e-3 * std::sin(0.2 * step) : 0.0;
+        model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(far_m)});
+        seen.insert(truth.last_motion.kind);
+        std::vector<NodeReading> readings;
+        for (int node = 0; node <= 6; ++node)
+            readings.push_back({node, truth.tension_N[static_cast<std::size_t>(node)]});
+        fusion.step(near_m, readings);
+        for (std::size_t node = 0; node < truth.tension_N.size(); ++node)
+            ASSERT_TRUE(std::isfinite(fusion.estimate().tension_N[node]));
+    }
+    EXPECT_GE(seen.size(), 3u);
 }
 
 }  // namespace
