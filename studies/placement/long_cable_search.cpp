@@ -255,7 +255,7 @@ PlacementAnswer search_long_cable(const StudyPlan& plan, const PlacementOptions&
                     judged(std::string(family.name), nodes, searched, search.constraints()));
             }
             judge_afresh(count.optimum, best, fresh);
-            for (JudgedLayout& other : count.beside) judge_afresh(other, best, fresh);
+            for (JudgedLayout& beside : count.beside) judge_afresh(beside, best, fresh);
             count.optimism_N = count.optimum.fresh.value_N - count.optimum.searched_N;
             count.at_most_better_N = std::max(0.0, count.optimum.fresh.value_N - everywhere.error_N);
             if (options.on_progress) {
