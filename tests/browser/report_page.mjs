@@ -23,7 +23,7 @@ async function open(browser, file, { width, dark }) {
   await page.emulateMedia({ colorScheme: dark ? "dark" : "light" });
   await page.setViewportSize({ width, height: 900 });
   await page.goto(pathToFileURL(resolve(file)).href);
-  await page.waitForSelector("html[data-drawn=yes]", { timeout: 60000 });
+  await page.waitForSelector("html[data-drawn=yes]", { timeout: 0 });
   return { page, requests, complaints };
 }
 

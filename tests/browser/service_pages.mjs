@@ -8,11 +8,11 @@ import { check, finish, launch } from "./checks.mjs";
 const [folder, address, log, sidecar] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
-const patience = { timeout: 240000 };  // for work that a busy machine may take long for
 
 const requests = [], complaints = [];
 async function open(browser, path) {
   const page = await browser.newPage();
+  page.setDefaultTimeout(0);  // a busy machine may take long; the limit of the whole test ends what never comes
   page.on("request", (request) => { if (!/^(data|blob):/.test(request.url())) requests.push(request.url()); });
   page.on("console", (message) => { if (["error", "warning"].includes(message.type())) complaints.push(message.text()); });
   page.on("pageerror", (error) => complaints.push(String(error)));
@@ -27,7 +27,7 @@ async function startAndWatch(page) {
   await page.selectOption("#config-name", "quick.toml");
   await page.waitForFunction(() => document.querySelector("#config-text").value.includes("repetitions"));
   await page.click("#start-form button[type=submit]");
-  await page.waitForSelector('#job-table tr[data-state="done"]', patience);
+  await page.waitForSelector('#job-table tr[data-state="done"]');
   check((await text(page, "#study-table tbody")).includes("complete"), "the study is complete in the list");
 
   await page.fill("#config-text", "repetitions = -1");
@@ -45,13 +45,13 @@ async function watchCellsFill(browser) {
   await front.$eval("#config-text", (each) => { each.value = each.value.replace(/^repetitions.*$/m, "repetitions = 400"); });
   await front.dispatchEvent("#config-text", "input");
   await front.click("#start-form button[type=submit]");
-  await front.waitForFunction(() => document.querySelectorAll("#study-table tbody tr").length === 2, null, patience);
+  await front.waitForFunction(() => document.querySelectorAll("#study-table tbody tr").length === 2);
   const page = await open(browser, "/studies/2");
-  await page.waitForSelector("html[data-live=yes]", patience);
+  await page.waitForSelector("html[data-live=yes]");
   await page.evaluate(() => { window.never_reloaded = true; });
   await page.screenshot({ path: join(folder, "service_running.png") });
-  await page.waitForSelector("html[data-study=complete]", patience);
-  await page.waitForSelector("main figure[data-figure] svg", patience);
+  await page.waitForSelector("html[data-study=complete]");
+  await page.waitForSelector("main figure[data-figure] svg");
   check(await page.evaluate(() => window.never_reloaded === true), "the report grew without reloading");
   check((await page.$$(".cells i:not(.done)")).length === 0, "all cells are filled at the end");
   check((await page.$$('input[name="noise"]')).length > 1, "the noise levels can be chosen");
@@ -60,12 +60,12 @@ async function watchCellsFill(browser) {
 }
 
 async function useTheReport(page) {
-  await page.waitForSelector("html[data-live=yes]", patience);
-  await page.waitForSelector("html[data-drawn=yes]", patience);
+  await page.waitForSelector("html[data-live=yes]");
+  await page.waitForSelector("html[data-drawn=yes]");
   const chart = "#figure-error_by_count-mass svg";
   const before = await page.$eval(chart, (svg) => svg.outerHTML);
   await page.click('#filters input[value="Mean"]');
-  await page.waitForFunction(([where, old]) => document.querySelector("html").dataset.drawn === "yes" && document.querySelector(where).outerHTML !== old, [chart, before], patience);
+  await page.waitForFunction(([where, old]) => document.querySelector("html").dataset.drawn === "yes" && document.querySelector(where).outerHTML !== old, [chart, before]);
   await page.fill('#filters input[data-filter="most"]', "2");
   await page.dispatchEvent('#filters input[data-filter="most"]', "change");
   await page.waitForFunction(() => document.querySelector("html").dataset.drawn === "yes");
@@ -76,7 +76,7 @@ async function useTheReport(page) {
 
 async function moveASensor(page) {
   const answered = () => page.$eval("#hand-expected", (each) => Number(each.dataset.answered ?? 0));
-  await page.waitForFunction(() => document.querySelector("#hand-expected")?.dataset.answered > 0, null, patience);
+  await page.waitForFunction(() => document.querySelector("#hand-expected")?.dataset.answered > 0);
   const recommended = await text(page, "#hand-expected");
   check(/Expected error \d/.test(recommended), "the recommendation's sensors have an expected error: " + recommended);
   let count = await answered();
@@ -84,7 +84,7 @@ async function moveASensor(page) {
   const free = await page.$$eval("#hand .place[aria-checked=false]", (all) => all.map((each) => Number(each.dataset.node)));
   await page.click(`#hand .place[data-node="${chosen[0]}"]`);
   await page.click(`#hand .place[data-node="${free[0]}"]`);
-  await page.waitForFunction(([old, words]) => Number(document.querySelector("#hand-expected").dataset.answered) > old && document.querySelector("#hand-expected").textContent !== words, [count, recommended], patience);
+  await page.waitForFunction(([old, words]) => Number(document.querySelector("#hand-expected").dataset.answered) > old && document.querySelector("#hand-expected").textContent !== words, [count, recommended]);
   const moved = await text(page, "#hand-expected");
   check(/Expected error \d/.test(moved) && moved !== recommended, "a moved sensor changes the expected error: " + moved);
   await page.locator("#hand").screenshot({ path: join(folder, "service_hand.png") });
@@ -95,7 +95,7 @@ async function moveASensor(page) {
   count = await answered();
   await page.focus(`#hand .place[data-node="${last}"]`);
   await page.keyboard.press(last > 1 && !here.includes(last - 1) ? "Shift+ArrowLeft" : "Space");
-  await page.waitForFunction((old) => Number(document.querySelector("#hand-expected").dataset.answered ?? 0) > old || document.querySelector("#hand-expected").textContent.startsWith("No sensor"), count, patience);
+  await page.waitForFunction((old) => Number(document.querySelector("#hand-expected").dataset.answered ?? 0) > old || document.querySelector("#hand-expected").textContent.startsWith("No sensor"), count);
   check(await page.$eval(`#hand .place[data-node="${last}"]`, (each) => each.getAttribute("aria-checked")) === "false", "the keyboard moves a sensor");
 }
 
@@ -121,7 +121,7 @@ async function diagnose(page) {
   await page.setInputFiles("#log", log);
   await page.setInputFiles("#sidecar", sidecar);
   await page.click("#upload-form button[type=submit]");
-  await page.waitForSelector(".verdict-card", patience);
+  await page.waitForSelector(".verdict-card");
   const verdict = await text(page, ".verdict-card");
   check(/\d+%/.test(verdict) && verdict.length > 60, "the verdict is told: " + verdict.slice(0, 120));
   await page.click(".verdict-card summary");
