@@ -27,8 +27,8 @@ constexpr auto bench_cable = [](auto& plan) -> auto& {
 };
 
 void add_bench_keys(BenchKeys& keys) {
-    BenchKey kind{"", "kind", ValueKind::choice, ""};
-    kind.names = {"bench"};
+    BenchKey kind{"", "kind", {ValueKind::choice, ""}};
+    kind.allowed.names = {"bench"};
     kind.presence = Presence::required;
     kind.help = "What this file describes: a bench, to be simulated; a study has no such key.";
     kind.read = [](const BenchPlan&, int) -> ConfigValue { return std::string("bench"); };

@@ -5,6 +5,7 @@
 #include "capstan/cable/motion_name.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
+#include "capstan/cli/config_file.h"
 #include "capstan/cli/config_reader.h"
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"

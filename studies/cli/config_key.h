@@ -40,6 +40,16 @@ struct Limits {
     std::string words() const;  ///< "above 0", "1 to 200", empty without limits
 };
 
+/// The values that a key takes.
+struct AllowedValues {
+    ValueKind kind = ValueKind::text;
+    std::string unit;
+    Limits limits{};
+    std::vector<std::string> names{};
+    bool takes_all = false;     ///< the text "all" stands for the whole list
+    bool may_be_empty = false;  ///< of real_numbers; other lists may
+};
+
 /// When a key has a meaning, for keys that depend on another one.
 template <class Plan>
 struct KeyCondition {
@@ -54,12 +64,7 @@ template <class Plan>
 struct ConfigKey {
     std::string section;  ///< "" at the top, else as in [section]
     std::string name;     ///< ends in its unit
-    ValueKind kind = ValueKind::text;
-    std::string unit;
-    Limits limits{};
-    std::vector<std::string> names{};
-    bool takes_all = false;     ///< the text "all" stands for the whole list
-    bool may_be_empty = false;  ///< of real_numbers; other lists may
+    AllowedValues allowed{};
     Presence presence = Presence::optional;
     ConfigValue default_value{};
     std::string help{};

@@ -36,7 +36,7 @@ struct KeyText {
 
 template <class Plan = StudyPlan, class Field>
 ConfigKey<Plan> text(KeyText about, ConfigValue default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, ValueKind::text, about.unit};
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::text, about.unit}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
     bind_field<std::string>(key, field);
@@ -45,7 +45,7 @@ ConfigKey<Plan> text(KeyText about, ConfigValue default_value, Field field) {
 
 template <class Plan = StudyPlan, class Field>
 ConfigKey<Plan> whole(KeyText about, Limits limits, ConfigValue default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, ValueKind::whole_number, about.unit, limits};
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::whole_number, about.unit, limits}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
     bind_field<std::int64_t>(key, field);
@@ -54,7 +54,7 @@ ConfigKey<Plan> whole(KeyText about, Limits limits, ConfigValue default_value, F
 
 template <class Plan = StudyPlan, class Field>
 ConfigKey<Plan> real(KeyText about, Limits limits, ConfigValue default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, ValueKind::real_number, about.unit, limits};
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::real_number, about.unit, limits}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
     bind_field<double>(key, field);
@@ -63,7 +63,7 @@ ConfigKey<Plan> real(KeyText about, Limits limits, ConfigValue default_value, Fi
 
 template <class Plan = StudyPlan, class Field>
 ConfigKey<Plan> yes_or_no(KeyText about, bool default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, ValueKind::yes_or_no, about.unit};
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::yes_or_no, about.unit}};
     key.help = std::move(about.help);
     key.default_value = default_value;
     bind_field<bool>(key, field);
@@ -72,7 +72,7 @@ ConfigKey<Plan> yes_or_no(KeyText about, bool default_value, Field field) {
 
 template <class Plan, class Field>
 ConfigKey<Plan> real_list(KeyText about, Limits limits, std::vector<double> default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, ValueKind::real_numbers, about.unit, limits};
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::real_numbers, about.unit, limits}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
     bind_field<std::vector<double>>(key, field);
@@ -88,10 +88,10 @@ struct Named {
 template <class Value, class Plan = StudyPlan, class Field, class Same = std::equal_to<>>
 ConfigKey<Plan> choice(KeyText about, std::vector<Named<Value>> all, ConfigValue default_value, Field field,
                        Same same = {}) {
-    ConfigKey<Plan> key{about.section, about.name, ValueKind::choice, about.unit};
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::choice, about.unit}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
-    for (const auto& each : all) key.names.push_back(each.name);
+    for (const auto& each : all) key.allowed.names.push_back(each.name);
     key.read = [all, field, same](const Plan& plan, int row) -> ConfigValue {
         const auto found = std::find_if(all.begin(), all.end(),
                                         [&](const auto& each) { return same(each.value, field(plan, row)); });

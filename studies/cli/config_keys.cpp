@@ -155,7 +155,7 @@ void add_regime_keys(std::vector<StudyKey>& keys) {
          "end, the distal end or both move while others rest."},
         regimes, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].regime; })));
 
-    StudyKey samples{"regime", "samples", ValueKind::whole_numbers, "", {1, true, 1e7}};
+    StudyKey samples{"regime", "samples", {ValueKind::whole_numbers, "", {1, true, 1e7}}};
     samples.presence = Presence::required;
     samples.help =
         "Instants at which sensors are judged, as samples of the motion; each must be in this regime. "
@@ -217,10 +217,10 @@ std::vector<std::string> names_of(const std::vector<Entry>& catalogue) {
 // A list of names out of a catalogue, or "all".
 StudyKey name_list(KeyText about, std::vector<std::string> catalogue,
                    std::vector<std::string> StudyPlan::*field) {
-    StudyKey key{about.section, about.name, ValueKind::names, about.unit};
+    StudyKey key{about.section, about.name, {ValueKind::names, about.unit}};
     key.help = std::move(about.help);
-    key.names = catalogue;
-    key.takes_all = true;
+    key.allowed.names = catalogue;
+    key.allowed.takes_all = true;
     key.default_value = std::string("all");
     key.read = [field](const StudyPlan& plan, int) -> ConfigValue { return plan.*field; };
     key.write = [field, catalogue](StudyPlan& plan, int, const ConfigValue& value) {
@@ -231,9 +231,9 @@ StudyKey name_list(KeyText about, std::vector<std::string> catalogue,
 }
 
 StudyKey sensor_counts() {
-    StudyKey key{"layouts", "counts", ValueKind::whole_numbers, "", {1, true, 10001}};
+    StudyKey key{"layouts", "counts", {ValueKind::whole_numbers, "", {1, true, 10001}}};
     key.help = "Numbers of sensors tried with each family; \"all\" is 1 up to one at every node.";
-    key.takes_all = true;
+    key.allowed.takes_all = true;
     key.default_value = std::string("all");
     key.read = [](const StudyPlan& plan, int) -> ConfigValue {
         return std::vector<std::int64_t>(plan.sensor_counts.begin(), plan.sensor_counts.end());
@@ -251,7 +251,7 @@ StudyKey sensor_counts() {
 
 // People count nodes from 1, the plan from 0.
 StudyKey explicit_layouts() {
-    StudyKey key{"layouts", "explicit", ValueKind::node_sets, "", {1, true, 10001}};
+    StudyKey key{"layouts", "explicit", {ValueKind::node_sets, "", {1, true, 10001}}};
     key.help = "Further layouts as lists of nodes, counted from 1 at the proximal end: [[1, 6, 11], [3, 9]].";
     key.default_value = std::vector<std::vector<std::int64_t>>{};
     key.read = [](const StudyPlan& plan, int) -> ConfigValue {

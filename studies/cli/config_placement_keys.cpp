@@ -10,7 +10,7 @@ using StudyKey = ConfigKey<StudyPlan>;
 
 // People count nodes from 1, the plan from 0.
 StudyKey node_list(KeyText about, std::vector<int> PlacementPlan::*field) {
-    StudyKey key{about.section, about.name, ValueKind::whole_numbers, about.unit, {1, true, 10001}};
+    StudyKey key{about.section, about.name, {ValueKind::whole_numbers, about.unit, {1, true, 10001}}};
     key.help = std::move(about.help);
     key.default_value = std::vector<std::int64_t>{};
     key.read = [field](const StudyPlan& plan, int) -> ConfigValue {
@@ -61,7 +61,7 @@ void add_placement_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
     StudyKey costs = real_list<StudyPlan>(
         {at, "node_costs", "", "What a sensor costs at each node, proximal end first; empty: 1 everywhere."},
         zero_or_more, {}, [](auto& plan, int) -> auto& { return plan.placement.node_costs; });
-    costs.may_be_empty = true;
+    costs.allowed.may_be_empty = true;
     keys.push_back(std::move(costs));
     keys.push_back(real(
         {at, "budget", "", "What all sensors together may cost, in the unit of node_costs."}, zero_or_more,

@@ -4,6 +4,7 @@
 #include "capstan/cli/command.h"
 #include "capstan/cli/config_truth.h"
 #include "capstan/cli/config_writer.h"
+#include "capstan/cli/runnable_config.h"
 #include "capstan/placement/study_sweep.h"
 
 namespace capstan::cli {

@@ -12,12 +12,12 @@ StudyKey swept_ratio(std::string name, const std::string& what, std::vector<doub
     StudyKey key = real_list<StudyPlan>(
         {"sweep", std::move(name), "", "Factors on " + what + ", one study each; none: as above."},
         above_zero, {}, [list](auto& plan, int) -> auto& { return plan.sweep.*list; });
-    key.may_be_empty = true;
+    key.allowed.may_be_empty = true;
     return key;
 }
 
 StudyKey swept_segments() {
-    StudyKey key{"sweep", "segments", ValueKind::whole_numbers, "", {2, true, most_estimated_segments}};
+    StudyKey key{"sweep", "segments", {ValueKind::whole_numbers, "", {2, true, most_estimated_segments}}};
     key.help = "Numbers of segments, one study each; none: as above.";
     key.default_value = std::vector<std::int64_t>{};
     key.read = [](const StudyPlan& plan, int) -> ConfigValue {

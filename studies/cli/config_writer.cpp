@@ -79,13 +79,13 @@ std::string_view kind_words(ValueKind kind) {
 // "number [N], above 0; default 2000.0"
 template <class Plan>
 std::string facts_of(const ConfigKey<Plan>& key) {
-    std::string facts(kind_words(key.kind));
-    if (key.kind == ValueKind::choice) {
-        for (const auto& name : key.names) facts += (facts.empty() ? "" : " or ") + toml_string(name);
+    std::string facts(kind_words(key.allowed.kind));
+    if (key.allowed.kind == ValueKind::choice) {
+        for (const auto& name : key.allowed.names) facts += (facts.empty() ? "" : " or ") + toml_string(name);
     }
-    if (key.takes_all) facts += " or \"all\"";
-    if (!key.unit.empty()) facts += fmt::format(" [{}]", key.unit);
-    if (const std::string limits = key.limits.words(); !limits.empty()) facts += ", " + limits;
+    if (key.allowed.takes_all) facts += " or \"all\"";
+    if (!key.allowed.unit.empty()) facts += fmt::format(" [{}]", key.allowed.unit);
+    if (const std::string limits = key.allowed.limits.words(); !limits.empty()) facts += ", " + limits;
     const std::string default_text = std::visit(ToToml{}, key.default_value);
     if (key.presence == Presence::required) {
         facts += "; required";

@@ -10,6 +10,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/page_place.h"
 #include "capstan/cli/place_words.h"
+#include "capstan/cli/runnable_config.h"
 #include "capstan/duty/duty_cycle.h"
 #include "capstan/gap/recording_reader.h"
 #include "capstan/placement/sensor_placement.h"

@@ -7,6 +7,7 @@
 #include "capstan/cli/noise_option.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
+#include "capstan/cli/runnable_config.h"
 #include "capstan/cli/sensitivity_words.h"
 
 namespace capstan::cli {
