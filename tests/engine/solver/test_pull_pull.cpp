@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -253,86 +252,6 @@ TEST(PullPull, StictionsJumpsAreSearchedThrough) {
         ASSERT_TRUE(report.motor.converged) << n << " residual " << report.motor.torque_residual_Nm;
         ASSERT_LT(report.motor.iterations, 60) << n;
     }
-}
-
-// Cables that do not match, coarse steps, both pulleys driven: what can go wrong is a torque inside a jump.
-class RandomPairs : public testing::TestWithParam<int> {};  // which inputs
-
-TEST_P(RandomPairs, KeepFiniteTensionsAndMeetNearlyEveryTorque) {
-    std::mt19937_64 random(7);
-    const auto uniform = [&](double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random);
-    };
-    const auto random_cable = [&] {
-        CableSpecification specification;
-        specification.curvature = {{uniform(0.2, 2.0), uniform(0.05, 1.0)}, {uniform(0.1, 1.0), straight}};
-        specification.segments = static_cast<int>(uniform(1.0, 40.0));
-        specification.axial_stiffness_N = uniform(500.0, 5000.0);
-        specification.dynamic_friction = uniform(0.0, 0.6);
-        specification.static_friction = specification.dynamic_friction * uniform(1.0, 3.0);
-        specification.pretension_N = uniform(0.0, 30.0);
-        return Cable(specification);
-    };
-    int steps = 0;
-    int unmet = 0;
-    for (int pairs = 0; pairs < 40; ++pairs) {
-        const Cable cable_a = random_cable();
-        const Cable cable_b = random_cable();
-        const PullPull pair(cable_a, cable_b, {uniform(0.005, 0.05), uniform(0.01, 0.1)});
-        const double motor_rate = uniform(0.01, 0.1);
-        const double load_rate = uniform(0.01, 0.1);
-        const double motor_size = uniform(0.01, 3.0);
-        const double load_size = uniform(0.01, 1.0);
-        PullPullState state = pair.at_rest();
-        for (int n = 1; n <= 200; ++n) {
-            const double motor = motor_size * std::sin(motor_rate * n);
-            const double load = load_size * std::sin(load_rate * n);
-            const PullPullInputs choices[] = {{MotorAngle{motor}, LoadAngle{load}},
-                                              {MotorTorque{0.3 * motor}, LoadAngle{load}},
-                                              {MotorAngle{motor}, LoadTorque{load}},
-                                              {MotorAngle{motor}, LoadSpring{3.0, load}},
-                                              {MotorTorque{0.3 * motor}, LoadSpring{3.0, load}}};
-            const PullPullReport report = pair.advance(state, choices[GetParam()]);
-            ++steps;
-            if (!report.motor.converged || !report.load.converged) ++unmet;
-            for (const CableState* cable : {&state.cable_a, &state.cable_b}) {
-                for (const double tension_N : cable->tension_N) {
-                    ASSERT_TRUE(std::isfinite(tension_N) && tension_N >= 0.0);
-                }
-            }
-        }
-    }
-    EXPECT_LE(unmet, steps / 50);
-}
-
-INSTANTIATE_TEST_SUITE_P(EveryPairOfInputs, RandomPairs, testing::Range(0, 5));
-
-// The search on functions nastier than a cable's.
-
-TEST(AngleSearch, EndsAtAJumpWithTheResidual) {
-    const auto jumps = [](double angle_rad) { return angle_rad < 0.3 ? -1.0 : 2.0; };
-    const AngleSearch search = search_angle({0.0, 10.0}, jumps);
-    EXPECT_FALSE(search.converged);
-    EXPECT_NEAR(search.angle_rad, 0.3, 1e-12);
-    EXPECT_EQ(search.torque_residual_Nm, -1.0) << "the side that is less wrong";
-}
-
-TEST(AngleSearch, GivesUpWhereTheTorqueCannotBeReached) {
-    double last_tried_rad = 1.0;
-    const AngleSearch search = search_angle({0.5, 10.0}, [&](double angle_rad) {
-        last_tried_rad = angle_rad;
-        return -1.0;
-    });
-    EXPECT_FALSE(search.converged);
-    EXPECT_EQ(search.angle_rad, 0.5);
-    EXPECT_EQ(last_tried_rad, 0.5);
-}
-
-TEST(AngleSearch, FindsAFallingTorquesRootBehindTheStart) {
-    const AngleSearch search =
-        search_angle({2.0, -8.0}, [](double angle_rad) { return 8.0 * std::tanh(-1.0 - angle_rad); });
-    EXPECT_TRUE(search.converged);
-    EXPECT_NEAR(search.angle_rad, -1.0, 1e-10);
 }
 
 // At the door.
