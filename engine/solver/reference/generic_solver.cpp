@@ -228,15 +228,19 @@ bool find_root_from(SignSystem& system, Eigen::VectorXd& y_N, ReferenceReport& r
     return false;
 }
 
-// From `y_N`; MINPACK stalls when rank-one updates carry a Jacobian across a kink, so then anew from where it
-// stands, and from the shifted start, as its user would do.
+// MINPACK stalls when rank-one updates carry a Jacobian across a kink, so then anew from where it stands.
+bool find_root_near(SignSystem& system, Eigen::VectorXd& y_N, ReferenceReport& report) {
+    if (find_root_from(system, y_N, report)) return true;
+    return find_root_from(system, y_N, report);
+}
+
+// From `y_N`, else from the shifted start and from zero, as its user would do.
 bool find_root(SignSystem& system, Eigen::VectorXd& y_N, ReferenceReport& report) {
-    const Eigen::VectorXd given_N = y_N;
-    if (find_root_from(system, y_N, report)) return true;
-    if (find_root_from(system, y_N, report)) return true;
-    for (const Eigen::VectorXd& start_N : {system.shifted_start_N(), given_N.Zero(given_N.size()).eval()}) {
+    if (find_root_near(system, y_N, report)) return true;
+    const Eigen::VectorXd zero_N = Eigen::VectorXd::Zero(y_N.size());
+    for (const Eigen::VectorXd& start_N : {system.shifted_start_N(), zero_N}) {
         y_N = start_N;
-        if (find_root_from(system, y_N, report) || find_root_from(system, y_N, report)) return true;
+        if (find_root_near(system, y_N, report)) return true;
     }
     return false;
 }
