@@ -1,0 +1,203 @@
+// What turns a bench's motor and what its load meets: each input, and what can lie between it and the pulley.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "capstan/solver/bench_simulation.h"
+
+namespace capstan {
+namespace {
+
+constexpr double time_step_s = 0.005;
+constexpr Pulleys pulleys{0.02, 0.104};
+
+Cable cable_with(int segments, double friction = 0.21) {
+    CableSpecification specification;
+    specification.curvature = {{0.6, 5.0}, {0.8, 0.28}, {0.6, 5.0}};
+    specification.segments = segments;
+    specification.axial_stiffness_N = 4000.0;
+    specification.dynamic_friction = specification.static_friction = friction;
+    specification.pretension_N = 6.0;
+    return Cable(specification);
+}
+
+BenchSimulation pair_with(const BenchEffects& effects, double friction = 0.21) {
+    return {{cable_with(30, friction), true, pulleys, {}}, effects};
+}
+
+double swing(int step) {
+    return std::sin(2.0 * std::numbers::pi * step / 200.0);
+}
+
+// Closed form: without effects it is the pull-pull pair.
+
+class EveryLoad : public testing::TestWithParam<int> {};
+
+PullPullInputs driven(int drive, int step) {
+    switch (drive) {
+        case 0:
+            return {MotorAngle{swing(step)}, LoadSpring{3.0, 0.1 * swing(3 * step)}};
+        case 1:
+            return {MotorAngle{swing(step)}, LoadTorque{0.2 * swing(3 * step)}};
+        default:
+            return {MotorTorque{0.2 * swing(step)}, LoadSpring{3.0, 0.1 * swing(3 * step)}};
+    }
+}
+
+TEST_P(EveryLoad, WithoutEffectsTheBenchIsThePullPullPair) {
+    const Cable cable = cable_with(100);
+    const PullPull pair(cable, cable, pulleys);
+    PullPullState state = pair.at_rest();
+    BenchSimulation bench({cable, true, pulleys, {}}, {});
+    double torque_squares = 0.0;
+    double angle_squares = 0.0;
+    constexpr int steps = 400;
+    for (int step = 1; step <= steps; ++step) {
+        const PullPullInputs inputs = driven(GetParam(), step);
+        pair.advance(state, inputs);
+        ASSERT_TRUE(bench.advance({inputs.motor, inputs.load, time_step_s, 0.0}).converged) << step;
+        torque_squares += std::pow(bench.load_torque_Nm() - pair.load_torque_Nm(state), 2);
+        angle_squares += std::pow(bench.load_angle_rad() - state.load_angle_rad, 2);
+    }
+    EXPECT_LT(std::sqrt(torque_squares / steps), 0.01);  // of 0.4 N m
+    EXPECT_LT(std::sqrt(angle_squares / steps), 1e-3);   // of 0.15 rad
+}
+
+INSTANTIATE_TEST_SUITE_P(SpringTorqueAndTorqueAgainstSpring, EveryLoad, testing::Range(0, 3));
+
+TEST(SingleCable, MotorTorqueIsItsTensionTimesTheRadius) {
+    BenchSimulation bench({cable_with(30), false, pulleys, {}}, {});
+    for (int step = 1; step <= 200; ++step) {
+        const double torque_Nm = pulleys.motor_radius_m * (8.0 + 4.0 * swing(step));
+        ASSERT_TRUE(bench.advance({MotorTorque{torque_Nm}, LoadAngle{0.0}, time_step_s, 0.0}).converged);
+        EXPECT_NEAR(bench.motor_tension_N(0), torque_Nm / pulleys.motor_radius_m, 1e-4) << step;
+    }
+}
+
+TEST(SingleCable, CannotHoldAMotorThatPushes) {
+    BenchSimulation bench({cable_with(30), false, pulleys, {}}, {});
+    const BenchReport report = bench.advance({MotorTorque{-0.5}, LoadAngle{0.0}, time_step_s, 0.0});
+    EXPECT_FALSE(report.converged);
+    EXPECT_TRUE(std::isfinite(bench.motor_angle_rad()));
+}
+
+// Lost motion.
+
+TEST(MotorBacklash, WithinItsGapAMotorTurnsNothing) {
+    BenchEffects effects;
+    effects.motor_backlash.half_gap_rad = 0.05;
+    BenchSimulation bench = pair_with(effects);
+    for (int step = 1; step <= 200; ++step) {
+        bench.advance({MotorAngle{0.045 * swing(step)}, LoadAngle{0.0}, time_step_s, 0.0});
+        ASSERT_NEAR(bench.load_torque_Nm(), 0.0, 1e-6) << step;
+        ASSERT_NEAR(bench.motor_torque_Nm(), 0.0, 1e-6) << step;
+    }
+}
+
+TEST(MotorBacklash, BeyondItsGapAMotorIsOneWithoutThatMuchFurtherBack) {
+    BenchEffects effects;
+    effects.motor_backlash.half_gap_rad = 0.05;
+    for (const double way : {1.0, -1.0}) {
+        BenchSimulation with = pair_with(effects);
+        BenchSimulation without = pair_with({});
+        for (int step = 1; step <= 100; ++step) {
+            const double turned_rad = way * 0.01 * step;
+            with.advance({MotorAngle{turned_rad + way * 0.05}, LoadAngle{0.0}, time_step_s, 0.0});
+            without.advance({MotorAngle{turned_rad}, LoadAngle{0.0}, time_step_s, 0.0});
+            ASSERT_NEAR(with.motor_torque_Nm(), without.motor_torque_Nm(), 1e-3) << way << " at " << step;
+            ASSERT_NEAR(with.load_torque_Nm(), without.load_torque_Nm(), 1e-3) << way << " at " << step;
+        }
+        EXPECT_GT(way * without.motor_torque_Nm(), 0.1);
+    }
+}
+
+TEST(LoadBacklash, BeyondItsGapALoadIsOneWithoutThatMuchFurtherBack) {
+    BenchEffects effects;
+    effects.load_backlash.half_gap_rad = 0.02;
+    for (const double way : {1.0, -1.0}) {
+        BenchSimulation with = pair_with(effects);
+        BenchSimulation without = pair_with({});
+        for (int step = 1; step <= 60; ++step) {
+            const double turned_rad = way * 0.002 * step;
+            with.advance({MotorAngle{0.0}, LoadAngle{turned_rad + way * 0.02}, time_step_s, 0.0});
+            without.advance({MotorAngle{0.0}, LoadAngle{turned_rad}, time_step_s, 0.0});
+            // Of 4.5 N m; the contact gives a little.
+            ASSERT_NEAR(with.load_torque_Nm(), without.load_torque_Nm(), 0.03) << way << " at " << step;
+        }
+        EXPECT_LT(way * without.load_torque_Nm(), -0.3);
+    }
+}
+
+// A motor that is turned from outside.
+
+TEST(TurnedMotor, GivesItsInertiaItsAcceleration) {
+    BenchEffects effects;
+    effects.inertia.motor_kg_m2 = 2e-3;
+    BenchSimulation heavy = pair_with(effects);
+    BenchSimulation light = pair_with({});
+    constexpr double acceleration_rad_per_s2 = 5.0;
+    for (int step = 1; step <= 40; ++step) {
+        const double time_s = step * time_step_s;
+        const BenchInputs inputs{MotorAngle{0.5 * acceleration_rad_per_s2 * time_s * time_s}, LoadAngle{0.0},
+                                 time_step_s, time_s};
+        heavy.advance(inputs);
+        light.advance(inputs);
+        if (step == 1) continue;  // out of rest: half of it in a whole step
+        ASSERT_NEAR(heavy.motor_torque_Nm() - light.motor_torque_Nm(), 2e-3 * acceleration_rad_per_s2, 1e-9)
+            << step;
+    }
+}
+
+TEST(TurnedMotor, GivesItsBearingsFrictionWhileItTurnsAndNothingAtRest) {
+    BenchEffects effects;
+    effects.motor_friction.coulomb_Nm = 0.05;
+    BenchSimulation dragging = pair_with(effects);
+    BenchSimulation free = pair_with({});
+    const auto lost_Nm = [&](double angle_rad) {
+        const BenchInputs inputs{MotorAngle{angle_rad}, LoadAngle{0.0}, time_step_s, 0.0};
+        dragging.advance(inputs);
+        free.advance(inputs);
+        return dragging.motor_torque_Nm() - free.motor_torque_Nm();
+    };
+    for (int step = 1; step <= 20; ++step) ASSERT_NEAR(lost_Nm(0.01 * step), 0.05, 1e-9);
+    for (int step = 19; step >= 0; --step) ASSERT_NEAR(lost_Nm(0.01 * step), -0.05, 1e-9);
+    EXPECT_NEAR(lost_Nm(0.0), 0.0, 1e-12);
+}
+
+// Bristles hold where a sign of the speed could not.
+TEST(TurnedMotor, OnABearingWithPreslidingIsHeldAtRestToo) {
+    BenchEffects effects;
+    effects.motor_friction.coulomb_Nm = 0.05;
+    effects.motor_friction.presliding_rad = 1e-3;
+    BenchSimulation dragging = pair_with(effects);
+    BenchSimulation free = pair_with({});
+    for (int step = 1; step <= 40; ++step) {
+        const BenchInputs inputs{MotorAngle{0.01 * std::min(step, 20)}, LoadAngle{0.0}, time_step_s, 0.0};
+        dragging.advance(inputs);
+        free.advance(inputs);
+        ASSERT_NEAR(dragging.motor_torque_Nm() - free.motor_torque_Nm(), 0.05, 1e-9) << step;
+    }
+}
+
+// How much of the cable slides.
+
+TEST(SlidingShare, IsNoneAtRestAndAllButTheHeldEndsInMassMotion) {
+    const std::vector<BenchDescription> bench = {{cable_with(30), true, pulleys, {}}};
+    const std::vector<BenchEffects> effects(1);
+    BenchSimulations simulation(bench, effects);
+    EXPECT_EQ(simulation.cables().sliding_share(0), 0.0);
+    double before = 0.0;
+    for (int step = 1; step <= 100; ++step) {
+        simulation.advance({MotorAngle{0.02 * step}, LoadAngle{0.0}, time_step_s, 0.0});
+        const double share = simulation.cables().sliding_share(0);
+        ASSERT_GE(share, before) << "a front that goes on one way does not come back";
+        before = share;
+    }
+    EXPECT_DOUBLE_EQ(before, 60.0 / 62.0);
+}
+
+}  // namespace
+}  // namespace capstan
