@@ -61,6 +61,17 @@ TEST(Cable, EveryProblemIsNamedAtOnce) {
     }
 }
 
+TEST(Cable, WithoutAPieceOrWithOneThatIsNoNumberIsRefused) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CableSpecification bad = test::paper_specification(4);
+    bad.curvature.clear();
+    EXPECT_NE(refusal(bad).find("no piece"), std::string::npos);
+    bad.curvature = {{straight, 0.28}};
+    EXPECT_NE(refusal(bad).find("length_m"), std::string::npos);
+    bad.curvature = {{2.0, nan}};
+    EXPECT_NE(refusal(bad).find("bend_radius_m"), std::string::npos);
+}
+
 TEST(Cable, FrictionBeyondDoublePrecisionIsRefused) {
     CableSpecification spiral = test::paper_specification(10);
     spiral.curvature = {{100.0, 0.01}};

@@ -90,6 +90,12 @@ TEST(MedianDirection, DoesNotDependOnTheOrderOfTheVotes) {
     }
 }
 
+TEST(MedianDirection, OfNoVotesIsRest) {
+    const DirectionConsensus consensus = median_direction({}, 10);
+    EXPECT_EQ(consensus.directions, (DirectionBits{0, 0}));
+    EXPECT_EQ(consensus.undecided, 0u);
+}
+
 TEST(AgreeingNodes, AgreeOnTheSegmentsOnBothSides) {
     std::mt19937_64 random(4);
     for (int trial = 0; trial < 3000; ++trial) {

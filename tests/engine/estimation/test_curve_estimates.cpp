@@ -174,6 +174,12 @@ TEST(CurvePeak, FoundWhileAddingIsTheFirstLargestOfTheSum) {
     }
 }
 
+TEST(CurvePeak, OfAPlateauIsThePointItself) {
+    const std::vector<double> flat{0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0};
+    EXPECT_EQ(most_likely_place(flat, 2).share, 0.0);
+    EXPECT_EQ(most_likely_place(flat, 2).point, 2);
+}
+
 TEST(CurvePeak, OfNoNumberIsTheFirstPoint) {
     const std::vector<double> none(16, std::nan(""));
     EXPECT_EQ(most_likely_point(none), 0);

@@ -81,6 +81,31 @@ TEST(KnownDirection, ASensorAtRestSaysNothing) {
     }
 }
 
+TEST(KnownDirection, NoReadingSaysAnythingOfASlackCable) {
+    const Instant instant = paper_instant(112);
+    MotionPattern slack;
+    slack.kind = MotionKind::slack;
+    for (int node = 0; node < instant.nodes(); ++node)
+        EXPECT_FALSE(known_direction_branch(instant.problem(), slack, node).has_value());
+}
+
+// The point without velocity lies in the fourth segment; the segment goes with the longer part of it.
+TEST(KnownDirection, OfEndsThatPartChangesWhereTheVelocityIsZero) {
+    const Instant instant = paper_instant(112);
+    for (const double fraction : {0.3, 0.7}) {
+        const MotionPattern truth{
+            MotionKind::opposed, Direction::backward, Direction::forward, 4, 7, fraction};
+        const std::uint64_t with_proximal_end = fraction > 0.5 ? 0b1111 : 0b111;
+        for (int node = 0; node < instant.nodes(); ++node) {
+            const auto branch = known_direction_branch(instant.problem(), truth, node);
+            ASSERT_TRUE(branch.has_value()) << node;
+            EXPECT_EQ(branch->directions.backward, with_proximal_end);
+            EXPECT_EQ(branch->directions.forward, 0b1111111111 & ~with_proximal_end);
+            EXPECT_NEAR(branch->tension_N(node, 7.0), 7.0, 1e-12);
+        }
+    }
+}
+
 // Information of one reading about the logarithm of the scale: 1 / 0.1^2 from its mean and 2 from its
 // deviation, so 0.1 sqrt(2 / pi) / sqrt(1.02) = 0.0790 of the mean tension.
 TEST(KnownDirectionBound, IsItsClosedFormInMassMotion) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimation/recursive_estimator.h"
@@ -100,8 +101,8 @@ TEST(RecursiveEstimator, WithBothEndsKnownItIsTheModelWhateverTheReadingsSay) {
     });
 }
 
-// A far end that moves unseen, and the readings are the answer. Not to the last bit: a gain counts only by how
-// far its correlation is beyond chance, so that a step takes a little less than the whole correction.
+// A far end that moves unseen, and the readings are the answer. Not to the last bit: a gain counts only by
+// how far its correlation is beyond chance, so that a step takes a little less than the whole correction.
 TEST(RecursiveEstimator, WithoutNoiseAndASensorAtEveryNodeItIsRightToMillinewtons) {
     Trial trial;
     for (int node = 0; node <= 10; ++node) trial.sensors.push_back(node);
@@ -196,6 +197,46 @@ TEST(RecursiveEstimator, RefusesWhatItCannotUse) {
     EXPECT_THROW(estimator.step({start.displacement_m.front(), 0.0}, {&no_number, 1}), InvalidInput);
     EXPECT_THROW(estimator.step({start.displacement_m.front(), 0.0}, {&beyond, 1}), InvalidInput);
     EXPECT_EQ(before, std::vector<double>(estimator.mean_N().begin(), estimator.mean_N().end()));
+}
+
+TEST(RecursiveEstimator, TakesAPowerOfTwoFrom8To1024AndFiniteNumbersOnly) {
+    const CableState start = pretensioned(paper_model().cable());
+    for (const int members : {4, 12, 2048}) {
+        RecursiveSettings settings;
+        settings.members = members;
+        EXPECT_THROW(RecursiveEstimator(paper_model(), start, settings), InvalidInput) << members;
+    }
+    RecursiveSettings far;
+    far.wander.proximal_m = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(RecursiveEstimator(paper_model(), start, far), InvalidInput);
+    CableState torn = start;
+    torn.displacement_m.pop_back();
+    EXPECT_THROW(RecursiveEstimator(paper_model(), torn, {}), InvalidInput);
+    RecursiveEstimator estimator(paper_model(), start, {});
+    const double near_m = start.displacement_m.front();
+    EXPECT_THROW(estimator.step({std::nan(""), 0.0}, {}), InvalidInput);
+    EXPECT_THROW(estimator.step({near_m, std::nan("")}, {}), InvalidInput);
+    const TensionReading before_the_cable{{-1, 0.0}, 10.0, {}};
+    EXPECT_THROW(estimator.step({near_m, 0.0}, {&before_the_cable, 1}), InvalidInput);
+}
+
+// At the end of its range a reading says "at least this": news where less was thought, none where more was.
+TEST(RecursiveEstimator, ASensorAtItsEndPullsUpAndNeverDown) {
+    const CableState start = pretensioned(paper_model().cable());
+    const auto mean_after_N = [&](double range_N, bool read) {
+        RecursiveSettings settings;
+        settings.wander.distal_m = 1e-4;
+        RecursiveEstimator estimator(paper_model(), start, settings);
+        TensionReading reading{spot_of_node(paper_model().cable(), 10), range_N, {}};
+        reading.noise.additive_N = 0.1;
+        reading.noise.range_N = range_N;
+        const auto readings = std::span(&reading, read ? 1u : 0u);
+        for (int step = 0; step < 5; ++step) estimator.step({start.displacement_m.front(), 0.0}, readings);
+        return estimator.mean_N()[10];
+    };
+    const double unread_N = mean_after_N(1.0, false);
+    EXPECT_EQ(mean_after_N(1.0, true), unread_N);
+    EXPECT_GT(mean_after_N(unread_N + 2.0, true), unread_N + 0.5);
 }
 
 TEST(RecursiveEstimator, AtANodeItsMomentsAreTheNodesAndBetweenNodesTheMeanIsInterpolated) {

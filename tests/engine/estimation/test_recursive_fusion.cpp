@@ -47,6 +47,17 @@ TEST(RecursiveFusion, ErrorsOfReadingsComeBackInTheEstimate) {
     EXPECT_GT(off_N, exact_N);
 }
 
+TEST(RecursiveFusion, WhereNoPatternVerifiesTheWholeStateStays) {
+    const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
+    const CableState start = pretensioned(model.cable());
+    RecursiveFusion fusion(model, start, mean_method, DistalSide::excluded);
+    const NodeReading pushes[] = {{0, -50.0}, {10, -50.0}};
+    EXPECT_EQ(fusion.step(proximal_m(model.cable(), 1), pushes), 2);
+    EXPECT_EQ(fusion.estimate().tension_N, start.tension_N);
+    EXPECT_EQ(fusion.estimate().displacement_m, start.displacement_m);
+    EXPECT_EQ(fusion.estimate().last_motion.kind, MotionKind::rest);
+}
+
 TEST(RecursiveFusion, RefusesWeightsNoReadingsAndNodesBeyondTheCable) {
     const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
     const CableState start = pretensioned(model.cable());

@@ -184,6 +184,23 @@ TEST(GenericSolver, LeavesTheStateAloneWhereItDoesNotConverge) {
     EXPECT_EQ(state.displacement_m, before.displacement_m);
 }
 
+// The same for those that assume a pattern: none of theirs is slack, so none verifies.
+TEST(LinearAssumedSolvers, LeaveTheStateAloneWhereNoPatternVerifies) {
+    const Cable cable = test::preloaded_cable(10, 0.21);
+    const CableState before = pretensioned(cable);
+    reference::BandLuSolver band(cable);
+    reference::LinearAssumedSolver dense(cable);
+    for (const double distal_m : {0.0, -0.06}) {
+        const EndConditions pushed{EndCondition::position_m(0.1), EndCondition::position_m(distal_m)};
+        CableState by_band = before;
+        CableState by_dense = before;
+        EXPECT_FALSE(band.advance(by_band, pushed).converged);
+        EXPECT_FALSE(dense.advance(by_dense, pushed).converged);
+        EXPECT_EQ(by_band.tension_N, before.tension_N);
+        EXPECT_EQ(by_dense.displacement_m, before.displacement_m);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryMotion, Agreement,
                          testing::Combine(testing::ValuesIn(test::all_motions(250)),
                                           testing::Values(1, 2, 3, 5, 10, 20, 40, 60)),

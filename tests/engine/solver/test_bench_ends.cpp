@@ -131,6 +131,25 @@ TEST(LoadBacklash, BeyondItsGapALoadIsOneWithoutThatMuchFurtherBack) {
     }
 }
 
+// Where contact opens and closes Newton's method goes to and fro, and the load's angle is closed in on
+// instead.
+TEST(LoadBacklash, AHandleThatCrossesItsGapFeelsWhatTheCablesPull) {
+    BenchEffects effects;
+    effects.load_backlash.half_gap_rad = 0.01;
+    BenchSimulation bench = pair_with(effects);
+    int most_iterations = 0;
+    for (int step = 1; step <= 200; ++step) {
+        const BenchReport report =
+            bench.advance({MotorAngle{0.0}, LoadAngle{0.3 * swing(step)}, time_step_s, 0.0});
+        ASSERT_TRUE(report.converged) << step;
+        most_iterations = std::max(most_iterations, report.iterations);
+        const double pulled_Nm = pulleys.load_radius_m * (bench.load_tension_N(0) - bench.load_tension_N(1));
+        // Of 13 N m; the pulley's own inertia takes the rest.
+        ASSERT_NEAR(pulled_Nm, bench.load_torque_Nm(), 5e-3) << step;
+    }
+    EXPECT_GT(most_iterations, 60) << "no step was hard";
+}
+
 // A motor that is turned from outside.
 
 TEST(TurnedMotor, GivesItsInertiaItsAcceleration) {

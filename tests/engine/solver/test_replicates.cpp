@@ -138,6 +138,14 @@ TEST(ReplicateStep, ThePapersRulesGoOneByOneToTheSameAnswer) {
     EXPECT_EQ(tally.one_by_one, tally.steps);
 }
 
+TEST(ReplicateStep, FrictionWithoutMemoryGoesTogetherToTheSameAnswerToo) {
+    ModelRules memoryless = ModelRules::cured();
+    memoryless.stiction = StictionRule::memoryless;
+    const Tally tally = walk_beside_the_single_step({10, Inputs::position_spring, 2e-4}, memoryless, 16, 400);
+    EXPECT_EQ(tally.differing, 0);
+    EXPECT_LT(tally.one_by_one, tally.steps / 10);
+}
+
 TEST(ReplicateStep, WrongInputIsRefusedAndNothingMoves) {
     const Cable cable = test::paper_cable(4);
     const ReplicateStep step(cable, ModelRules::cured());
