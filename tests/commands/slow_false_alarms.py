@@ -12,8 +12,6 @@ PROMISED_SHARE = 0.03
 
 
 class FalseAlarms(CapstanTest):
-    timeout_s = 12 * 3600
-
     def test_four_hundred_recordings_without_a_gap(self):
         kept = os.environ.get("CAPSTAN_FALSE_ALARM_FOLDER", "kept")  # to go on with after an interruption
         score = json.loads(self.run_capstan("gap-trial", "--cases", CASES, "--only", "none", "--length", "short", "--seed", 400,

@@ -43,7 +43,7 @@ class Concurrency(CapstanTest):
         done = threading.Event()
 
         def hear(words, process):
-            answer, messages = process.communicate(timeout=300)
+            answer, messages = process.communicate()
             if process.returncode != 0 or "lock" in messages.lower() or "busy" in messages.lower():
                 heard.append((words, process.returncode, messages))
             return answer
