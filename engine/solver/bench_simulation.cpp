@@ -6,6 +6,7 @@
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/solver/checked_pulleys.h"
 
 namespace capstan {
 
@@ -61,7 +62,7 @@ bool any(const LaneFlags& flags) {
 BenchSimulations::BenchSimulations(std::span<const BenchDescription> descriptions,
                                    std::span<const BenchEffects> effects)
     : count_(static_cast<int>(descriptions.size())),
-      radii_(descriptions.front().pulleys),
+      radii_(checked(descriptions.front().pulleys)),
       effects_(effects.begin(), effects.end()),
       cables_(cables_of(descriptions), effects, descriptions.front().has_second_cable) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
@@ -189,6 +190,7 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
     constexpr double first_load_width_rad = 0.005;
     constexpr double angle_tolerance_rad = 1e-9;
     constexpr double balanced_Nm = 1e-7;
+    constexpr double nearly_balanced_Nm = 1e-4;  // where the torque left leaps from one angle to the next
     constexpr int most_trials = 60;
     const auto bench = static_cast<std::size_t>(lane);
     const bool of_load = free.load.of[lane];
@@ -236,8 +238,11 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
         const double middle =
             at_low == at_high ? 0.5 * (low + high) : low + (high - low) * at_low / (at_low - at_high);
         const double at_middle = torque_left(middle);
-        reports[bench].converged = true;
-        if (std::abs(at_middle) < balanced_Nm || std::abs(high - low) < angle_tolerance_rad) return;
+        if (std::abs(at_middle) < balanced_Nm || std::abs(high - low) < angle_tolerance_rad) {
+            // With what was solved for this angle: the nodes, and the other pulley's angle.
+            reports[bench].converged = reports[bench].converged && std::abs(at_middle) < nearly_balanced_Nm;
+            return;
+        }
         if (at_middle * at_high < 0.0) {
             low = high;
             at_low = at_high;

@@ -76,7 +76,7 @@ TEST(RecursiveFusion, RefusesMorePatternsThanItCanTry) {
 }
 
 // To and fro with a spring at the far end: rest, motion from the near end, all of the cable, and back.
-TEST(RecursiveFusion, WithoutNoiseAndASensorAtEveryNodeItFollowsEveryKindOfMotion) {
+TEST(RecursiveFusion, StaysFiniteThroughEveryKindOfMotionOfTheTruth) {
     const QuasiStaticStep model(test::paper_cable(6), ModelRules::cured());
     CableState truth = pretensioned(model.cable());
     RecursiveFusion fusion(model, truth, mean_r_method, DistalSide::admitted);

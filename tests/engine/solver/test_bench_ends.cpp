@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "capstan/cable/invalid_input.h"
 #include "capstan/solver/bench_simulation.h"
 
 namespace capstan {
@@ -84,6 +85,11 @@ TEST(SingleCable, CannotHoldAMotorThatPushes) {
     EXPECT_TRUE(std::isfinite(bench.motor_angle_rad()));
 }
 
+TEST(BenchSimulation, RefusesPulleysWithoutARadius) {
+    EXPECT_THROW(BenchSimulation({cable_with(30), true, {0.0, 0.104}, {}}, {}), InvalidInput);
+    EXPECT_THROW(BenchSimulation({cable_with(30), false, {0.02, -0.104}, {}}, {}), InvalidInput);
+}
+
 // Lost motion.
 
 TEST(MotorBacklash, WithinItsGapAMotorTurnsNothing) {
@@ -148,6 +154,24 @@ TEST(LoadBacklash, AHandleThatCrossesItsGapFeelsWhatTheCablesPull) {
         ASSERT_NEAR(pulled_Nm, bench.load_torque_Nm(), 5e-3) << step;
     }
     EXPECT_GT(most_iterations, 60) << "no step was hard";
+}
+
+// The hand moves a third of a radian in a step: some steps are not met and say so, the others are balanced.
+TEST(LoadBacklash, AStepThatSaysItIsSolvedIsBalanced) {
+    BenchEffects effects;
+    effects.load_backlash.half_gap_rad = 0.05;
+    BenchSimulation bench = pair_with(effects);
+    int solved = 0;
+    for (int step = 1; step <= 400; ++step) {
+        const bool converged =
+            bench.advance({MotorAngle{0.0}, LoadAngle{1.0 * swing(10 * step)}, 10 * time_step_s, 0.0})
+                .converged;
+        if (!converged) continue;
+        ++solved;
+        const double pulled_Nm = pulleys.load_radius_m * (bench.load_tension_N(0) - bench.load_tension_N(1));
+        EXPECT_NEAR(pulled_Nm, bench.load_torque_Nm(), 5e-3) << step;
+    }
+    EXPECT_GT(solved, 300);
 }
 
 // A motor that is turned from outside.
