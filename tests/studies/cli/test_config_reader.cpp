@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "capstan/cli/config_file.h"
 #include "capstan/cli/config_key.h"
 #include "capstan/cli/config_problem.h"
 #include "capstan/cli/config_reader.h"
 #include "capstan/cli/config_writer.h"
+#include "capstan/cli/runnable_config.h"
 
 namespace capstan::cli {
 namespace {
