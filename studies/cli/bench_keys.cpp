@@ -17,7 +17,7 @@ using BenchKey = ConfigKey<BenchPlan>;
 using BenchKeys = std::vector<BenchKey>;
 using Holds = std::function<bool(const BenchPlan&)>;
 
-BenchKey only_with(Holds holds, std::string words, BenchKey key) {
+BenchKey only_with(const Holds& holds, std::string words, BenchKey key) {
     key.condition = {[holds](const BenchPlan& plan, int) { return holds(plan); }, std::move(words)};
     return key;
 }

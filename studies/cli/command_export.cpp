@@ -27,7 +27,7 @@ using storage::DocumentedTable;
 constexpr storage::QueryLimits patient{.time_limit_s = 3600};
 
 std::vector<DocumentedTable> chosen_tables(const Invocation& invocation) {
-    const std::vector<DocumentedTable> all = storage::schema_documentation();
+    std::vector<DocumentedTable> all = storage::schema_documentation();
     if (!invocation.has("tables")) return all;
     std::vector<std::string> names;
     for (const DocumentedTable& table : all) names.push_back(table.name);

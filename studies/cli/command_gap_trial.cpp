@@ -40,7 +40,7 @@ TrialOptions options_of(const Invocation& invocation) {
 
 BlindTrialHooks hooks_of(const Invocation& invocation) {
     BlindTrialHooks hooks;
-    const std::string progress = invocation.text("progress");
+    const std::string& progress = invocation.text("progress");
     hooks.on_sealed = [progress](const std::string& seal) {
         if (progress == "json") {
             const nlohmann::ordered_json json = {{"event", "sealed"}, {"labels_sha256", seal}};

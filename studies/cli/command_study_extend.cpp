@@ -48,7 +48,7 @@ StudyToExtend study_to_extend(const Invocation& invocation, storage::Database& d
 
 std::string words_of(const Invocation& invocation, const StudyToExtend& study,
                      const ExtensionOutcome& outcome) {
-    const std::string file = invocation.text("db");
+    const std::string& file = invocation.text("db");
     if (outcome.run.end == RunEnd::stopped)
         return "Stopped; every finished unit is kept. The same command goes on.";
     std::string words;

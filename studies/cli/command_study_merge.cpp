@@ -11,7 +11,7 @@ namespace capstan::cli {
 namespace {
 
 ExitCode run(const Invocation& invocation) {
-    const std::string file = invocation.text("db");
+    const std::string& file = invocation.text("db");
     const auto& names = invocation.repeated_argument();
     const std::vector<std::filesystem::path> shards(names.begin(), names.end());
     return watch(invocation, "merge", [&](const RunOptions& options) -> WatchedEnd {

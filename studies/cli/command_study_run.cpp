@@ -29,7 +29,7 @@ ExitCode run_one(const Invocation& invocation, const StudyPlan& plan) {
 
 ExitCode run_sweep(const Invocation& invocation, const std::string& name,
                    const std::vector<StudyPlan>& plans) {
-    const std::string file = invocation.text("db");
+    const std::string& file = invocation.text("db");
     storage::Database database = storage::Database::open_or_create(file);
     refuse_shard_file(database);
     return watch(invocation, name, [&](const RunOptions& options) -> WatchedEnd {
@@ -50,7 +50,7 @@ ExitCode run_sweep(const Invocation& invocation, const std::string& name,
 ExitCode run_part(const Invocation& invocation, const std::string& name,
                   const std::vector<StudyPlan>& plans) {
     const Shard shard = parse_shard(invocation.text("shard"));
-    const std::string file = invocation.text("db");
+    const std::string& file = invocation.text("db");
     require_useful(plans, shard);
     storage::Database database = storage::Database::open_or_create(file, storage::Journal::rollback);
     return watch(
@@ -73,7 +73,7 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
     StudyPlan truth = with_truth;
     truth.name += ", truth " + std::filesystem::path(invocation.text("truth")).stem().string();
     for (StudyPlan* plan : {&model, &truth}) plan->config_toml = config_text(*plan, Comments::none);
-    const std::string file = invocation.text("db");
+    const std::string& file = invocation.text("db");
     storage::Database database = storage::Database::open_or_create(file);
     refuse_shard_file(database);
     std::int64_t ids[2] = {0, 0};

@@ -215,7 +215,7 @@ std::vector<std::string> names_of(const std::vector<Entry>& catalogue) {
 }
 
 // A list of names out of a catalogue, or "all".
-StudyKey name_list(KeyText about, std::vector<std::string> catalogue,
+StudyKey name_list(KeyText about, const std::vector<std::string>& catalogue,
                    std::vector<std::string> StudyPlan::*field) {
     StudyKey key{about.section, about.name, {ValueKind::names, about.unit}};
     key.help = std::move(about.help);

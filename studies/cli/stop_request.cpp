@@ -1,6 +1,6 @@
 #include "capstan/cli/stop_request.h"
 
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX's own names are in no <csignal>
 
 namespace capstan::cli {
 

@@ -83,7 +83,7 @@ ExitCode watch(const Invocation& invocation, const std::string& name, const Watc
 
 ExitCode run_watched(const Invocation& invocation, storage::Database& database, const std::string& study_name,
                      const std::function<RunOutcome(const RunOptions&)>& work) {
-    const std::string file = invocation.text("db");
+    const std::string& file = invocation.text("db");
     std::int64_t study_id = 0;
     const ExitCode code = watch(invocation, study_name, [&](const RunOptions& options) -> WatchedEnd {
         const RunOutcome outcome = work(options);

@@ -189,7 +189,7 @@ class Calibrator {
     }
 
     std::string why_unknown(const LogFit& whole, Eigen::Index worst) {
-        const std::string partner = trading_partner(whole, worst);
+        std::string partner = trading_partner(whole, worst);
         if (!partner.empty()) return partner;
         const double alone = two_sided_95 * std::sqrt(whole.covariance(worst, worst));
         return alone < std::log(least_known_factor) ? "the runs disagree about it"

@@ -217,8 +217,8 @@ std::vector<double> OpenNumber::starts() const {
         }
         case Kind::step: {
             if (low == high) return {1.0};
-            std::vector<double> starts;
-            for (double size = 0.1; size < 10.0; size *= 1.05) starts.push_back(size);
+            std::vector<double> starts{0.1};
+            while (starts.back() * 1.05 < 10.0) starts.push_back(starts.back() * 1.05);
             return starts;
         }
         case Kind::place:

@@ -19,7 +19,7 @@ struct LocalParabola {
 };
 
 LocalParabola parabola_around(const std::vector<double>& samples, int centre, int half) {
-    const auto at = [&](int offset) { return samples[static_cast<std::size_t>(centre + offset)]; };
+    const double* middle = samples.data() + centre;
     double squares = 0.0;  // of the offsets
     double fourths = 0.0;
     double sum = 0.0;
@@ -29,9 +29,9 @@ LocalParabola parabola_around(const std::vector<double>& samples, int centre, in
         const double square = static_cast<double>(offset) * offset;
         squares += square;
         fourths += square * square;
-        sum += at(offset);
-        first += offset * at(offset);
-        second += square * at(offset);
+        sum += middle[offset];
+        first += offset * middle[offset];
+        second += square * middle[offset];
     }
     const double count = 2 * half + 1;
     const double determinant = count * fourths - squares * squares;
@@ -40,7 +40,7 @@ LocalParabola parabola_around(const std::vector<double>& samples, int centre, in
     const double quadratic = (count * second - squares * sum) / determinant;
     double misfit = 0.0;
     for (int offset = -half; offset <= half; ++offset) {
-        const double error = at(offset) - (constant + offset * (linear + offset * quadratic));
+        const double error = middle[offset] - (constant + offset * (linear + offset * quadratic));
         misfit += error * error;
     }
     return {constant, std::sqrt(misfit / (count - parabola_numbers))};

@@ -102,21 +102,6 @@ void LumpedCable::update_stiffness() {
             1.0 / (spring_m_[j] / (stiffness_ratio_ * numbers_.axial_stiffness_N) + sheath_m_per_N_[j]);
 }
 
-void LumpedCable::step(const CableEnds& ends) {
-    if (effects_.toe.strain != 0.0) {
-        stretch_springs_with_toe(ends);
-    } else {
-        stretch_springs(ends);
-    }
-    if (effects_.bristles.length_m > 0.0) {
-        move_masses_on_bristles();
-    } else if (effects_.one_way_friction != 0.0) {
-        move_masses_one_way();
-    } else {
-        move_masses();
-    }
-}
-
 CAPSTAN_WIDE void LumpedCable::stretch_springs(const CableEnds& ends) {
     const std::size_t last = position_m_.size();
     const double* const u = position_m_.data();
@@ -233,6 +218,22 @@ void LumpedCable::move_masses_on_bristles() {
         const double drag = full * (bristle[i] + bristle_damping_s / time_step_s_ * bend);
         v[i] = viscous_factor_ * (v[i] + speed_per_N_ * (tension[i + 1] - tension[i]) - drag);
         u[i] += time_step_s_ * v[i];
+    }
+}
+
+// Below what has two compiled forms: clang takes no such form after a call.
+void LumpedCable::step(const CableEnds& ends) {
+    if (effects_.toe.strain != 0.0) {
+        stretch_springs_with_toe(ends);
+    } else {
+        stretch_springs(ends);
+    }
+    if (effects_.bristles.length_m > 0.0) {
+        move_masses_on_bristles();
+    } else if (effects_.one_way_friction != 0.0) {
+        move_masses_one_way();
+    } else {
+        move_masses();
     }
 }
 

@@ -160,7 +160,7 @@ TrialLabels read_labels(const std::string& text, const std::string& place) {
 
 std::string seal_labels(const std::filesystem::path& folder, const TrialLabels& labels) {
     const std::string text = labels_text(labels);
-    const std::string hash = sha256(text);
+    std::string hash = sha256(text);
     write_whole_file(folder / labels_name, text);
     write_whole_file(folder / hash_name, fmt::format("{}  {}\n", hash, labels_name));
     return hash;

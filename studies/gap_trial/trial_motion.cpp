@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace capstan::gap_trial {
@@ -117,12 +118,14 @@ std::vector<double> tones(const std::vector<Tone>& sequence, double amplitude) {
 std::vector<double> levels(double duration_s, double highest, double every_s, double takes_s,
                            TrialStream& draws) {
     std::vector<Move> moves;
-    double last = 0.0;
-    for (double time_s = 0.35; time_s < duration_s; time_s += every_s) {
-        double level = draws.uniform(-highest, highest);
-        if (std::abs(level - last) < 0.5 * highest) level = last > 0.0 ? last - highest : last + highest;
-        moves.push_back({time_s, takes_s, level});
-        last = level;
+    Move move{0.35, takes_s, 0.0};
+    while (move.from_s < duration_s) {
+        const double last = move.level;
+        move.level = draws.uniform(-highest, highest);
+        if (std::abs(move.level - last) < 0.5 * highest)
+            move.level = last > 0.0 ? last - highest : last + highest;
+        moves.push_back(move);
+        move.from_s += every_s;
     }
     return along(moves, duration_s);
 }
@@ -227,8 +230,8 @@ double TrialRun::duration_s() const {
 std::vector<TrialRun> draw_session(const TrialBench& bench, RecordingLength length, TrialStream& draws) {
     std::vector<TrialRun> runs = bench.is_pair() ? pair_session(bench, draws) : single_session(draws);
     if (length == RecordingLength::brief) {
-        const auto keep = static_cast<std::size_t>(1 + draws.whole(2));
-        while (runs.size() > keep) runs.erase(runs.begin() + draws.whole(static_cast<int>(runs.size())));
+        const int keep = 1 + draws.whole(2);
+        while (std::ssize(runs) > keep) runs.erase(runs.begin() + draws.whole(static_cast<int>(runs.size())));
         // A locked bench whose load feels nothing says too little alone.
         const bool only_locked_tight = bench.kind == BenchKind::uniform_tight && runs.size() == 1 &&
                                        runs.front().output == gap::OutputKind::locked;

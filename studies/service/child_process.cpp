@@ -1,7 +1,7 @@
 #include "capstan/service/child_process.h"
 
 #include <fcntl.h>
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX's own names are in no <csignal>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -18,7 +18,7 @@ std::shared_ptr<ReportShelf::Place> ReportShelf::place(const std::string& name) 
     Entry& entry = places_[name];
     if (!entry.place) entry.place = std::make_shared<Place>();
     entry.asked = ++asked_;
-    const auto place = entry.place;
+    std::shared_ptr<Place> place = entry.place;
     drop_the_oldest();
     return place;
 }
