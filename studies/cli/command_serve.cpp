@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <thread>
+#include <future>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/commands.h"
@@ -73,22 +72,20 @@ ExitCode run(const Invocation& invocation) {
     const bool anywhere = options.access.host == "0.0.0.0" || options.access.host == "::";
     const std::string host = anywhere ? "127.0.0.1" : options.access.host;
     const std::string token = options.access.token.empty() ? "" : "?token=" + options.access.token;
+    const StopRequest stoppable;
     fmt::print(stderr,
                "capstan serves {} at http://{}:{}/{}\nCtrl-C ends it; a study under way goes on at the next "
                "start.\n",
                invocation.text("db"), host, service.port(), token);
     std::fflush(stderr);
 
-    const StopRequest stoppable;
-    std::atomic<bool> ended{false};
-    std::thread watcher([&] {
-        while (!StopRequest::flag()->load() && !ended.load())
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        service.stop();
-    });
-    service.run();
-    ended.store(true);
-    watcher.join();
+    std::future<void> running = std::async(std::launch::async, [&] { service.run(); });
+    // Signals come to this thread, which waits for nothing else.
+    bool stopped = false;
+    while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+        if (StopRequest::flag()->load() && !stopped) stopped = service.stop();
+    }
+    running.get();
     return ExitCode::success;
 }
 

@@ -115,7 +115,7 @@ Service::Service(ServiceOptions options) : parts_(std::make_unique<Parts>(std::m
         return httplib::Server::HandlerResponse::Handled;
     });
     server.set_exception_handler([](const httplib::Request&, httplib::Response& response,
-                                    std::exception_ptr problem) { explain(response, problem); });
+                                    const std::exception_ptr& problem) { explain(response, problem); });
     server.set_error_handler([](const httplib::Request& request, httplib::Response& response) {
         if (response.body.empty())
             send_error(response, response.status, fmt::format("{} {}", request.method, request.path));
@@ -149,8 +149,10 @@ void Service::run() {
     parts_->server.listen_after_bind();
 }
 
-void Service::stop() {
+bool Service::stop() {
+    if (!parts_->server.is_running()) return false;
     parts_->server.stop();
+    return true;
 }
 
 }  // namespace capstan::service

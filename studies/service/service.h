@@ -35,7 +35,8 @@ class Service {
     /// Answers until stop() is called from another thread; then ends the job under way, which goes on at the
     /// next start.
     void run();
-    void stop();
+    /// Once is enough. False if run() has not begun to answer yet: to be tried again.
+    bool stop();
 
   private:
     struct Parts;

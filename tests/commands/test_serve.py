@@ -120,6 +120,13 @@ class Serve(ServiceTest):
         self.await_job(job, "done")
         self.assert_same_bits(self.at_the_shell(toml), self.tables("served.db"))
 
+    def test_ends_when_asked_as_soon_as_it_says_that_it_serves(self):
+        for _ in range(5):
+            process = self.serve()
+            process.send_signal(signal.SIGTERM)
+            _, error = process.communicate()
+            self.assertEqual(process.returncode, 0, error)
+
     def test_one_service_for_a_database(self):
         self.serve()
         done = self.run_capstan("serve", "--db", "served.db", "--port", 0, expect=1)
