@@ -1,12 +1,15 @@
-// What all browser tests share: a Chromium that asks nothing of the network, and facts that are counted.
+// What all browser tests share: a Chromium that asks nothing of the network, waits without a limit of their own (the whole
+// test's limit ends what never comes), and facts that are counted.
 import { chromium } from "playwright-core";
 
 const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync"];
 
-export function launch(profile) {
-  return chromium.launchPersistentContext(profile,
-    { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags });
+export async function launch(profile) {
+  const browser = await chromium.launchPersistentContext(profile,
+    { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags, timeout: 0 });
+  browser.setDefaultTimeout(0);
+  return browser;
 }
 
 let checks = 0, failures = 0;

@@ -38,7 +38,7 @@ async function open(browser, { jump }) {
   await page.addInitScript((wish) => { window.jump = wish; }, jump);
   await page.addInitScript(watch);
   await page.goto(pathToFileURL(resolve(file)).href);
-  await page.waitForSelector("html[data-drawn=yes]", { timeout: 0 });
+  await page.waitForSelector("html[data-drawn=yes]");
   const facts = await page.evaluate(() => ({
     ...window.facts, marks: Object.fromEntries(performance.getEntriesByType("mark").map((mark) => [mark.name, mark.startTime])),
   }));

@@ -19,11 +19,14 @@ async function open(browser, file, { width, dark }) {
   const requests = [], complaints = [];
   page.on("request", (request) => { if (!/^(data|blob):/.test(request.url())) requests.push(request.url()); });
   page.on("console", (message) => { if (["error", "warning"].includes(message.type())) complaints.push(message.text()); });
-  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("pageerror", (error) => {
+    console.error(`${basename(file)}: ${error}`);  // now, for what waits for a page that threw waits until the test's limit
+    complaints.push(String(error));
+  });
   await page.emulateMedia({ colorScheme: dark ? "dark" : "light" });
   await page.setViewportSize({ width, height: 900 });
   await page.goto(pathToFileURL(resolve(file)).href);
-  await page.waitForSelector("html[data-drawn=yes]", { timeout: 0 });
+  await page.waitForSelector("html[data-drawn=yes]");
   return { page, requests, complaints };
 }
 
@@ -75,10 +78,13 @@ async function look(browser, file, view) {
   }, [letters, view.dark]), `${name}: the letters in figures suit the theme`);
 
   await page.screenshot({ path: join(folder, name.replaceAll(" ", "_") + ".png"), fullPage: true });
-  return page;
+  return { page, complaints };
 }
 
+// Chromium silently drops what a page saves after its tenth file within a second, which no person reaches and a test does.
+const between_saves_ms = 150;
 async function saved(page, action) {
+  await page.waitForTimeout(between_saves_ms);
   const [download] = await Promise.all([page.waitForEvent("download"), action()]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
@@ -210,8 +216,10 @@ try {
   for (const file of pages) {
     check(statSync(file).size < largest_page_bytes, `${file}: is below 3 MB`);
     for (const view of views) {
-      const page = await look(browser, file, view);
+      const { page, complaints } = await look(browser, file, view);
+      const before = complaints.length;
       if (view.width === 1280 && !view.dark) await useThePage(page, basename(file, ".html"));
+      check(complaints.length === before, `${file}: the console stays silent in use: ${complaints.slice(before, before + 3).join(" | ")}`);
       await page.close();
     }
   }

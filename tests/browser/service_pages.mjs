@@ -12,7 +12,6 @@ const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
 const requests = [], complaints = [];
 async function open(browser, path) {
   const page = await browser.newPage();
-  page.setDefaultTimeout(0);  // a busy machine may take long; the limit of the whole test ends what never comes
   page.on("request", (request) => { if (!/^(data|blob):/.test(request.url())) requests.push(request.url()); });
   page.on("console", (message) => { if (["error", "warning"].includes(message.type())) complaints.push(message.text()); });
   page.on("pageerror", (error) => complaints.push(String(error)));
