@@ -17,19 +17,19 @@ constexpr std::size_t shown_causes = 8;
 Table ranking_table(const DiagnosisRecord& diagnosis) {
     Table table{"ranking", "Probability of each cause", {"effect", "probability"}, {}};
     for (const auto& each : diagnosis.effects) {
-        if (table.rows.size() < shown_causes) table.rows.push_back({each.effect, each.probability_share});
+        if (table.rows.size() < shown_causes) table.rows.push_back({each.effect, each.probability_fraction});
     }
     return table;
 }
 
 Table map_table(const DiagnosisRecord& diagnosis) {
     Table table{"gap_map",
-                "Share of the gap's energy by part of the recording",
-                {"part", "share", "low", "high", "share_of_samples"},
+                "Fraction of the gap's energy by part of the recording",
+                {"part", "fraction", "low", "high", "fraction_of_samples"},
                 {}};
     for (const auto& each : diagnosis.gap)
-        table.rows.push_back({each.divided_by + ": " + each.part, each.energy_share, each.low_share,
-                              each.high_share, each.samples_share});
+        table.rows.push_back({each.divided_by + ": " + each.part, each.energy_fraction, each.low_fraction,
+                              each.high_fraction, each.samples_fraction});
     return table;
 }
 
@@ -56,16 +56,16 @@ NumberTable fitted_numbers(const DiagnosisRecord& diagnosis) {
 NumberTable shrinkage_numbers(const DiagnosisRecord& diagnosis) {
     NumberTable table{
         "RMS of measured less modelled, over whole runs",
-        {"Channel", "Unit", "Noise", "Before", "After", "Held out", "Runner-up", "Share closed, held out"},
+        {"Channel", "Unit", "Noise", "Before", "After", "Held out", "Runner-up", "Fraction closed, held out"},
         {}};
     const auto number = [](double value) { return fmt::format("{:.3g}", value); };
     for (const DiagnosisChannelRecord& each : diagnosis.channels) {
         table.rows.push_back({each.channel, each.unit, number(each.noise_in_unit),
                               number(each.rms_before_in_unit), number(each.rms_after_in_unit),
                               number(each.rms_held_out_in_unit), number(each.rms_runner_up_in_unit),
-                              each.closed_share && each.closed_low_share && each.closed_high_share
-                                  ? fmt::format("{:.2f} ({:.2f} to {:.2f})", *each.closed_share,
-                                                *each.closed_low_share, *each.closed_high_share)
+                              each.closed_fraction && each.closed_low_fraction && each.closed_high_fraction
+                                  ? fmt::format("{:.2f} ({:.2f} to {:.2f})", *each.closed_fraction,
+                                                *each.closed_low_fraction, *each.closed_high_fraction)
                                   : "no gap"});
     }
     return table;
@@ -76,8 +76,9 @@ NumberTable numbers_of(const Table& table, const std::vector<std::string>& heads
     for (const auto& row : table.rows) {
         auto& line = numbers.rows.emplace_back();
         for (const Value& value : row) {
-            const auto* share = std::get_if<double>(&value);
-            line.push_back(share != nullptr ? fmt::format("{:.2f}", *share) : std::get<std::string>(value));
+            const auto* fraction = std::get_if<double>(&value);
+            line.push_back(fraction != nullptr ? fmt::format("{:.2f}", *fraction)
+                                               : std::get<std::string>(value));
         }
     }
     return numbers;
@@ -117,9 +118,9 @@ ordered_json channel_json(const DiagnosisChannelRecord& channel) {
             {"rms_after", channel.rms_after_in_unit},
             {"rms_held_out", channel.rms_held_out_in_unit},
             {"rms_runner_up", channel.rms_runner_up_in_unit},
-            {"closed_share", number_or_null(channel.closed_share)},
-            {"closed_low", number_or_null(channel.closed_low_share)},
-            {"closed_high", number_or_null(channel.closed_high_share)}};
+            {"closed_fraction", number_or_null(channel.closed_fraction)},
+            {"closed_low", number_or_null(channel.closed_low_fraction)},
+            {"closed_high", number_or_null(channel.closed_high_fraction)}};
 }
 
 ordered_json candidates_json(const DiagnosisRecord& diagnosis) {
@@ -129,7 +130,7 @@ ordered_json candidates_json(const DiagnosisRecord& diagnosis) {
                         {"variants", ordered_json::parse(each.variants)},
                         {"open_numbers", each.open_numbers},
                         {"misfit", each.misfit_ratio},
-                        {"nominal_price", each.nominal_price_log},
+                        {"nominal_penalty", each.nominal_penalty_log},
                         {"visibility", ordered_json::parse(each.visibility_ratios)},
                         {"evidence", each.evidence_log}});
     return list;
@@ -150,7 +151,7 @@ ExperimentPage diagnosis_page(const DiagnosisRecord& diagnosis) {
          "uncertainty; what it leaves is weighed against how many numbers it needed.",
          {fitted_numbers(diagnosis), shrinkage_numbers(diagnosis)},
          "Held out: each run predicted with numbers fitted to the others. Runner-up: the best cause that the verdict "
-         "does not name. Share closed: of the mean square beyond noise, with its 95% interval."},
+         "does not name. Fraction closed: of the mean square beyond noise, with its 95% interval."},
         {"where", "Where it lies", diagnosis.gap_sentence, {}, ""}};
     page.tables = {ranking_table(diagnosis), map_table(diagnosis)};
     page.program_version = diagnosis.program_version;
@@ -167,7 +168,7 @@ std::string diagnosis_markdown(const DiagnosisRecord& diagnosis) {
     text += markdown_of(numbers_of(ranking_table(diagnosis), {"Cause", "Probability"}));
     text += markdown_of(fitted_numbers(diagnosis)) + markdown_of(shrinkage_numbers(diagnosis));
     text += markdown_of(
-        numbers_of(map_table(diagnosis), {"Part", "Share", "95% low", "95% high", "Of the samples"}));
+        numbers_of(map_table(diagnosis), {"Part", "Fraction", "95% low", "95% high", "Of the samples"}));
     return text + fmt::format("\n{}\n\nMade by capstan {} from runs {}.\n",
                               escape_markdown(diagnosis.gap_sentence), diagnosis.program_version,
                               escape_markdown(diagnosis.runs));
@@ -180,7 +181,7 @@ std::string diagnosis_csv(const DiagnosisRecord& diagnosis) {
         table.rows.push_back({std::string(part), name, quantity, value, unit});
     };
     for (const auto& each : diagnosis.effects)
-        add("effect", each.effect, "probability", each.probability_share, "");
+        add("effect", each.effect, "probability", each.probability_fraction, "");
     for (const DiagnosisCauseRecord& cause : diagnosis.causes) {
         if (cause.position_m) add("cause", name_of(cause), "position", *cause.position_m, "m");
         for (const auto& number : cause.numbers)
@@ -198,14 +199,14 @@ std::string diagnosis_csv(const DiagnosisRecord& diagnosis) {
         of_channel("rms_after", each.rms_after_in_unit);
         of_channel("rms_held_out", each.rms_held_out_in_unit);
         of_channel("rms_runner_up", each.rms_runner_up_in_unit);
-        if (each.closed_share) add("channel", each.channel, "closed_share", *each.closed_share, "");
+        if (each.closed_fraction) add("channel", each.channel, "closed_fraction", *each.closed_fraction, "");
     }
     for (const auto& each : diagnosis.gap) {
         const std::string part = each.divided_by + ": " + each.part;
-        add("gap", part, "energy_share", each.energy_share, "");
-        add("gap", part, "low_share", each.low_share, "");
-        add("gap", part, "high_share", each.high_share, "");
-        add("gap", part, "samples_share", each.samples_share, "");
+        add("gap", part, "energy_fraction", each.energy_fraction, "");
+        add("gap", part, "low_fraction", each.low_fraction, "");
+        add("gap", part, "high_fraction", each.high_fraction, "");
+        add("gap", part, "samples_fraction", each.samples_fraction, "");
     }
     return table_csv(table);
 }
@@ -213,7 +214,7 @@ std::string diagnosis_csv(const DiagnosisRecord& diagnosis) {
 ordered_json diagnosis_json(const DiagnosisRecord& diagnosis) {
     ordered_json json = {{"case", diagnosis.recording}, {"ranked", ordered_json::array()}};
     for (const auto& each : diagnosis.effects)
-        json["ranked"].push_back({{"effect", each.effect}, {"probability", each.probability_share}});
+        json["ranked"].push_back({{"effect", each.effect}, {"probability", each.probability_fraction}});
     json["where"] = {{"component", text_or_null(diagnosis.component)},
                      {"end", text_or_null(diagnosis.cable_end)},
                      {"s_m", number_or_null(diagnosis.position_m)},
@@ -239,10 +240,10 @@ ordered_json diagnosis_json(const DiagnosisRecord& diagnosis) {
     for (const auto& each : diagnosis.gap)
         json["gap_map"].push_back({{"by", each.divided_by},
                                    {"name", each.part},
-                                   {"share", each.energy_share},
-                                   {"low", each.low_share},
-                                   {"high", each.high_share},
-                                   {"share_of_samples", each.samples_share}});
+                                   {"fraction", each.energy_fraction},
+                                   {"low", each.low_fraction},
+                                   {"high", each.high_fraction},
+                                   {"fraction_of_samples", each.samples_fraction}});
     json["gap_in_words"] = diagnosis.gap_sentence;
     return json;
 }

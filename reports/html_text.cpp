@@ -50,8 +50,8 @@ std::string newtons_between(double low_N, double high_N) {
     return plain_number(low_N) + " to " + plain_number(high_N) + " N";
 }
 
-std::string percent(double share) {
-    return fmt::format("{:.3g} %", 100 * share);
+std::string percent(double fraction) {
+    return fmt::format("{:.3g} %", 100 * fraction);
 }
 
 std::string regime_title(std::string_view regime) {

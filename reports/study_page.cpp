@@ -92,7 +92,7 @@ std::string duty_in_words(const StudyTables& tables) {
     for (const Row& regime : tables["regime"].each()) {
         words += fmt::format("{}{} {} of the working time ({} {})", words.empty() ? "" : "; ",
                              escape_html(regime_title(regime.text("regime"))),
-                             percent(regime.number("duty_share")), regime.whole("instants"),
+                             percent(regime.number("duty_fraction")), regime.whole("instants"),
                              regime.whole("instants") == 1 ? "instant" : "instants");
     }
     return words;

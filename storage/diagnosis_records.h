@@ -11,7 +11,7 @@ namespace capstan::storage {
 
 struct DiagnosisEffectRecord {  // its position is its place, from 1
     std::string effect;
-    double probability_share = 0;
+    double probability_fraction = 0;
     bool operator==(const DiagnosisEffectRecord&) const = default;
 };
 
@@ -37,7 +37,7 @@ struct DiagnosisCandidateRecord {  // its position is its candidate_index
     std::string variants;
     int open_numbers = 0;
     double misfit_ratio = 0;
-    double nominal_price_log = 0;
+    double nominal_penalty_log = 0;
     std::string visibility_ratios;
     double evidence_log = 0;
     bool operator==(const DiagnosisCandidateRecord&) const = default;
@@ -51,19 +51,19 @@ struct DiagnosisChannelRecord {  // its position is its channel_index
     double rms_after_in_unit = 0;
     double rms_held_out_in_unit = 0;
     double rms_runner_up_in_unit = 0;
-    std::optional<double> closed_share;  // nothing: no gap to close
-    std::optional<double> closed_low_share;
-    std::optional<double> closed_high_share;
+    std::optional<double> closed_fraction;  // nothing: no gap to close
+    std::optional<double> closed_low_fraction;
+    std::optional<double> closed_high_fraction;
     bool operator==(const DiagnosisChannelRecord&) const = default;
 };
 
 struct DiagnosisGapRecord {  // its position is its part_index
     std::string divided_by;
     std::string part;
-    double energy_share = 0;
-    double low_share = 0;
-    double high_share = 0;
-    double samples_share = 0;
+    double energy_fraction = 0;
+    double low_fraction = 0;
+    double high_fraction = 0;
+    double samples_fraction = 0;
     bool operator==(const DiagnosisGapRecord&) const = default;
 };
 
@@ -75,7 +75,7 @@ struct DiagnosisRecord {
     std::string program_version;
     std::string runs;  // JSON
     std::string verdict;
-    double confidence_share = 0;
+    double confidence_fraction = 0;
     std::string component;
     std::string cable_end;
     std::optional<double> position_m;

@@ -75,7 +75,7 @@ std::int64_t write_diagnosis(Database& database, const DiagnosisRecord& diagnosi
 
 std::vector<DiagnosisSummary> list_diagnoses(Database& database) {
     Statement select(database,
-                     "SELECT diagnosis_id, recording, log_file, verdict, confidence_share FROM diagnosis "
+                     "SELECT diagnosis_id, recording, log_file, verdict, confidence_fraction FROM diagnosis "
                      "ORDER BY diagnosis_id");
     std::vector<DiagnosisSummary> diagnoses;
     while (select.step()) {

@@ -20,7 +20,7 @@ struct DiagnosisSummary {
     std::string recording;
     std::string log_file;
     std::string verdict;
-    double confidence_share = 0;
+    double confidence_fraction = 0;
 };
 
 std::vector<DiagnosisSummary> list_diagnoses(Database& database);  // oldest first

@@ -17,7 +17,7 @@ CREATE TABLE diagnosis (
     program_version TEXT NOT NULL,
     runs TEXT NOT NULL CHECK (json_valid(runs)),
     verdict TEXT NOT NULL,
-    confidence_share REAL NOT NULL CHECK (confidence_share BETWEEN 0 AND 1),
+    confidence_fraction REAL NOT NULL CHECK (confidence_fraction BETWEEN 0 AND 1),
     component TEXT NOT NULL,
     cable_end TEXT NOT NULL,
     position_m REAL,
@@ -36,7 +36,7 @@ CREATE TABLE diagnosis_effect (
     diagnosis_id INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,
     place INTEGER NOT NULL CHECK (place > 0),
     effect TEXT NOT NULL,
-    probability_share REAL NOT NULL CHECK (probability_share BETWEEN 0 AND 1),
+    probability_fraction REAL NOT NULL CHECK (probability_fraction BETWEEN 0 AND 1),
     PRIMARY KEY (diagnosis_id, place)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE diagnosis_cause (
@@ -65,7 +65,7 @@ CREATE TABLE diagnosis_candidate (
     variants TEXT NOT NULL CHECK (json_valid(variants)),
     open_numbers INTEGER NOT NULL,
     misfit_ratio REAL NOT NULL,
-    nominal_price_log REAL NOT NULL,
+    nominal_penalty_log REAL NOT NULL,
     visibility_ratios TEXT NOT NULL CHECK (json_valid(visibility_ratios)),
     evidence_log REAL NOT NULL,
     PRIMARY KEY (diagnosis_id, candidate_index)
@@ -80,9 +80,9 @@ CREATE TABLE diagnosis_channel (
     rms_after_in_unit REAL NOT NULL,
     rms_held_out_in_unit REAL NOT NULL,
     rms_runner_up_in_unit REAL NOT NULL,
-    closed_share REAL,
-    closed_low_share REAL,
-    closed_high_share REAL,
+    closed_fraction REAL,
+    closed_low_fraction REAL,
+    closed_high_fraction REAL,
     PRIMARY KEY (diagnosis_id, channel_index)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE diagnosis_gap (
@@ -90,16 +90,16 @@ CREATE TABLE diagnosis_gap (
     part_index INTEGER NOT NULL,
     divided_by TEXT NOT NULL,
     part TEXT NOT NULL,
-    energy_share REAL NOT NULL,
-    low_share REAL NOT NULL,
-    high_share REAL NOT NULL,
-    samples_share REAL NOT NULL,
+    energy_fraction REAL NOT NULL,
+    low_fraction REAL NOT NULL,
+    high_fraction REAL NOT NULL,
+    samples_fraction REAL NOT NULL,
     PRIMARY KEY (diagnosis_id, part_index)
 ) STRICT, WITHOUT ROWID;
 CREATE VIEW v_diagnosis AS
-SELECT d.diagnosis_id, d.recording, d.verdict, d.confidence_share, d.component, d.cable_end, d.position_m,
+SELECT d.diagnosis_id, d.recording, d.verdict, d.confidence_fraction, d.component, d.cable_end, d.position_m,
        c.channel, c.unit, c.rms_before_in_unit, c.rms_after_in_unit, c.rms_held_out_in_unit,
-       c.closed_share, c.closed_low_share, c.closed_high_share, d.sentence
+       c.closed_fraction, c.closed_low_fraction, c.closed_high_fraction, d.sentence
 FROM diagnosis d LEFT JOIN diagnosis_channel c ON c.diagnosis_id = d.diagnosis_id AND c.channel_index = (
     SELECT channel_index FROM diagnosis_channel j WHERE j.diagnosis_id = d.diagnosis_id
     ORDER BY j.channel <> 'load_torque', j.channel_index LIMIT 1);

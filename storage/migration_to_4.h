@@ -19,8 +19,8 @@ CREATE TABLE layout_error (
     rms_error_N        REAL    NOT NULL,
     bias_N             REAL    NOT NULL,
     worst_node_error_N REAL    NOT NULL,
-    unverified_share   REAL    NOT NULL,
-    ambiguous_share    REAL    NOT NULL,
+    unverified_fraction   REAL    NOT NULL,
+    ambiguous_fraction    REAL    NOT NULL,
     best               INTEGER NOT NULL CHECK (best IN (0, 1)),
     PRIMARY KEY (study_id, regime, noise_level_id, family, sensor_count, method)
 ) STRICT, WITHOUT ROWID;
@@ -36,7 +36,7 @@ CREATE TABLE sensor_matrix (
 ) STRICT, WITHOUT ROWID;
 INSERT INTO layout_error
 SELECT study_id, regime, noise_level_id, family, sensor_count, method, instants, mean_abs_error_N, standard_error_N,
-       rms_error_N, bias_N, worst_node_error_N, unverified_share, ambiguous_share,
+       rms_error_N, bias_N, worst_node_error_N, unverified_fraction, ambiguous_fraction,
        knowledge <> 'direction_known' AND
        row_number() OVER (PARTITION BY study_id, regime, noise_level_id, family, sensor_count
                           ORDER BY knowledge = 'direction_known', mean_abs_error_N, method) = 1
@@ -54,7 +54,7 @@ WITH per_instant AS (
     SELECT s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method,
            avg(c.mean_abs_error_N) AS mean_abs_error_N, avg(c.standard_error_N) AS standard_error_N,
            avg(c.rms_error_N) AS rms_error_N, avg(c.bias_N) AS bias_N, max(c.worst_node_error_N) AS worst_node_error_N,
-           avg(c.unverified_share) AS unverified_share, avg(c.ambiguous_share) AS ambiguous_share
+           avg(c.unverified_fraction) AS unverified_fraction, avg(c.ambiguous_fraction) AS ambiguous_fraction
     FROM study t CROSS JOIN scenario s USING (study_id) CROSS JOIN cell c USING (scenario_id)
     CROSS JOIN layout l USING (sensor_set_id)
     WHERE t.status = 'running'
@@ -63,8 +63,8 @@ over_instants AS (
     SELECT study_id, regime, noise_level_id, family, sensor_count, method, count(*) AS instants,
            avg(mean_abs_error_N) AS mean_abs_error_N,
            sqrt(sum(standard_error_N * standard_error_N)) / count(*) AS standard_error_N, avg(rms_error_N) AS rms_error_N,
-           avg(bias_N) AS bias_N, max(worst_node_error_N) AS worst_node_error_N, avg(unverified_share) AS unverified_share,
-           avg(ambiguous_share) AS ambiguous_share
+           avg(bias_N) AS bias_N, max(worst_node_error_N) AS worst_node_error_N, avg(unverified_fraction) AS unverified_fraction,
+           avg(ambiguous_fraction) AS ambiguous_fraction
     FROM per_instant GROUP BY study_id, regime, noise_level_id, family, sensor_count, method)
 SELECT o.*, f.knowledge <> 'direction_known' AND
        row_number() OVER (PARTITION BY o.study_id, o.regime, o.noise_level_id, o.family, o.sensor_count
@@ -75,7 +75,7 @@ SELECT e.study_id, t.name AS study, e.regime, e.noise_level_id, n.label AS noise
        f.title AS method_title, f.knowledge, e.instants, e.mean_abs_error_N, e.standard_error_N,
        e.mean_abs_error_N - 1.959963984540054 * e.standard_error_N AS interval_low_N,
        e.mean_abs_error_N + 1.959963984540054 * e.standard_error_N AS interval_high_N,
-       e.rms_error_N, e.bias_N, e.worst_node_error_N, e.unverified_share, e.ambiguous_share
+       e.rms_error_N, e.bias_N, e.worst_node_error_N, e.unverified_fraction, e.ambiguous_fraction
 FROM (SELECT * FROM layout_error UNION ALL SELECT * FROM v_running_layout_error) e
 CROSS JOIN study t USING (study_id) CROSS JOIN noise_level n USING (noise_level_id) CROSS JOIN fusion_method f USING (study_id, method);
 CREATE VIEW v_best_method AS

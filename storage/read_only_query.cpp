@@ -14,7 +14,7 @@ namespace {
 constexpr int longest_value_bytes = 1'000'000;
 
 // Of an answer whose rows are limited: few rows may hold much.
-constexpr std::size_t most_bytes = 64 << 20;
+constexpr std::size_t max_bytes = 64 << 20;
 
 struct Finalizer {
     void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
@@ -158,7 +158,7 @@ QueryResult run_read_only(Database& database, std::string_view sql, const std::v
     std::size_t bytes = 0;
     const auto keep = [&](std::vector<QueryValue>& row) {
         result.truncated =
-            limits.row_limit && (result.rows.size() == *limits.row_limit || bytes >= most_bytes);
+            limits.row_limit && (result.rows.size() == *limits.row_limit || bytes >= max_bytes);
         if (result.truncated) return false;
         bytes += bytes_of(row);
         result.rows.push_back(std::move(row));

@@ -33,8 +33,8 @@ struct Columns<CableSegmentRecord> {
 
 template <>
 struct Columns<RegimeRecord> {
-    static constexpr std::string_view names = "regime, duty_share";
-    static auto fields(auto& row) { return std::tie(row.regime, row.duty_share); }
+    static constexpr std::string_view names = "regime, duty_fraction";
+    static auto fields(auto& row) { return std::tie(row.regime, row.duty_fraction); }
 };
 
 template <>
@@ -83,11 +83,11 @@ struct Columns<LayoutRecord> {
 template <>
 struct Columns<SingleSensorRecord> {
     static constexpr std::string_view names =
-        "knowledge, sensor_node, mean_abs_error_N, standard_error_N, unverified_share, "
-        "ambiguous_share, at_rest_share";
+        "knowledge, sensor_node, mean_abs_error_N, standard_error_N, unverified_fraction, "
+        "ambiguous_fraction, at_rest_fraction";
     static auto fields(auto& row) {
         return std::tie(row.knowledge, row.sensor_node, row.mean_abs_error_N, row.standard_error_N,
-                        row.unverified_share, row.ambiguous_share, row.at_rest_share);
+                        row.unverified_fraction, row.ambiguous_fraction, row.at_rest_fraction);
     }
 };
 
@@ -103,8 +103,8 @@ struct Columns<SingleSensorNodeRecord> {
 
 template <>
 struct Columns<SensorWeightRecord> {
-    static constexpr std::string_view names = "sensor_node, weight_share";
-    static auto fields(auto& row) { return std::tie(row.sensor_node, row.weight_share); }
+    static constexpr std::string_view names = "sensor_node, weight_fraction";
+    static auto fields(auto& row) { return std::tie(row.sensor_node, row.weight_fraction); }
 };
 
 template <>
@@ -118,12 +118,12 @@ struct Columns<CellRecord> {
     static constexpr std::string_view names =
         "method, repetitions, mean_abs_error_N, standard_error_N, interval_low_N, interval_high_N, "
         "rms_error_N, bias_N, worst_node, worst_node_error_N, error_q05_N, error_q50_N, "
-        "error_q95_N, unverified_share, ambiguous_share";
+        "error_q95_N, unverified_fraction, ambiguous_fraction";
     static auto fields(auto& row) {
         return std::tie(row.method, row.repetitions, row.mean_abs_error_N, row.standard_error_N,
                         row.interval_low_N, row.interval_high_N, row.rms_error_N, row.bias_N, row.worst_node,
                         row.worst_node_error_N, row.error_q05_N, row.error_q50_N, row.error_q95_N,
-                        row.unverified_share, row.ambiguous_share);
+                        row.unverified_fraction, row.ambiguous_fraction);
     }
 };
 

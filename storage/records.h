@@ -33,7 +33,7 @@ struct CableSegmentRecord {
 
 struct RegimeRecord {
     std::string regime;
-    double duty_share = 0;
+    double duty_fraction = 0;
     bool operator==(const RegimeRecord&) const = default;
 };
 
@@ -133,9 +133,9 @@ struct SingleSensorRecord {
     int sensor_node = 0;
     double mean_abs_error_N = 0;
     double standard_error_N = 0;
-    double unverified_share = 0;
-    double ambiguous_share = 0;
-    double at_rest_share = 0;
+    double unverified_fraction = 0;
+    double ambiguous_fraction = 0;
+    double at_rest_fraction = 0;
     std::vector<SingleSensorNodeRecord> nodes;
     bool operator==(const SingleSensorRecord&) const = default;
 };
@@ -149,7 +149,7 @@ struct SingleSensorResult {
 
 struct SensorWeightRecord {
     int sensor_node = 0;
-    double weight_share = 0;
+    double weight_fraction = 0;
     bool operator==(const SensorWeightRecord&) const = default;
 };
 
@@ -175,8 +175,8 @@ struct CellRecord {
     double error_q05_N = 0;
     double error_q50_N = 0;
     double error_q95_N = 0;
-    double unverified_share = 0;
-    double ambiguous_share = 0;
+    double unverified_fraction = 0;
+    double ambiguous_fraction = 0;
     std::vector<CellNodeRecord> nodes;
     std::vector<double> block_mean_abs_error_N;  // blocks
     bool operator==(const CellRecord&) const = default;

@@ -12,8 +12,8 @@ FROM study WHERE study_id = ?1)sql"},
 SELECT segment, start_m, length_m, bend_radius_m, wrap_angle_rad
 FROM cable_segment WHERE study_id = ?1 ORDER BY segment)sql"},
 
-        {"regime", "The regimes of motion, their share of working time and number of instants", R"sql(
-SELECT r.regime, r.duty_share, count(s.scenario_id) AS instants
+        {"regime", "The regimes of motion, their fraction of working time and number of instants", R"sql(
+SELECT r.regime, r.duty_fraction, count(s.scenario_id) AS instants
 FROM regime r LEFT JOIN scenario s USING (study_id, regime)
 WHERE study_id = ?1 GROUP BY r.regime
 ORDER BY CASE r.regime WHEN 'mass' THEN 0 WHEN 'partial_proximal' THEN 1 WHEN 'partial_distal' THEN 2 ELSE 3 END)sql"},
@@ -82,8 +82,8 @@ SELECT s.regime, e.noise_level_id, e.knowledge, e.sensor_node, avg(e.mean_abs_er
            AS interval_low_N,
        avg(e.mean_abs_error_N) + 1.959963984540054 * sqrt(sum(e.standard_error_N * e.standard_error_N)) / count(*)
            AS interval_high_N,
-       avg(e.unverified_share) AS unverified_share, avg(e.ambiguous_share) AS ambiguous_share,
-       avg(e.at_rest_share) AS at_rest_share
+       avg(e.unverified_fraction) AS unverified_fraction, avg(e.ambiguous_fraction) AS ambiguous_fraction,
+       avg(e.at_rest_fraction) AS at_rest_fraction
 FROM single_sensor e JOIN scenario s USING (scenario_id)
 WHERE s.study_id = ?1
 GROUP BY s.regime, e.noise_level_id, e.knowledge, e.sensor_node
@@ -93,7 +93,7 @@ ORDER BY s.regime, e.noise_level_id, e.knowledge, e.sensor_node)sql"},
          R"sql(
 SELECT v.regime, v.noise_level_id, v.noise, v.family, v.sensor_count, v.method, v.method_title, v.knowledge, v.instants,
        v.mean_abs_error_N, v.standard_error_N, v.interval_low_N, v.interval_high_N, v.rms_error_N, v.bias_N,
-       v.worst_node_error_N, v.unverified_share, v.ambiguous_share
+       v.worst_node_error_N, v.unverified_fraction, v.ambiguous_fraction
 FROM v_error_by_layout v JOIN fusion_method f ON f.study_id = v.study_id AND f.method = v.method
 WHERE v.study_id = ?1
 ORDER BY v.regime, v.noise_level_id, v.family, f.method_index, v.sensor_count)sql"},

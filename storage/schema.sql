@@ -33,7 +33,7 @@ CREATE TABLE regime (
     study_id    INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
     -- Which part of the cable moves.
     regime      TEXT    NOT NULL CHECK (regime IN ('mass', 'partial_proximal', 'partial_distal', 'partial_both')),
-    duty_share  REAL    NOT NULL CHECK (duty_share BETWEEN 0 AND 1),  -- share of working time; sums to 1 in a study
+    duty_fraction  REAL    NOT NULL CHECK (duty_fraction BETWEEN 0 AND 1),  -- fraction of working time; sums to 1 in a study
     PRIMARY KEY (study_id, regime)
 ) STRICT, WITHOUT ROWID;
 
@@ -144,9 +144,9 @@ CREATE TABLE single_sensor (
     sensor_node       INTEGER NOT NULL CHECK (sensor_node > 0),  -- where the sensor is, from 1
     mean_abs_error_N  REAL    NOT NULL,            -- over nodes and repetitions
     standard_error_N  REAL    NOT NULL,            -- of mean_abs_error_N
-    unverified_share  REAL    NOT NULL,            -- no motion pattern verifies
-    ambiguous_share   REAL    NOT NULL,            -- more than one verifies
-    at_rest_share     REAL    NOT NULL,            -- the sensor's node rests in the estimate: its reading is unused
+    unverified_fraction  REAL    NOT NULL,            -- no motion pattern verifies
+    ambiguous_fraction   REAL    NOT NULL,            -- more than one verifies
+    at_rest_fraction     REAL    NOT NULL,            -- the sensor's node rests in the estimate: its reading is unused
     PRIMARY KEY (scenario_id, noise_level_id, knowledge, sensor_node)
 ) STRICT, WITHOUT ROWID;
 
@@ -170,7 +170,7 @@ CREATE TABLE sensor_weight (
     scenario_id    INTEGER NOT NULL REFERENCES scenario ON DELETE CASCADE,  -- its scenario
     noise_level_id INTEGER NOT NULL REFERENCES noise_level ON DELETE CASCADE,  -- its noise level
     sensor_node    INTEGER NOT NULL CHECK (sensor_node > 0),  -- where the sensor is, from 1
-    weight_share   REAL    NOT NULL CHECK (weight_share >= 0),  -- sums to 1 over all sensors
+    weight_fraction   REAL    NOT NULL CHECK (weight_fraction >= 0),  -- sums to 1 over all sensors
     PRIMARY KEY (scenario_id, noise_level_id, sensor_node)
 ) STRICT, WITHOUT ROWID;
 
@@ -193,8 +193,8 @@ CREATE TABLE cell (
     error_q05_N        REAL    NOT NULL,           -- quantiles over repetitions of the error averaged over nodes
     error_q50_N        REAL    NOT NULL,           -- median
     error_q95_N        REAL    NOT NULL,           -- 95% quantile
-    unverified_share   REAL    NOT NULL,           -- of the single-sensor estimates that were fused
-    ambiguous_share    REAL    NOT NULL,
+    unverified_fraction   REAL    NOT NULL,           -- of the single-sensor estimates that were fused
+    ambiguous_fraction    REAL    NOT NULL,
     UNIQUE (scenario_id, noise_level_id, sensor_set_id, method)
 ) STRICT;
 
@@ -240,8 +240,8 @@ CREATE TABLE layout_error (
     rms_error_N        REAL    NOT NULL,           -- root of the mean square error
     bias_N             REAL    NOT NULL,           -- mean of estimate - truth
     worst_node_error_N REAL    NOT NULL,           -- the largest of any instant
-    unverified_share   REAL    NOT NULL,           -- of the single-sensor estimates that were fused
-    ambiguous_share    REAL    NOT NULL,           -- likewise
+    unverified_fraction   REAL    NOT NULL,           -- of the single-sensor estimates that were fused
+    ambiguous_fraction    REAL    NOT NULL,           -- likewise
     best               INTEGER NOT NULL CHECK (best IN (0, 1)),  -- 1: of its layouts, the method of v_best_method
     PRIMARY KEY (study_id, regime, noise_level_id, family, sensor_count, method)
 ) STRICT, WITHOUT ROWID;
@@ -321,7 +321,7 @@ CREATE TABLE diagnosis (
     program_version     TEXT    NOT NULL,          -- of the capstan that made it
     runs                TEXT    NOT NULL CHECK (json_valid(runs)),  -- that were diagnosed: '[1,2]'
     verdict             TEXT    NOT NULL,          -- an effect, two as 'a + b', 'none' or 'unknown'
-    confidence_share    REAL    NOT NULL CHECK (confidence_share BETWEEN 0 AND 1),  -- probability of the first effect
+    confidence_fraction    REAL    NOT NULL CHECK (confidence_fraction BETWEEN 0 AND 1),  -- probability of the first effect
     component           TEXT    NOT NULL,          -- what the cause sits in: 'cable_a', 'motor', ...; '': nothing
     cable_end           TEXT    NOT NULL,          -- which end of it; '': neither, or not known
     position_m          REAL,                      -- along the cable from the motor; NULL: not a place on a cable
@@ -342,7 +342,7 @@ CREATE TABLE diagnosis_effect (
     diagnosis_id      INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
     place             INTEGER NOT NULL CHECK (place > 0),  -- 1: the most probable
     effect            TEXT    NOT NULL,            -- as in the catalogue of effects; 'none', 'unknown'
-    probability_share REAL    NOT NULL CHECK (probability_share BETWEEN 0 AND 1),  -- of this effect being a cause
+    probability_fraction REAL    NOT NULL CHECK (probability_fraction BETWEEN 0 AND 1),  -- of this effect being a cause
     PRIMARY KEY (diagnosis_id, place)
 ) STRICT, WITHOUT ROWID;
 
@@ -377,7 +377,7 @@ CREATE TABLE diagnosis_candidate (
     variants           TEXT    NOT NULL CHECK (json_valid(variants)),  -- of each effect
     open_numbers       INTEGER NOT NULL,           -- that the fit chose, beyond the nominal ones
     misfit_ratio       REAL    NOT NULL,           -- mean square residual over that of noise and model floor
-    nominal_price_log  REAL    NOT NULL,           -- what the nominal numbers' going far costs, in evidence
+    nominal_penalty_log  REAL    NOT NULL,           -- what the nominal numbers' going far costs, in evidence
     -- How much each cause changes the channel where it is clearest, over noise and model floor: '[3.1]'.
     visibility_ratios  TEXT    NOT NULL CHECK (json_valid(visibility_ratios)),
     evidence_log       REAL    NOT NULL,           -- natural logarithm, up to a constant of the diagnosis
@@ -395,22 +395,22 @@ CREATE TABLE diagnosis_channel (
     rms_after_in_unit     REAL    NOT NULL,        -- with the causes
     rms_held_out_in_unit  REAL    NOT NULL,        -- each run with numbers fitted to the others
     rms_runner_up_in_unit REAL    NOT NULL,        -- with the best cause that the verdict does not name
-    closed_share          REAL,                    -- of the mean square beyond noise, held out; NULL: no gap to close
-    closed_low_share      REAL,                    -- its 95% interval
-    closed_high_share     REAL,                    -- upper end of that interval
+    closed_fraction          REAL,                    -- of the mean square beyond noise, held out; NULL: no gap to close
+    closed_low_fraction      REAL,                    -- its 95% interval
+    closed_high_fraction     REAL,                    -- upper end of that interval
     PRIMARY KEY (diagnosis_id, channel_index)
 ) STRICT, WITHOUT ROWID;
 
--- Where the gap lies: the share of its energy in each part of the recording.
+-- Where the gap lies: the fraction of its energy in each part of the recording.
 CREATE TABLE diagnosis_gap (
     diagnosis_id  INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
     part_index    INTEGER NOT NULL,                -- 0, 1, ...
     divided_by    TEXT    NOT NULL,                -- 'run', 'channel', 'regime', 'speed', ...
     part          TEXT    NOT NULL,                -- which part: '2', 'mass', 'after reversal'
-    energy_share  REAL    NOT NULL,                -- of what the nominal model leaves beyond noise
-    low_share     REAL    NOT NULL,                -- its 95% interval
-    high_share    REAL    NOT NULL,                -- upper end of that interval
-    samples_share REAL    NOT NULL,                -- of the compared samples: what chance would give
+    energy_fraction  REAL    NOT NULL,                -- of what the nominal model leaves beyond noise
+    low_fraction     REAL    NOT NULL,                -- its 95% interval
+    high_fraction    REAL    NOT NULL,                -- upper end of that interval
+    samples_fraction REAL    NOT NULL,                -- of the compared samples: what chance would give
     PRIMARY KEY (diagnosis_id, part_index)
 ) STRICT, WITHOUT ROWID;
 
@@ -437,7 +437,7 @@ WITH per_instant AS (
     SELECT s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method,
            avg(c.mean_abs_error_N) AS mean_abs_error_N, avg(c.standard_error_N) AS standard_error_N,
            avg(c.rms_error_N) AS rms_error_N, avg(c.bias_N) AS bias_N, max(c.worst_node_error_N) AS worst_node_error_N,
-           avg(c.unverified_share) AS unverified_share, avg(c.ambiguous_share) AS ambiguous_share
+           avg(c.unverified_fraction) AS unverified_fraction, avg(c.ambiguous_fraction) AS ambiguous_fraction
     FROM study t CROSS JOIN scenario s USING (study_id) CROSS JOIN cell c USING (scenario_id)
     CROSS JOIN layout l USING (sensor_set_id)
     WHERE t.status = 'running'
@@ -446,8 +446,8 @@ over_instants AS (
     SELECT study_id, regime, noise_level_id, family, sensor_count, method, count(*) AS instants,
            avg(mean_abs_error_N) AS mean_abs_error_N,
            sqrt(sum(standard_error_N * standard_error_N)) / count(*) AS standard_error_N, avg(rms_error_N) AS rms_error_N,
-           avg(bias_N) AS bias_N, max(worst_node_error_N) AS worst_node_error_N, avg(unverified_share) AS unverified_share,
-           avg(ambiguous_share) AS ambiguous_share
+           avg(bias_N) AS bias_N, max(worst_node_error_N) AS worst_node_error_N, avg(unverified_fraction) AS unverified_fraction,
+           avg(ambiguous_fraction) AS ambiguous_fraction
     FROM per_instant GROUP BY study_id, regime, noise_level_id, family, sensor_count, method)
 SELECT o.*, f.knowledge <> 'direction_known' AND
        row_number() OVER (PARTITION BY o.study_id, o.regime, o.noise_level_id, o.family, o.sensor_count
@@ -475,7 +475,7 @@ SELECT e.study_id, t.name AS study, e.regime, e.noise_level_id, n.label AS noise
        f.title AS method_title, f.knowledge, e.instants, e.mean_abs_error_N, e.standard_error_N,
        e.mean_abs_error_N - 1.959963984540054 * e.standard_error_N AS interval_low_N,
        e.mean_abs_error_N + 1.959963984540054 * e.standard_error_N AS interval_high_N,
-       e.rms_error_N, e.bias_N, e.worst_node_error_N, e.unverified_share, e.ambiguous_share
+       e.rms_error_N, e.bias_N, e.worst_node_error_N, e.unverified_fraction, e.ambiguous_fraction
 FROM (SELECT * FROM layout_error UNION ALL SELECT * FROM v_running_layout_error) e
 CROSS JOIN study t USING (study_id) CROSS JOIN noise_level n USING (noise_level_id) CROSS JOIN fusion_method f USING (study_id, method);
 
@@ -562,10 +562,10 @@ CREATE VIEW v_diagnosis AS
 -- diagnosis_id: its number
 -- channel: that it is judged by
 -- sentence: the verdict in words
--- closed_high_share: upper end of that interval
-SELECT d.diagnosis_id, d.recording, d.verdict, d.confidence_share, d.component, d.cable_end, d.position_m,
+-- closed_high_fraction: upper end of that interval
+SELECT d.diagnosis_id, d.recording, d.verdict, d.confidence_fraction, d.component, d.cable_end, d.position_m,
        c.channel, c.unit, c.rms_before_in_unit, c.rms_after_in_unit, c.rms_held_out_in_unit,
-       c.closed_share, c.closed_low_share, c.closed_high_share, d.sentence
+       c.closed_fraction, c.closed_low_fraction, c.closed_high_fraction, d.sentence
 FROM diagnosis d LEFT JOIN diagnosis_channel c ON c.diagnosis_id = d.diagnosis_id AND c.channel_index = (
     SELECT channel_index FROM diagnosis_channel j WHERE j.diagnosis_id = d.diagnosis_id
     ORDER BY j.channel <> 'load_torque', j.channel_index LIMIT 1);

@@ -7,8 +7,8 @@ struct Stretch {
     double from_m = 0.0;
     double to_m = 0.0;
 
-    /// Share of the stretch that lies in [from, to].
-    double share_within(double from, double to) const {
+    /// Fraction of the stretch that lies in [from, to].
+    double fraction_within(double from, double to) const {
         const double low = from > from_m ? from : from_m;
         const double high = to < to_m ? to : to_m;
         return high > low && to_m > from_m ? (high - low) / (to_m - from_m) : 0.0;

@@ -23,10 +23,10 @@ void add_hysteresis(std::vector<double>& signal, double half_width) {
 }
 
 void add_lag(std::vector<double>& signal, double lag_s, double time_step_s) {
-    const double share = -std::expm1(-time_step_s / lag_s);
+    const double fraction = -std::expm1(-time_step_s / lag_s);
     double reading = signal.front();
     for (double& value : signal) {
-        reading += share * (value - reading);
+        reading += fraction * (value - reading);
         value = reading;
     }
 }

@@ -115,7 +115,7 @@ int add_log_likelihood_and_find_peak(std::span<const double> before, std::span<c
                                                    static_cast<int>(result.size()), result.data());
 }
 
-int most_likely_point(std::span<const double> log_likelihood) {
+int likeliest_point(std::span<const double> log_likelihood) {
     return HWY_DYNAMIC_DISPATCH(first_largest)(log_likelihood.data(),
                                                static_cast<int>(log_likelihood.size()));
 }

@@ -31,7 +31,7 @@ struct DirectionBits {
 };
 
 /// As many segments as DirectionBits holds.
-inline constexpr int most_estimated_segments = 63;
+inline constexpr int max_estimated_segments = 63;
 
 DirectionBits direction_bits(const DirectionPattern& pattern, int segments);
 DirectionBits direction_bits(const MotionPattern& pattern, int segments);
@@ -39,8 +39,8 @@ DirectionBits direction_bits(const MotionPattern& pattern, int segments);
 /// Number of segments whose directions differ.
 int hamming_distance(const DirectionBits& a, const DirectionBits& b);
 
-/// All n_p* = 2 N^2 + 1 patterns that the paper admits (its Appendix I, E14): mass motion and rest first, then
-/// changes of direction, one-sided, two-sided motion.
+/// All n_p* = 2 N^2 + 1 patterns that the paper admits (its Appendix I, E14): mass motion and rest first,
+/// then changes of direction, one-sided, two-sided motion.
 std::vector<DirectionPattern> admissible_patterns(int segments);
 
 }  // namespace capstan

@@ -77,9 +77,9 @@ constexpr double bit_factor[1 << profile_group][profile_group] = {
     {0, 1, 1, 0}, {1, 1, 1, 0}, {0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {1, 1, 0, 1},
     {0, 0, 1, 1}, {1, 0, 1, 1}, {0, 1, 1, 1}, {1, 1, 1, 1}};
 
-constexpr int most_groups = most_estimated_nodes / profile_group;
+constexpr int max_groups = max_estimated_nodes / profile_group;
 
-using Factors = std::array<double, most_estimated_nodes>;
+using Factors = std::array<double, max_estimated_nodes>;
 
 // The weight of each used sensor, and their sum.
 double gather(std::span<const int> sensors, std::span<const double> weight, Factors& factor) {
@@ -97,7 +97,7 @@ void average_profiles(const SensorEstimates& estimates, std::span<const int> sen
                       std::span<const double> weight, std::span<double> tension_N) {
     Factors factor;
     const double total = gather(sensors, weight, factor);
-    std::array<double, most_estimated_nodes> sum_N;
+    std::array<double, max_estimated_nodes> sum_N;
     HWY_DYNAMIC_DISPATCH(sum_profiles)
     (estimates.tension_N.data(), padded_nodes(estimates.nodes), sensors.data(), factor.data(),
      static_cast<int>(sensors.size()), sum_N.data());
@@ -110,7 +110,7 @@ EstimateSums sum_estimates(const FusionInput& input, std::span<const double> wei
     EstimateSums sums;
     Factors factor;
     sums.weight = gather(vote.sensors(), weight, factor);
-    std::array<const double*, most_groups * most_estimated_nodes> here;  // groups x used
+    std::array<const double*, max_groups * max_estimated_nodes> here;  // groups x used
     for (int group = 0; group < stride / profile_group; ++group) {
         for (int k = 0; k < vote.used; ++k) {
             const std::uint64_t bits = vote.agrees[k] >> (group * profile_group);

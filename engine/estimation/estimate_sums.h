@@ -9,10 +9,10 @@ namespace capstan {
 
 /// Sums over the estimates that a vote uses, at every node.
 struct EstimateSums {
-    double weight = 0.0;                                       ///< of all used estimates
-    std::array<double, most_estimated_nodes> all_N;            // nodes: weight times tension
-    std::array<double, most_estimated_nodes> agreeing_N;       // nodes: of those that agree there
-    std::array<double, most_estimated_nodes> agreeing_weight;  // nodes
+    double weight = 0.0;                                      ///< of all used estimates
+    std::array<double, max_estimated_nodes> all_N;            // nodes: weight times tension
+    std::array<double, max_estimated_nodes> agreeing_N;       // nodes: of those that agree there
+    std::array<double, max_estimated_nodes> agreeing_weight;  // nodes
 };
 
 /// Writes the average of the sensors' profiles, weighted by `weight` (nodes), or equally where that is empty.

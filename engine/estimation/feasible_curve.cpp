@@ -31,8 +31,8 @@ FeasibleCurve::FeasibleCurve(const EstimationProblem& problem, const DistalMotio
     const double before_m = problem.previous.displacement_m.back();
     tension_N_.resize(static_cast<std::size_t>(node_count) * points_);
     for (int k = 0; k < points_; ++k) {
-        const double share = 2.0 * (k + 0.5) / points_ - 1.0;  // cell centres of (-1, 1)
-        const double distal_m = before_m + share * prior.largest_increment_m;
+        const double fraction = 2.0 * (k + 0.5) / points_ - 1.0;  // cell centres of (-1, 1)
+        const double distal_m = before_m + fraction * prior.largest_increment_m;
         distal_displacement_m_.push_back(distal_m);
         CableState state = problem.previous;
         problem.model.advance(state, {EndCondition::position_m(problem.proximal_displacement_m),
@@ -86,10 +86,10 @@ void add_log_likelihoods(std::span<const double> per_sensor, std::span<const int
 
 void maximum_likelihood(const FeasibleCurve& curve, std::span<const double> log_likelihood,
                         std::span<double> tension_N) {
-    maximum_likelihood_around(curve, log_likelihood, most_likely_point(log_likelihood), tension_N);
+    maximum_likelihood_around(curve, log_likelihood, likeliest_point(log_likelihood), tension_N);
 }
 
-CurvePlace most_likely_place(std::span<const double> log_likelihood, int best) {
+CurvePlace likeliest_place(std::span<const double> log_likelihood, int best) {
     const int last = static_cast<int>(log_likelihood.size()) - 1;
     double offset = 0.0;  // in grid steps from `best`
     if (best > 0 && best < last) {
@@ -102,10 +102,10 @@ CurvePlace most_likely_place(std::span<const double> log_likelihood, int best) {
 
 void maximum_likelihood_around(const FeasibleCurve& curve, std::span<const double> log_likelihood, int best,
                                std::span<double> tension_N) {
-    const CurvePlace place = most_likely_place(log_likelihood, best);
+    const CurvePlace place = likeliest_place(log_likelihood, best);
     for (int node = 0; node < curve.nodes(); ++node) {
         const auto along = curve.tension_N(node);
-        tension_N[node] = along[best] + place.share * (along[place.neighbour] - along[best]);
+        tension_N[node] = along[best] + place.fraction * (along[place.neighbour] - along[best]);
     }
 }
 

@@ -63,7 +63,7 @@ void add_log_likelihood(std::span<const double> before, std::span<const double> 
                         std::span<double> result);
 
 /// The first point at which the log likelihood is largest; points are a multiple of 8.
-int most_likely_point(std::span<const double> log_likelihood);
+int likeliest_point(std::span<const double> log_likelihood);
 
 /// Mean of the curve under weights exp(log_likelihood), flat prior. `log_likelihood` is overwritten.
 void posterior_mean(const FeasibleCurve& curve, std::span<double> log_likelihood,

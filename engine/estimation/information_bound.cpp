@@ -14,8 +14,8 @@ double log_tension_information(const NoiseLevel& noise, double tension_N) {
     const double deviation_N = reading_deviation_N(noise, tension_N);
     if (deviation_N == 0.0) return std::numeric_limits<double>::infinity();  // the reading is the tension
     const double slope = tension_N / deviation_N;
-    const double share = noise.multiplicative_ratio * tension_N / deviation_N;
-    return slope * slope + 2.0 * share * share * share * share;
+    const double fraction = noise.multiplicative_ratio * tension_N / deviation_N;
+    return slope * slope + 2.0 * fraction * fraction * fraction * fraction;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 // A sensor at rest tells nothing; if all rest, each "estimate" is the previous state, and so is the mean.
 void fuse(const FusionInput& input, std::span<double> tension_N) {
-    std::array<int, most_estimated_nodes> moving;
+    std::array<int, max_estimated_nodes> moving;
     std::size_t count = 0;
     for (const int sensor : input.sensors) {
         if (input.known.verified[sensor]) moving[count++] = sensor;

@@ -23,8 +23,8 @@ constexpr double chance_variances = 4.0;
 
 std::array<double, 2> uniforms(std::uint64_t seed, std::uint32_t step, std::uint32_t which) {
     const auto normals = standard_normals({seed, RandomPurpose::member_motion, 0, step, which});
-    const auto share = [](double normal) { return 0.5 * std::erfc(-normal / std::numbers::sqrt2); };
-    return {share(normals[0]), share(normals[1])};
+    const auto fraction = [](double normal) { return 0.5 * std::erfc(-normal / std::numbers::sqrt2); };
+    return {fraction(normals[0]), fraction(normals[1])};
 }
 
 bool is_slack(const CableState& state) {
@@ -144,18 +144,18 @@ void RecursiveEstimator::correct(const TensionReading& reading, RecursiveReport&
     report.log_evidence += -0.5 * (innovation_N * innovation_N / total + std::log(total));
     if (variance <= 0.0 || (saturated && innovation_N <= 0.0)) return;
 
-    const double share = 1.0 / (1.0 + std::sqrt(noise_N * noise_N / total));
+    const double fraction = 1.0 / (1.0 + std::sqrt(noise_N * noise_N / total));
     weighted_member_sums(rows_N_, sensed_N_, gain_);
     // The deviations are what the next reading starts from; take_moments() sees to what slack members do not
     // follow.
-    gains_of_sums({count, variance, total, share, chance_variances}, gain_, deviation_N_);
+    gains_of_sums({count, variance, total, fraction, chance_variances}, gain_, deviation_N_);
     // Elongations change with tensions (E2's mean of both ends, whatever the rules say of sliding segments).
     const double half_compliance = 0.5 * model_.cable().segment_compliance_m_per_N();
     for (std::size_t node = 0; node + 1 < gain_.size(); ++node)
         gain_m_per_N_[node + 1] = gain_m_per_N_[node] + half_compliance * (gain_[node] + gain_[node + 1]);
     for (std::size_t j = 0; j < members_.size(); ++j) {
         if (is_slack(members_[j])) continue;
-        const double pull_N = innovation_N - share * sensed_N_[j];
+        const double pull_N = innovation_N - fraction * sensed_N_[j];
         add_pull(gain_, pull_N, members_[j].tension_N.data());
         add_pull(gain_m_per_N_, pull_N, members_[j].displacement_m.data());
     }

@@ -52,10 +52,10 @@ RecursiveFusion::RecursiveFusion(const QuasiStaticStep& model, const CableState&
                                  const FusionMethod& method, DistalSide distal_side)
     : model_(model), method_(method), estimate_(start) {
     const int segments = model.cable().segments();
-    if (segments > most_estimated_segments) {
+    if (segments > max_estimated_segments) {
         throw InvalidInput({"segments is " + std::to_string(segments) +
                             ", but the paper's estimators take at most " +
-                            std::to_string(most_estimated_segments) + "; use fewer segments"});
+                            std::to_string(max_estimated_segments) + "; use fewer segments"});
     }
     if (&method != &mean_method && &method != &mean_r_method) {
         throw InvalidInput({"over time only mean and mean_r can fuse, not " + std::string(method.name)});

@@ -23,7 +23,7 @@ class RecursiveFusion {
   public:
     /// `model` must outlive it. `method` must be one that votes on an unknown direction without weights
     /// ("mean", "mean_r"): the weights of the others are errors that only a simulation knows. Throws
-    /// InvalidInput on another, or beyond `most_estimated_segments`.
+    /// InvalidInput on another, or beyond `max_estimated_segments`.
     RecursiveFusion(const QuasiStaticStep& model, const CableState& start, const FusionMethod& method,
                     DistalSide distal_side);
 

@@ -131,7 +131,7 @@ void gains(const GainTerms& terms, int nodes, double* HWY_RESTRICT gain, double*
         const auto zero = hn::Zero(d);
         const auto one = hn::Set(d, 1.0);
         const auto variance = hn::Set(d, terms.variance);
-        const auto share = hn::Set(d, terms.share);
+        const auto fraction = hn::Set(d, terms.fraction);
         const auto covariance = hn::Div(hn::LoadU(d, gain + node), hn::Set(d, terms.members - 1.0));
         const auto deviation = hn::LoadU(d, deviation_N + node);
         const auto node_variance = hn::Mul(deviation, deviation);
@@ -143,7 +143,7 @@ void gains(const GainTerms& terms, int nodes, double* HWY_RESTRICT gain, double*
         const auto full = hn::Div(hn::Mul(trust, covariance), hn::Set(d, terms.total));
         const auto here = hn::IfThenElse(hn::Gt(squared, chance), full, zero);
         hn::StoreU(here, d, gain + node);
-        const auto pull = hn::Mul(share, here);
+        const auto pull = hn::Mul(fraction, here);
         const auto left = hn::Add(hn::Sub(node_variance, hn::Mul(hn::Mul(hn::Set(d, 2.0), pull), covariance)),
                                   hn::Mul(hn::Mul(pull, pull), variance));
         hn::StoreU(hn::Sqrt(hn::Max(left, zero)), d, deviation_N + node);

@@ -23,7 +23,7 @@ struct GainTerms {
     double members = 0.0;
     double variance = 0.0;  ///< of the sensed tension over the members [N2]
     double total = 0.0;     ///< with the reading's noise [N2]
-    double share = 0.0;     ///< of the gain by which members move towards their mean
+    double fraction = 0.0;  ///< of the gain by which members move towards their mean
     double chance_variances = 0.0;
 };
 

@@ -7,8 +7,8 @@ namespace capstan {
 SensorVote take_vote(const SensorEstimates& estimates, std::span<const int> sensors) {
     const int segments = estimates.nodes - 1;
     const int count = static_cast<int>(sensors.size());
-    std::array<DirectionBits, most_estimated_nodes> votes;
-    std::array<std::uint64_t, most_estimated_nodes> moving;
+    std::array<DirectionBits, max_estimated_nodes> votes;
+    std::array<std::uint64_t, max_estimated_nodes> moving;
     std::uint64_t moving_for_all = ~std::uint64_t{0};
     for (int k = 0; k < count; ++k) {
         votes[k] = estimates.directions[sensors[k]];
@@ -24,7 +24,7 @@ SensorVote take_vote(const SensorEstimates& estimates, std::span<const int> sens
 
     const DirectionConsensus consensus =
         median_direction(std::span<const DirectionBits>(votes).first(count), segments);
-    const std::uint64_t all_nodes = ~std::uint64_t{0} >> (most_estimated_nodes - estimates.nodes);
+    const std::uint64_t all_nodes = ~std::uint64_t{0} >> (max_estimated_nodes - estimates.nodes);
     SensorVote vote;
     const auto use = [&](int sensor, const DirectionBits& directions) {
         vote.sensor[vote.used] = sensor;

@@ -8,7 +8,7 @@
 
 namespace capstan {
 
-inline constexpr int most_estimated_nodes = most_estimated_segments + 1;
+inline constexpr int max_estimated_nodes = max_estimated_segments + 1;
 
 /// Profiles are stored in whole groups of this many nodes.
 inline constexpr int profile_group = 4;
@@ -35,9 +35,9 @@ struct SensorEstimates {
 /// estimate agrees with the others about the direction.
 struct SensorVote {
     int used = 0;
-    bool unanimous = true;                                   ///< every used estimate agrees at every node
-    std::array<int, most_estimated_nodes> sensor;            // used
-    std::array<std::uint64_t, most_estimated_nodes> agrees;  // used; bit i: at node i
+    bool unanimous = true;                                  ///< every used estimate agrees at every node
+    std::array<int, max_estimated_nodes> sensor;            // used
+    std::array<std::uint64_t, max_estimated_nodes> agrees;  // used; bit i: at node i
 
     std::span<const int> sensors() const { return {sensor.data(), static_cast<std::size_t>(used)}; }
 };

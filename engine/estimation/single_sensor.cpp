@@ -62,10 +62,10 @@ DirectionPattern pattern_of(const MotionPattern& truth, int segments) {
 
 SingleSensorEstimator::SingleSensorEstimator(const EstimationProblem& problem, DistalSide distal_side) {
     const int segments = problem.model.cable().segments();
-    if (segments > most_estimated_segments) {
+    if (segments > max_estimated_segments) {
         throw InvalidInput({"segments is " + std::to_string(segments) +
                             ", but the paper's estimators take at most " +
-                            std::to_string(most_estimated_segments) + "; use fewer segments"});
+                            std::to_string(max_estimated_segments) + "; use fewer segments"});
     }
     const std::vector<DirectionPattern> patterns =
         by_distance_from(direction_bits(problem.previous.last_motion, segments), segments);

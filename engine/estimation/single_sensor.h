@@ -34,7 +34,7 @@ enum class DistalSide { excluded, admitted };
 /// the estimate is the previous state.
 class SingleSensorEstimator {
   public:
-    /// Throws InvalidInput beyond `most_estimated_segments`.
+    /// Throws InvalidInput beyond `max_estimated_segments`.
     SingleSensorEstimator(const EstimationProblem& problem, DistalSide distal_side);
 
     struct Choice {

@@ -8,13 +8,13 @@ namespace capstan {
 namespace {
 
 // The normal quantile by Newton's method on erfc; a few dozen numbers, made once.
-double normal_quantile(double share) {
+double normal_quantile(double fraction) {
     double score = 0.0;
     for (int iteration = 0; iteration < 60; ++iteration) {
         const double below = 0.5 * std::erfc(-score / std::numbers::sqrt2);
         const double density = std::exp(-0.5 * score * score) / std::sqrt(2.0 * std::numbers::pi);
         // Half a unit at most: far out the density is too small for a full step.
-        const double step = std::fmin(std::fmax((share - below) / density, -0.5), 0.5);
+        const double step = std::fmin(std::fmax((fraction - below) / density, -0.5), 0.5);
         score += step;
         if (std::abs(step) < 1e-14) break;
     }

@@ -32,7 +32,7 @@ void add_bend(const Cable& cable, const Stretch& stretch, double angle_rad, std:
     for (int node = 0; node < cable.nodes(); ++node) {
         const double middle_m = cable.node_position_m(node);
         nodes[static_cast<std::size_t>(node)] +=
-            angle_rad * stretch.share_within(middle_m - half_m, middle_m + half_m);
+            angle_rad * stretch.fraction_within(middle_m - half_m, middle_m + half_m);
     }
 }
 
@@ -162,31 +162,31 @@ void BenchCables::begin(const LaneFlags& active, const LaneValues& load_angle_ra
     CableLaws& laws = group_.laws;
     group_.time_step_s = time_step_s;
     for (int lane = 0; lane < bench_lanes; ++lane) {
-        laws.creep_share.of[lane] =
+        laws.creep_fraction.of[lane] =
             laws.creep_m_per_N.of[lane] > 0.0 ? time_step_s / (creep_time_s_.of[lane] + time_step_s) : 0.0;
-        laws.stribeck_share.of[lane] = time_step_s / (stribeck_memory_s_.of[lane] + time_step_s);
+        laws.stribeck_fraction.of[lane] = time_step_s / (stribeck_memory_s_.of[lane] + time_step_s);
         laws.viscous_N_per_m2.of[lane] = viscous_N_s_per_m2_.of[lane] / time_step_s;
     }
     begin_cables(group_, active, load_angle_rad);
 }
 
-BenchCables::Ends BenchCables::linearise(const LaneFlags& active, const EndPlaces (&motor)[most_cables],
-                                         const EndPlaces (&load)[most_cables]) {
+BenchCables::Ends BenchCables::linearise(const LaneFlags& active, const EndPlaces (&motor)[max_cables],
+                                         const EndPlaces (&load)[max_cables]) {
     Ends ends;
     linearise_cables(group_, active, motor, load, ends.motor, ends.load);
     return ends;
 }
 
 LaneValues BenchCables::move(const LaneValues& motor_rad, const LaneValues& load_rad,
-                             const LaneValues& share) {
-    return move_cables(group_, motor_rad, load_rad, share);
+                             const LaneValues& fraction) {
+    return move_cables(group_, motor_rad, load_rad, fraction);
 }
 
 void BenchCables::store() {
     store_cables(group_, motor_tension_N_, load_tension_N_);
 }
 
-double BenchCables::sliding_share(int bench) const {
+double BenchCables::sliding_fraction(int bench) const {
     constexpr double built_up = 0.95;
     int sliding = 0;
     for (int c = 0; c < group_.cables; ++c) {

@@ -30,12 +30,12 @@ class BenchCables {
     void let_turn(bool motor, bool load);
 
     struct Ends {
-        EndTensions motor[most_cables];
-        EndTensions load[most_cables];
+        EndTensions motor[max_cables];
+        EndTensions load[max_cables];
     };
-    Ends linearise(const LaneFlags& active, const EndPlaces (&motor)[most_cables],
-                   const EndPlaces (&load)[most_cables]);
-    LaneValues move(const LaneValues& motor_rad, const LaneValues& load_rad, const LaneValues& share);
+    Ends linearise(const LaneFlags& active, const EndPlaces (&motor)[max_cables],
+                   const EndPlaces (&load)[max_cables]);
+    LaneValues move(const LaneValues& motor_rad, const LaneValues& load_rad, const LaneValues& fraction);
     /// Makes the present guess the step's outcome.
     void store();
 
@@ -43,8 +43,8 @@ class BenchCables {
     /// At the pulley, beyond the friction of the last half segment.
     double motor_tension_N(int cable, int bench) const { return motor_tension_N_[cable].of[bench]; }
     double load_tension_N(int cable, int bench) const { return load_tension_N_[cable].of[bench]; }
-    /// Share of a bench's nodes whose friction is fully built up: 1 in mass motion.
-    double sliding_share(int bench) const;
+    /// Fraction of a bench's nodes whose friction is fully built up: 1 in mass motion.
+    double sliding_fraction(int bench) const;
     /// Positive towards the load end.
     double displacement_m(int cable, int bench, int node) const {
         return arrays_[cable].before_m[static_cast<std::size_t>(node)].of[bench];
@@ -74,9 +74,9 @@ class BenchCables {
     // Times in the laws that a step's length turns into shares.
     LaneValues creep_time_s_, stribeck_memory_s_, viscous_N_s_per_m2_;
     Rest rest_[bench_lanes];
-    Arrays arrays_[most_cables];
-    LaneValues motor_tension_N_[most_cables];
-    LaneValues load_tension_N_[most_cables];
+    Arrays arrays_[max_cables];
+    LaneValues motor_tension_N_[max_cables];
+    LaneValues load_tension_N_[max_cables];
 };
 
 }  // namespace capstan

@@ -220,11 +220,11 @@ void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& 
 constexpr double farthest_m = 0.05;
 
 LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
-                const LaneValues& share_values) {
+                const LaneValues& fraction_values) {
     LaneValues largest;
     for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
-        const Lanes share = load(share_values, lane);
-        const Which moves = hn::Ne(share, lanes_of(0.0));
+        const Lanes fraction = load(fraction_values, lane);
+        const Which moves = hn::Ne(fraction, lanes_of(0.0));
         const Lanes motor = load(motor_rad, lane);
         const Lanes turned = load(load_rad, lane);
         Lanes most = lanes_of(0.0);
@@ -236,7 +236,7 @@ LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const Lan
                 if (group.load_turns) move_m = move_m + turned * load(cable.by_load[node], lane);
                 const Lanes here = load(cable.displacement_m[node], lane);
                 const Lanes step_m =
-                    hn::Min(hn::Max(share * move_m, lanes_of(-farthest_m)), lanes_of(farthest_m));
+                    hn::Min(hn::Max(fraction * move_m, lanes_of(-farthest_m)), lanes_of(farthest_m));
                 store(hn::IfThenElse(moves, here + step_m, here), cable.displacement_m[node], lane);
                 // A move that is no number is the largest.
                 const Lanes size = hn::Abs(move_m);
@@ -271,7 +271,7 @@ void keep(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* loa
                     const Lanes speed =
                         hn::Abs(now_m - load(cable.before_m[node], lane)) / lanes_of(group.time_step_s);
                     const Lanes lagging = load(cable.lagging_speed_m_per_s[node], lane);
-                    store(lagging + laws.stribeck_share * (speed - lagging),
+                    store(lagging + laws.stribeck_fraction * (speed - lagging),
                           cable.lagging_speed_m_per_s[node], lane);
                 }
                 store(now_m, cable.before_m[node], lane);
@@ -282,7 +282,7 @@ void keep(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* loa
                 store(tension_N, cable.before_tension_N[segment], lane);
                 if (!group.laws.any_creep) continue;
                 store(load(cable.crept_m[segment], lane) * laws.creep_stays +
-                          laws.creep_share * laws.creep_m_per_N * tension_N,
+                          laws.creep_fraction * laws.creep_m_per_N * tension_N,
                       cable.crept_m[segment], lane);
             }
         }
@@ -317,10 +317,10 @@ void linearise_cables(const CablesGroup& group, const LaneFlags& active, const E
 }
 
 LaneValues move_cables(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
-                       const LaneValues& share) {
+                       const LaneValues& fraction) {
     using namespace bench;
     static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(move); });
-    return chosen(group, motor_rad, load_rad, share);
+    return chosen(group, motor_rad, load_rad, fraction);
 }
 
 void store_cables(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N) {

@@ -5,12 +5,12 @@
 namespace capstan {
 
 /// The first, and the second of benches that have a pair.
-inline constexpr int most_cables = 2;
+inline constexpr int max_cables = 2;
 
 /// The laws of a cable's stretch and friction, a bench a lane; of a step of its length.
 struct CableLaws {
     LaneValues stretch_m_per_N;  ///< of a segment, by its own elasticity
-    LaneValues creep_share;      ///< of the way to its end that creep goes in a step
+    LaneValues creep_fraction;   ///< of the way to its end that creep goes in a step
     LaneValues creep_m_per_N;    ///< of a segment, at creep's end
     LaneValues toe_m;            ///< of a segment: its toe strain (E31)
     LaneValues toe_tension_N;
@@ -21,8 +21,8 @@ struct CableLaws {
     LaneValues dynamic_friction;
     LaneValues stribeck_friction;  ///< E21
     LaneValues stribeck_speed_m_per_s;
-    LaneValues stribeck_share;  ///< of the way that the lagging speed goes in a step
-    LaneValues load_exponent;   ///< E23
+    LaneValues stribeck_fraction;  ///< of the way that the lagging speed goes in a step
+    LaneValues load_exponent;      ///< E23
     LaneValues load_reference_N_per_m;
     LaneValues varying_friction;  ///< not 0: Stribeck, load dependence or a bend that moves
     // Whether any bench needs this law at all; those that do not keep what they have, bit for bit.
@@ -76,7 +76,7 @@ struct CablesGroup {
     double segment_m = 0.0;
     double time_step_s = 0.0;
     CableLaws laws;
-    CableLanes cable[most_cables];
+    CableLanes cable[max_cables];
     bool motor_turns = true;  ///< whether any bench's motor, its load pulley, is to find its angle
     bool load_turns = true;
 };
@@ -91,7 +91,7 @@ void linearise_cables(const CablesGroup& group, const LaneFlags& active, const E
 /// Goes on by `share` of the way to the linear solution for these further turns. The largest move of a node
 /// [m].
 LaneValues move_cables(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
-                       const LaneValues& share);
+                       const LaneValues& fraction);
 
 /// Makes the present guess the step's outcome; the tension at either end of each cable [N].
 void store_cables(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N);

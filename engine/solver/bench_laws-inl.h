@@ -40,10 +40,10 @@ struct Laws {
     HWY_INLINE Laws(const CableLaws& laws, int lane)
         : of(&laws),
           stretch_m_per_N(load(laws.stretch_m_per_N, lane)),
-          creep_share(load(laws.creep_share, lane)),
-          creep_stays(lanes_of(1.0) - creep_share),
+          creep_fraction(load(laws.creep_fraction, lane)),
+          creep_stays(lanes_of(1.0) - creep_fraction),
           creep_m_per_N(load(laws.creep_m_per_N, lane)),
-          elastic_m_per_N(stretch_m_per_N + creep_share * creep_m_per_N),
+          elastic_m_per_N(stretch_m_per_N + creep_fraction * creep_m_per_N),
           elastic_N_per_m(lanes_of(1.0) / elastic_m_per_N),
           toe_m(load(laws.toe_m, lane)),
           toe_tension_N(load(laws.toe_tension_N, lane)),
@@ -55,15 +55,15 @@ struct Laws {
           dynamic_friction(load(laws.dynamic_friction, lane)),
           stribeck_friction(load(laws.stribeck_friction, lane)),
           stribeck_speed_m_per_s(load(laws.stribeck_speed_m_per_s, lane)),
-          stribeck_share(load(laws.stribeck_share, lane)),
+          stribeck_fraction(load(laws.stribeck_fraction, lane)),
           load_exponent(load(laws.load_exponent, lane)),
           load_reference_N_per_m(load(laws.load_reference_N_per_m, lane)),
           varies(hn::Ne(load(laws.varying_friction, lane), lanes_of(0.0))) {}
 
     const CableLaws* of;
-    Lanes stretch_m_per_N, creep_share, creep_stays, creep_m_per_N, elastic_m_per_N, elastic_N_per_m, toe_m,
-        toe_tension_N, bristle_m, bristle_per_m, bristle_exponent, rigid_N_per_m, viscous_N_per_m2,
-        dynamic_friction, stribeck_friction, stribeck_speed_m_per_s, stribeck_share, load_exponent,
+    Lanes stretch_m_per_N, creep_fraction, creep_stays, creep_m_per_N, elastic_m_per_N, elastic_N_per_m,
+        toe_m, toe_tension_N, bristle_m, bristle_per_m, bristle_exponent, rigid_N_per_m, viscous_N_per_m2,
+        dynamic_friction, stribeck_friction, stribeck_speed_m_per_s, stribeck_fraction, load_exponent,
         load_reference_N_per_m;
     Which varies;
 };

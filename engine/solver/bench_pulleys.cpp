@@ -46,9 +46,9 @@ PulleyAngles BenchPulleys::start(const BenchInputs& inputs) const {
 
 // Inside a gap only inertia holds a load pulley whose cables slide.
 double BenchPulleys::load_inertia_kg_m2(const BenchInputs& inputs) const {
-    constexpr double least_kg_m2 = 1e-5;
+    constexpr double min_kg_m2 = 1e-5;
     const double sum_kg_m2 = known_.load_kg_m2 + effects_.inertia.load_kg_m2;
-    return load_is_free(inputs) ? std::max(least_kg_m2, sum_kg_m2) : sum_kg_m2;
+    return load_is_free(inputs) ? std::max(min_kg_m2, sum_kg_m2) : sum_kg_m2;
 }
 
 // What a pulley's bearing and inertia take at this angle (E27, E35).

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double move_tolerance_m = 1e-9;
 // A free pulley turns no further than this in one iteration.
-constexpr double most_motor_turn_rad = 0.2;
-constexpr double most_load_turn_rad = 0.02;
-constexpr int most_iterations = 60;
+constexpr double max_motor_turn_rad = 0.2;
+constexpr double max_load_turn_rad = 0.02;
+constexpr int max_iterations = 60;
 constexpr int iterations_at_full_step = 15;
 
 void demand_motion(const BenchInputs& inputs, bool pull_pull) {
@@ -86,8 +86,8 @@ void BenchSimulations::begin(const BenchInputs& inputs, const LaneFlags& active)
 // (E15). The motor end's rest follows the pretension (E33).
 BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, const EachAngles& angles,
                                                    double session_time_s) {
-    EndPlaces motor[most_cables];
-    EndPlaces load[most_cables];
+    EndPlaces motor[max_cables];
+    EndPlaces load[max_cables];
     for (int lane = 0; lane < bench_lanes; ++lane) {
         const auto bench = static_cast<std::size_t>(lane < count_ ? lane : 0);
         const double pretension_N =
@@ -129,17 +129,17 @@ void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, Lane
     cables_.let_turn(any(free.motor), any(free.load));
     const double r_m = radii_.motor_radius_m;
     const double r_l = radii_.load_radius_m;
-    for (int iteration = 1; iteration <= most_iterations && any(active); ++iteration) {
+    for (int iteration = 1; iteration <= max_iterations && any(active); ++iteration) {
         const Pull pull = linearise(active, angles, inputs.session_time_s);
         LaneValues motor_turn;
         LaneValues load_turn;
-        LaneValues shares;
+        LaneValues fractions;
         for (int lane = 0; lane < count_; ++lane) {
             if (!active.of[lane]) continue;
             const auto bench = static_cast<std::size_t>(lane);
             ++reports[bench].iterations;
             // A front can send Newton's method to and fro; shorter steps end that.
-            double share = iteration <= iterations_at_full_step ? 1.0 : 0.5;
+            double fraction = iteration <= iterations_at_full_step ? 1.0 : 0.5;
             const Torque motor = pulleys_[bench].motor_balance(inputs, angles[bench].motor_rad);
             const Torque load = pulleys_[bench].load_balance(inputs, angles[bench].load_rad);
             const bool motor_turns = free.motor.of[lane];
@@ -154,14 +154,14 @@ void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, Lane
             const double determinant = mm * ll - ml * lm;
             motor_turn.of[lane] = -(motor_error * ll - load_error * ml) / determinant;
             load_turn.of[lane] = -(load_error * mm - motor_error * lm) / determinant;
-            const double farthest = std::max(std::abs(motor_turn.of[lane]) / most_motor_turn_rad,
-                                             std::abs(load_turn.of[lane]) / most_load_turn_rad);
-            if (share * farthest > 1.0) share = 1.0 / farthest;
-            shares.of[lane] = share;
-            angles[bench].motor_rad += share * motor_turn.of[lane];
-            angles[bench].load_rad += share * load_turn.of[lane];
+            const double farthest = std::max(std::abs(motor_turn.of[lane]) / max_motor_turn_rad,
+                                             std::abs(load_turn.of[lane]) / max_load_turn_rad);
+            if (fraction * farthest > 1.0) fraction = 1.0 / farthest;
+            fractions.of[lane] = fraction;
+            angles[bench].motor_rad += fraction * motor_turn.of[lane];
+            angles[bench].load_rad += fraction * load_turn.of[lane];
         }
-        const LaneValues largest_m = cables_.move(motor_turn, load_turn, shares);
+        const LaneValues largest_m = cables_.move(motor_turn, load_turn, fractions);
         for (int lane = 0; lane < count_; ++lane) {
             if (!active.of[lane]) continue;
             reports[static_cast<std::size_t>(lane)].converged = largest_m.of[lane] < move_tolerance_m;
@@ -191,7 +191,7 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
     constexpr double angle_tolerance_rad = 1e-9;
     constexpr double balanced_Nm = 1e-7;
     constexpr double nearly_balanced_Nm = 1e-4;  // where the torque left leaps from one angle to the next
-    constexpr int most_trials = 60;
+    constexpr int max_trials = 60;
     const auto bench = static_cast<std::size_t>(lane);
     const bool of_load = free.load.of[lane];
     if (!of_load && !free.motor.of[lane]) return;
@@ -200,7 +200,7 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
     Free held = free;
     (of_load ? held.load : held.motor).of[lane] = false;
     double best_rad = 0.0;
-    double least_left_Nm = std::numeric_limits<double>::infinity();
+    double min_left_Nm = std::numeric_limits<double>::infinity();
     const auto torque_left = [&](double angle_rad) {
         (of_load ? from.load_rad : from.motor_rad) = angle_rad;
         solve(inputs, held, lane, from, angles, reports);
@@ -209,8 +209,8 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
                                              pulleys_[bench].load_balance(inputs, angle_rad).value_Nm
                                        : -radii_.motor_radius_m * pull.motor.value_N.of[lane] -
                                              pulleys_[bench].motor_balance(inputs, angle_rad).value_Nm;
-        if (std::abs(left_Nm) < least_left_Nm) {
-            least_left_Nm = std::abs(left_Nm);
+        if (std::abs(left_Nm) < min_left_Nm) {
+            min_left_Nm = std::abs(left_Nm);
             best_rad = angle_rad;
         }
         return left_Nm;
@@ -227,14 +227,14 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
     double high = low + width;
     double at_high = torque_left(high);
     for (int trial = 0; at_low * at_high > 0.0; ++trial) {
-        if (trial == most_trials || !std::isfinite(at_high)) return give_up();
+        if (trial == max_trials || !std::isfinite(at_high)) return give_up();
         low = high;
         at_low = at_high;
         width *= 1.6;
         high += width;
         at_high = torque_left(high);
     }
-    for (int trial = 0; trial < most_trials; ++trial) {
+    for (int trial = 0; trial < max_trials; ++trial) {
         const double middle =
             at_low == at_high ? 0.5 * (low + high) : low + (high - low) * at_low / (at_low - at_high);
         const double at_middle = torque_left(middle);

@@ -129,7 +129,7 @@ inline bool resting_nodes_hold(const StepView& view, const Candidate& candidate)
 }
 
 /// Input and cable may each be a number and what comes of them not.
-inline bool of_numbers(const Candidate& candidate) {
+inline bool is_finite(const Candidate& candidate) {
     return std::abs(candidate.proximal.tension_N) <= largest_number &&
            std::abs(candidate.proximal.displacement_m) <= largest_number &&
            std::abs(candidate.distal.tension_N) <= largest_number &&

@@ -30,7 +30,7 @@ struct ModelRules {
     StictionRule stiction = StictionRule::remembers_sliding;
     VelocityCheck check = VelocityCheck::every_node;
 
-    static constexpr ModelRules cured() { return {}; }
+    static constexpr ModelRules consistent() { return {}; }
     static constexpr ModelRules paper() {
         return {ElongationRule::exponential_and_mean, StictionRule::memoryless, VelocityCheck::segment_mean};
     }

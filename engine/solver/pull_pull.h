@@ -69,7 +69,7 @@ class PullPull {
   public:
     /// Throws InvalidInput if a radius is not positive.
     PullPull(const Cable& cable_a, const Cable& cable_b, const Pulleys& pulleys,
-             const ModelRules& rules = ModelRules::cured());
+             const ModelRules& rules = ModelRules::consistent());
 
     /// Both cables under their pretension, both angles zero.
     PullPullState at_rest() const;

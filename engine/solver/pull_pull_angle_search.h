@@ -34,11 +34,11 @@ template <std::invocable<double> TorqueError>
 AngleSearch search_angle(const AngleSearchStart& start, TorqueError&& torque_error_Nm) {
     // Far beyond what any cable stands.
     constexpr double farthest_rad = 1e4;
-    constexpr int most_trials = 200;
+    constexpr int max_trials = 200;
     // The step overshoots the secant a little, so that the next trial closes the bracket.
     constexpr double overshoot = 1.2;
-    constexpr double least_growth = 2.0;
-    constexpr double most_growth = 100.0;
+    constexpr double min_growth = 2.0;
+    constexpr double max_growth = 100.0;
 
     struct Trial {
         double angle_rad;
@@ -70,9 +70,9 @@ AngleSearch search_angle(const AngleSearchStart& start, TorqueError&& torque_err
         const double slope = (far.error_Nm - near.error_Nm) / (far.angle_rad - near.angle_rad);
         const double secant_rad = std::abs(far.angle_rad - start.angle_rad) + std::abs(far.error_Nm / slope);
         const bool approaching = std::abs(far.error_Nm) < std::abs(near.error_Nm);
-        const double wanted_rad = approaching ? overshoot * secant_rad : least_growth * distance_rad;
+        const double wanted_rad = approaching ? overshoot * secant_rad : min_growth * distance_rad;
         near = far;
-        distance_rad = std::clamp(wanted_rad, least_growth * distance_rad, most_growth * distance_rad);
+        distance_rad = std::clamp(wanted_rad, min_growth * distance_rad, max_growth * distance_rad);
         if (distance_rad > farthest_rad) return answer(trial(first.angle_rad));
     }
 
@@ -80,7 +80,7 @@ AngleSearch search_angle(const AngleSearchStart& start, TorqueError&& torque_err
     double near_weight = 1.0;  // Illinois: halves the error of a side that stays
     double far_weight = 1.0;
     double width_rad = std::abs(far.angle_rad - near.angle_rad);
-    for (int inside = 1; trials < most_trials; ++inside) {
+    for (int inside = 1; trials < max_trials; ++inside) {
         const double near_error = near_weight * near.error_Nm;
         const double far_error = far_weight * far.error_Nm;
         double angle_rad =

@@ -13,7 +13,7 @@ namespace {
 [[gnu::noinline]] StepReport take_what_verifies(const StepView& view, const EndConditions& ends,
                                                 CableState& state) {
     const PatternSearch search = search_pattern(view, ends);
-    if (!of_numbers(search.candidate)) {
+    if (!is_finite(search.candidate)) {
         throw InvalidInput(
             {"the ends' inputs ask this cable for a tension or displacement that is not a finite number below "
              "1e150; check the units of the inputs, of the stiffness and of the lengths"});
@@ -47,7 +47,7 @@ QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
         if (!(likely.proximal.tension_N > 0.0)) return take_what_verifies(view, ends, state);
         ++patterns_tried;
     }
-    if (!of_numbers(likely) || !resting_nodes_hold(view, likely) ||
+    if (!is_finite(likely) || !resting_nodes_hold(view, likely) ||
         !write_if_both_move(proximal_run(view, likely), distal_run(view, likely), view, state)) {
         return take_what_verifies(view, ends, state);
     }

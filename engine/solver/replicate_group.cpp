@@ -47,7 +47,7 @@ HWY_INLINE bool mass_goes_on(const ReplicateGroup& group) {
         const Which on =
             hn::AndNot(hn::Or(against(proximal), against(distal)), hn::Or(proximal.moves, distal.moves));
         good = hn::And(good, hn::And(on, hn::Gt(values.tension_N, lanes_of(0.0))));
-        good = hn::And(good, of_numbers(values.tension_N, values.displacement_m));
+        good = hn::And(good, is_finite(values.tension_N, values.displacement_m));
     }
     if (!all(good)) return false;
 

@@ -48,8 +48,8 @@ HWY_INLINE bool all(Which mask) {
     return hn::AllTrue(Tag(), mask);
 }
 
-// of_numbers of candidate.h.
-HWY_INLINE Which of_numbers(Lanes tension_N, Lanes displacement_m) {
+// is_finite of candidate.h.
+HWY_INLINE Which is_finite(Lanes tension_N, Lanes displacement_m) {
     const Lanes largest = lanes_of(largest_number);
     return hn::And(hn::Le(hn::Abs(tension_N), largest), hn::Le(hn::Abs(displacement_m), largest));
 }
@@ -148,9 +148,9 @@ HWY_INLINE Driven driven(const PrefixTables& tables, const Line& end, const Ends
         hn::Add(hn::Add(hn::Mul(hn::Abs(end.displacement_factor), scale_m), hn::Abs(tension_part)),
                 hn::Abs(end.value));
     const Lanes h = lanes_of(tables.half_compliance_m_per_N);
-    const Lanes displacement_share = hn::Mul(end.displacement_factor, h);
-    const Lanes change_per_increment = is_proximal ? hn::Sub(displacement_share, end.tension_factor)
-                                                   : hn::Add(displacement_share, end.tension_factor);
+    const Lanes displacement_fraction = hn::Mul(end.displacement_factor, h);
+    const Lanes change_per_increment = is_proximal ? hn::Sub(displacement_fraction, end.tension_factor)
+                                                   : hn::Add(displacement_fraction, end.tension_factor);
     return {hn::Gt(hn::Abs(change), hn::Mul(lanes_of(input_rounding), size)),
             hn::Xor(hn::Gt(change, lanes_of(0.0)),
                     which(hn::Lt(hn::BitCast(CountTag(), change_per_increment), count_of(0))))};

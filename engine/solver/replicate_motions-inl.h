@@ -141,7 +141,7 @@ HWY_INLINE Which advance_lanes(const ReplicateGroup& group, int lane) {
                          hn::Or(mass, hn::And(proximal.holds, distal.holds)));
     const Which hangs = hn::AndNot(hn::Or(proximal.moves, distal.moves), g.before.slack);
     const auto numbers = [](const Side& side) HWY_ATTR {
-        return hn::Or(hn::Not(side.moves), of_numbers(side.tension_N, side.displacement_m));
+        return hn::Or(hn::Not(side.moves), is_finite(side.tension_N, side.displacement_m));
     };
     done = hn::AndNot(hangs, hn::And(done, hn::And(numbers(proximal), numbers(distal))));
     only(done, proximal);

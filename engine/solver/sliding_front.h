@@ -11,7 +11,7 @@ namespace capstan {
 // One side of a step: which way its end drives it, and how far its front goes. The two sides know nothing of
 // each other.
 
-/// An input's change within this share of the sizes that it is the difference of is rounding.
+/// An input's change within this fraction of the sizes that it is the difference of is rounding.
 inline constexpr double input_rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// Which way an end node would go if it moved alone against its resting neighbour (E3 with E6); an input that

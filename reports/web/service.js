@@ -49,7 +49,7 @@
       button.addEventListener("click", () => act(post("/api/jobs/" + job.job + "/" + does)));
       const result = job.study_id ? link("/studies/" + job.study_id, "study " + job.study_id) : job.diagnosis_id ? link("#diagnosis-" + job.diagnosis_id, "diagnosis " + job.diagnosis_id) : "";
       const row = element("tr", {}, element("th", { scope: "row", textContent: "Job " + job.job }), cell(job.kind + " " + job.title), cell(job.state),
-        cell(...(job.state === "running" ? bar(job.share_done, doing) : [job.message])), cell(result), cell(...(does ? [button] : [])));
+        cell(...(job.state === "running" ? bar(job.fraction_done, doing) : [job.message])), cell(result), cell(...(does ? [button] : [])));
       row.dataset.state = job.state;
       return row;
     }));
@@ -101,15 +101,15 @@
 
   function diagnosisCard(row) {
     const channel = element("p", { className: "quiet" }, row.channel ? `${row.channel}: RMS of the gap ${digits(row.rms_before_in_unit)} ${row.unit} before, ${digits(row.rms_after_in_unit)} after, ${digits(row.rms_held_out_in_unit)} held out` +
-      (row.closed_share == null ? "" : `; ${percent(row.closed_share)} (${percent(row.closed_low_share)} to ${percent(row.closed_high_share)}) of it closed`) + "." : "");
+      (row.closed_fraction == null ? "" : `; ${percent(row.closed_fraction)} (${percent(row.closed_low_fraction)} to ${percent(row.closed_high_fraction)}) of it closed`) + "." : "");
     const more = element("details", { className: "data" }, element("summary", { textContent: "Every cause and its probability" }), element("div"));
     more.addEventListener("toggle", async () => {
       if (!more.open || more.lastChild.childElementCount) return;
-      const rows = await (await post("/api/query", { sql: `SELECT place, effect, probability_share FROM diagnosis_effect WHERE diagnosis_id = ${row.diagnosis_id} ORDER BY place` })).json();
+      const rows = await (await post("/api/query", { sql: `SELECT place, effect, probability_fraction FROM diagnosis_effect WHERE diagnosis_id = ${row.diagnosis_id} ORDER BY place` })).json();
       more.lastChild.append(tableOf(rows));
     });
     const card = element("article", { className: "card verdict-card", id: "diagnosis-" + row.diagnosis_id },
-      element("h3", { textContent: `${row.recording}: ${row.verdict} (${percent(row.confidence_share)})` }),
+      element("h3", { textContent: `${row.recording}: ${row.verdict} (${percent(row.confidence_fraction)})` }),
       element("p", { textContent: row.sentence + (row.component && row.component !== "none" ? ` In ${row.component}${row.cable_end ? ", at the " + row.cable_end + " end" : ""}${row.position_m == null ? "" : ", about " + digits(row.position_m) + " m from the motor"}.` : "") }),
       channel, more);
     card.dataset.verdict = row.verdict;

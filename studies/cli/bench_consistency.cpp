@@ -11,7 +11,7 @@ using bench::Waveform;
 using bench::WaveformKind;
 
 // More are a page and a CSV that nobody reads, and a typing error.
-constexpr double most_samples = 1e7;
+constexpr double max_samples = 1e7;
 
 class BenchChecks {
   public:
@@ -30,7 +30,7 @@ class BenchChecks {
                 "its angle, or let the load be a spring");
         }
         if (sound("sample_rate_Hz") && sound("duration_s") &&
-            plan.duration_s * plan.sample_rate_Hz > most_samples)
+            plan.duration_s * plan.sample_rate_Hz > max_samples)
             problem("duration_s", "makes more than ten million samples; shorten it or lower sample_rate_Hz");
         if (sound("motor")) check_sines("motor", plan.motor);
         if (sound("load") && plan.load_kind != bench::LoadKind::locked) check_sines("load", plan.load);

@@ -93,11 +93,11 @@ nlohmann::ordered_json in_json(const Bench& bench) {
                 {"case", race.name}, {"segments", race.segments}, {"solver", name_of(rate.solver)}};
             row["steps_per_s"] = nullptr;
             row["closed_form_is_faster_by"] = nullptr;
-            row["converged_share"] = nullptr;
+            row["converged_fraction"] = nullptr;
             if (rate.steps_per_s) {
                 row["steps_per_s"] = *rate.steps_per_s;
                 row["closed_form_is_faster_by"] = *rate.closed_form_is_faster_by;
-                row["converged_share"] = rate.converged_share;
+                row["converged_fraction"] = rate.converged_fraction;
             }
             races.push_back(row);
         }
@@ -142,10 +142,10 @@ std::string in_words(const Bench& bench) {
                                                                     *rate.closed_form_is_faster_by)
                                                       : "over 1 s a step";
             fmt::format_to(out, "  {:>20}", cell);
-            if (rate.steps_per_s && rate.converged_share < 1.0) {
-                failures +=
-                    fmt::format("{} converged in {:.2f}% of the steps of case {} with {} segments.\n",
-                                name_of(rate.solver), 100.0 * rate.converged_share, race.name, race.segments);
+            if (rate.steps_per_s && rate.converged_fraction < 1.0) {
+                failures += fmt::format("{} converged in {:.2f}% of the steps of case {} with {} segments.\n",
+                                        name_of(rate.solver), 100.0 * rate.converged_fraction, race.name,
+                                        race.segments);
             }
         }
         text += "\n";

@@ -92,13 +92,13 @@ ExitCode run(const Invocation& invocation) {
     options.threads = static_cast<int>(invocation.whole("jobs"));
     const bool on_a_terminal = isatty(STDERR_FILENO) != 0;
     if (on_a_terminal && invocation.text("progress") == "auto") {
-        options.on_progress = [](const std::string& doing, double share) {
-            fmt::print(stderr, "\r\033[K{:3.0f}%  {}", 1e2 * share, doing);
+        options.on_progress = [](const std::string& doing, double fraction) {
+            fmt::print(stderr, "\r\033[K{:3.0f}%  {}", 1e2 * fraction, doing);
             std::fflush(stderr);
         };
     } else if (invocation.text("progress") == "json") {
-        options.on_progress = [](const std::string& doing, double share) {
-            const ordered_json json = {{"event", "progress"}, {"doing", doing}, {"share_done", share}};
+        options.on_progress = [](const std::string& doing, double fraction) {
+            const ordered_json json = {{"event", "progress"}, {"doing", doing}, {"fraction_done", fraction}};
             fmt::print(stderr, "{}\n", json.dump());
         };
     }

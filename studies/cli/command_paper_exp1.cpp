@@ -52,7 +52,7 @@ std::string in_words(const std::vector<std::vector<RampRun>>& runs) {
            wrapped(
                "Dead width: motor torque that a reversal goes through before the load torque changes (250 is "
                "the whole ramp). Lost transfer: 1 - peak / 650 mN m, the ideal transmission's. The paper's "
-               "peaks follow from its rms errors and their shares of the peak; its rms to the ideal is that "
+               "peaks follow from its rms errors and their fraction of the peak; its rms to the ideal is that "
                "of its bench, ours of the model.",
                100, "", "") +
            "\n";
@@ -75,7 +75,7 @@ ordered_json in_json(const std::vector<std::vector<RampRun>>& runs) {
                                   {"implied_peak_load_torque_Nm", paper->implied_peak_Nm()},
                                   {"rms_to_ideal_Nm", paper->rms_to_ideal_Nm},
                                   {"rms_of_model_Nm", paper->rms_of_model_Nm},
-                                  {"share_of_peak", paper->share_of_peak}};
+                                  {"fraction_of_peak", paper->fraction_of_peak}};
             }
             json["runs"].push_back(entry);
         }

@@ -55,7 +55,7 @@ nlohmann::ordered_json in_json(const Comparison& comparison) {
 
 std::string agreement_table(const std::vector<Agreement>& rows) {
     std::string text =
-        "Closed-form step and generic solver from the same state: share of steps in which the generic one\n"
+        "Closed-form step and generic solver from the same state: fraction of steps in which the generic one\n"
         "converges, and largest difference of a node's tension [N]. Paper: below 1e-9 N in all conditions.\n\n";
     auto out = std::back_inserter(text);
     fmt::format_to(out, "{:15}  {:>8}  {:>5}  {:>9}  {:>12}\n", "motion", "segments", "steps", "converged",
@@ -110,7 +110,7 @@ Command paper_solver_command() {
     return {
         "paper solver",
         "Repeat the paper's comparison of solvers (Sec. III.B, Fig. 7).",
-        "Checks the closed-form step against a generic root finder on the same equations, step by step: share of steps "
+        "Checks the closed-form step against a generic root finder on the same equations, step by step: fraction of steps "
         "in which the root finder converges and largest difference of tension, in mass, partial, mono- and "
         "bidirectional motion, 1 to 60 segments. Then rates against the number of segments, beside what the paper "
         "says of its own.",

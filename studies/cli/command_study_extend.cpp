@@ -66,7 +66,7 @@ std::string words_of(const Invocation& invocation, const StudyToExtend& study,
             " With 95 % certainty no choice is better than the best of its count by more than "
             "{:.4f} N{}.",
             *outcome.unresolved_N,
-            resolved ? "" : ", which is not within the tolerance; --most-repetitions stopped it");
+            resolved ? "" : ", which is not within the tolerance; --max-repetitions stopped it");
     }
     return words;
 }
@@ -88,7 +88,7 @@ ExitCode run(const Invocation& invocation) {
         } else {
             Resolution resolution;
             resolution.tolerance_N = invocation.real("until-resolved");
-            resolution.most_repetitions = static_cast<int>(invocation.whole("most-repetitions"));
+            resolution.max_repetitions = static_cast<int>(invocation.whole("max-repetitions"));
             if (invocation.text("progress") == "auto") {
                 resolution.on_look = [](int repetitions, double unresolved_N) {
                     fmt::print(stderr, "{} repetitions: some choice may still be better by {:.4f} N\n",
@@ -128,7 +128,7 @@ Command study_extend_command() {
          {},
          1e-6,
          1e6},
-        {"most-repetitions",
+        {"max-repetitions",
          '\0',
          OptionKind::whole_number,
          "N",

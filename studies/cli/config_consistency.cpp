@@ -97,7 +97,7 @@ class Checks {
         for (std::size_t k = 0; k < plan.regimes.size(); ++k) {
             const RegimeInstants& regime = plan.regimes[k];
             const std::string path = fmt::format("regime[{}]", k + 1);
-            duty += regime.duty_share;
+            duty += regime.duty_fraction;
             if (!seen.insert(regime.regime).second) {
                 problem({path + ".name"},
                         fmt::format("\"{}\" is given twice; put all its samples into one [[regime]]",
@@ -115,9 +115,9 @@ class Checks {
         constexpr double rounding = 1e-9;
         if (std::abs(duty - 1.0) > rounding) {
             problem(
-                {"regime[1].duty_share"},
+                {"regime[1].duty_fraction"},
                 fmt::format(
-                    "the duty shares of all regimes sum to {}, but must sum to 1; give enough digits, or let one share be 1 less the others",
+                    "the duty fractions of all regimes sum to {}, but must sum to 1; give enough digits, or let one fraction be 1 less the others",
                     duty));
         }
     }

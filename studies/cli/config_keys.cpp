@@ -56,9 +56,9 @@ void add_transmission_keys(std::vector<StudyKey>& keys) {
         transmission_cable);
     keys.push_back(choice<ModelRules>(
         {at, "rules", "",
-         "How the model is read where the paper is silent or contradicts itself: \"cured\" is our consistent reading, "
+         "How the model is read where the paper is silent or contradicts itself: \"consistent\" is our consistent reading, "
          "\"paper\" follows the paper to the letter."},
-        {{"cured", ModelRules::cured()}, {"paper", ModelRules::paper()}}, std::string("cured"),
+        {{"consistent", ModelRules::consistent()}, {"paper", ModelRules::paper()}}, std::string("consistent"),
         [](auto& plan, int) -> auto& { return plan.transmission.rules; }, same_rules));
 }
 
@@ -165,10 +165,10 @@ void add_regime_keys(std::vector<StudyKey>& keys) {
     keys.push_back(std::move(samples));
 
     keys.push_back(required(real(
-        {"regime", "duty_share", "",
-         "Share of the working time in this regime, for the recommendation by duty cycle; "
-         "the shares of all regimes sum to 1."},
-        {0, true, 1}, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].duty_share; })));
+        {"regime", "duty_fraction", "",
+         "Fraction of the working time in this regime, for the recommendation by duty cycle; "
+         "the fractions of all regimes sum to 1."},
+        {0, true, 1}, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].duty_fraction; })));
 }
 
 void add_noise_keys(std::vector<StudyKey>& keys) {
@@ -177,7 +177,7 @@ void add_noise_keys(std::vector<StudyKey>& keys) {
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].label; })));
     keys.push_back(real(
         {"noise", "multiplicative_ratio", "",
-         "Standard deviation of a reading's error as a share of the tension: 0.1 is 10 %."},
+         "Standard deviation of a reading's error as a fraction of the tension: 0.1 is 10 %."},
         zero_or_more, 0.0,
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.multiplicative_ratio; }));
     keys.push_back(real(

@@ -50,14 +50,14 @@ void add_placement_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
         {1, true, 10000}, std::int64_t{PlacementPlan{}.minimum_spacing},
         [](auto& plan, int) -> auto& { return plan.placement.minimum_spacing; }));
     keys.push_back(whole(
-        {at, "most_sensors", "", "No more sensors than this; a long cable needs it to be searched exactly."},
-        {1, true, 64}, std::int64_t{PlacementPlan{}.most_sensors},
-        [](auto& plan, int) -> auto& { return plan.placement.most_sensors; }));
+        {at, "max_sensors", "", "No more sensors than this; a long cable needs it to be searched exactly."},
+        {1, true, 64}, std::int64_t{PlacementPlan{}.max_sensors},
+        [](auto& plan, int) -> auto& { return plan.placement.max_sensors; }));
     keys.push_back(whole(
-        {at, "most_in_distal_half", "",
+        {at, "max_in_distal_half", "",
          "No more sensors than this beyond the middle of the cable, where the load and the wearer are."},
-        {0, true, 64}, std::int64_t{PlacementPlan{}.most_in_distal_half},
-        [](auto& plan, int) -> auto& { return plan.placement.most_in_distal_half; }));
+        {0, true, 64}, std::int64_t{PlacementPlan{}.max_in_distal_half},
+        [](auto& plan, int) -> auto& { return plan.placement.max_in_distal_half; }));
     StudyKey costs = real_list<StudyPlan>(
         {at, "node_costs", "", "What a sensor costs at each node, proximal end first; empty: 1 everywhere."},
         zero_or_more, {}, [](auto& plan, int) -> auto& { return plan.placement.node_costs; });

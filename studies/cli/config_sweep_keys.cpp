@@ -17,7 +17,7 @@ StudyKey swept_ratio(std::string name, const std::string& what, std::vector<doub
 }
 
 StudyKey swept_segments() {
-    StudyKey key{"sweep", "segments", {ValueKind::whole_numbers, "", {2, true, most_estimated_segments}}};
+    StudyKey key{"sweep", "segments", {ValueKind::whole_numbers, "", {2, true, max_estimated_segments}}};
     key.help = "Numbers of segments, one study each; none: as above.";
     key.default_value = std::vector<std::int64_t>{};
     key.read = [](const StudyPlan& plan, int) -> ConfigValue {

@@ -59,17 +59,18 @@ std::string explanation_in_words(const std::vector<std::string>& effects) {
 
 }  // namespace
 
-std::string next_experiment_in_words(const gap::Indistinct& indistinct) {
-    if (indistinct.group.size() < 2) return "";
+std::string next_experiment_in_words(const gap::NonIdentifiable& non_identifiable) {
+    if (non_identifiable.group.size() < 2) return "";
     std::vector<std::string> group;
-    for (const auto& effects : indistinct.group) group.push_back(explanation_in_words(effects));
+    for (const auto& effects : non_identifiable.group) group.push_back(explanation_in_words(effects));
     std::string text = fmt::format("This recording does not tell apart: {}.", fmt::join(group, "; "));
     constexpr double helps = 0.8;
-    if (indistinct.experiments.empty() || indistinct.experiments.front().told_apart < helps)
+    if (non_identifiable.experiments.empty() ||
+        non_identifiable.experiments.front().discrimination_probability < helps)
         return text + " None of the experiments tried in simulation would.";
-    const gap::ExperimentScore& best = indistinct.experiments.front();
+    const gap::ExperimentScore& best = non_identifiable.experiments.front();
     return text + fmt::format(" Record next: {}. It would name the right one with probability {:.2f}.",
-                              best.description, best.told_apart);
+                              best.description, best.discrimination_probability);
 }
 
 std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis) {
@@ -90,25 +91,27 @@ std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis
         text += fmt::format("    {:<28} {:.2f}\n", each.effect, each.probability);
     }
     text += fmt::format("\n  {:<14} {:>5} {:>9} {:>9} {:>9} {:>9} {:>10}  {}\n", "RMS of gap", "unit",
-                        "noise", "before", "after", "held out", "runner-up", "share closed, held out");
+                        "noise", "before", "after", "held out", "runner-up", "fraction closed, held out");
     for (const ChannelGap& channel : diagnosis.gap.channels)
         text +=
             fmt::format("  {:<14} {:>5} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3g}  {}\n", channel.channel,
                         channel.unit, channel.noise, channel.before_rms, channel.after_rms,
                         channel.held_out_rms, channel.runner_up_rms, closed_in_words(channel));
     text += "\n" + wrapped(gap::gap_sentence(diagnosis.gap.map), 100, "  ", "  ") + "\n";
-    const std::string next = next_experiment_in_words(diagnosis.indistinct);
+    const std::string next = next_experiment_in_words(diagnosis.non_identifiable);
     return next.empty() ? text : text + "\n" + wrapped(next, 100, "  ", "  ") + "\n";
 }
 
 ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis) {
     ordered_json json = reports::diagnosis_json(diagnosis_record(recording, diagnosis));
-    json["indistinct"] = {{"group", diagnosis.indistinct.group}, {"experiments", ordered_json::array()}};
-    for (const gap::ExperimentScore& each : diagnosis.indistinct.experiments)
-        json["indistinct"]["experiments"].push_back({{"kind", each.kind},
-                                                     {"name", each.name},
-                                                     {"description", each.description},
-                                                     {"told_apart", each.told_apart}});
+    json["non_identifiable"] = {{"group", diagnosis.non_identifiable.group},
+                                {"experiments", ordered_json::array()}};
+    for (const gap::ExperimentScore& each : diagnosis.non_identifiable.experiments)
+        json["non_identifiable"]["experiments"].push_back(
+            {{"kind", each.kind},
+             {"name", each.name},
+             {"description", each.description},
+             {"discrimination_probability", each.discrimination_probability}});
     return json;
 }
 

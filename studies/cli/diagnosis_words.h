@@ -11,7 +11,7 @@ namespace capstan::cli {
 std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 
 /// Which explanations remain, and what would decide between them; empty where the recording decides.
-std::string next_experiment_in_words(const gap::Indistinct& indistinct);
+std::string next_experiment_in_words(const gap::NonIdentifiable& non_identifiable);
 
 std::string in_words(const gap::Recording& recording, const gap::Diagnosis& diagnosis);
 

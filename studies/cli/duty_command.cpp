@@ -18,12 +18,12 @@ using nlohmann::ordered_json;
 
 std::string time_row(const std::string& name, const MotionTimes& times) {
     std::string row = fmt::format("  {:<10} {:>8.1f}", name, times.total_s());
-    const auto share = [&](double time_s) {
+    const auto fraction = [&](double time_s) {
         row += fmt::format("  {:>16}", fmt::format("{:.1f} %", 100.0 * time_s / times.total_s()));
     };
-    for (const double time_s : times.regime_s) share(time_s);
-    share(times.slack_s);
-    share(times.still_s);
+    for (const double time_s : times.regime_s) fraction(time_s);
+    fraction(times.slack_s);
+    fraction(times.still_s);
     return row + "\n";
 }
 
@@ -40,10 +40,11 @@ std::string in_words(const gap::Recording& recording, const DutyCycle& duty) {
     if (duty.unsolved_steps > 0)
         text += fmt::format("\n{} steps of the model did not verify.\n", duty.unsolved_steps);
     text +=
-        "\nShare of the time that a cable moves, for [[regime]] of a study's configuration (shares of the\n"
+        "\nFraction of the time in which a cable moves, for [[regime]] of a study's configuration (fractions of the\n"
         "regimes that it has must sum to 1; `capstan place CONFIG --duty LOG` does that):\n\n";
     for (const Regime regime : all_regimes) {
-        text += fmt::format("  name = \"{}\"\n  duty_share = {:.4f}\n", name_of(regime), duty.share(regime));
+        text += fmt::format("  name = \"{}\"\n  duty_fraction = {:.4f}\n", name_of(regime),
+                            duty.fraction(regime));
     }
     return text;
 }
@@ -60,7 +61,7 @@ ordered_json times_json(const MotionTimes& times) {
 ordered_json in_json(const gap::Recording& recording, const DutyCycle& duty) {
     ordered_json json = {{"case", recording.name}, {"unsolved_steps", duty.unsolved_steps}};
     for (const Regime regime : all_regimes)
-        json["duty_share"][std::string(name_of(regime))] = duty.share(regime);
+        json["duty_fraction"][std::string(name_of(regime))] = duty.fraction(regime);
     json["all"] = times_json(duty.all);
     json["runs"] = ordered_json::array();
     for (std::size_t k = 0; k < duty.runs.size(); ++k) {
@@ -92,7 +93,7 @@ Command duty_command() {
         "Measure from a recording how often each motion regime occurs.",
         "Moves the bench's model with the recording's driven channels and counts, sample by sample, which nodes of each "
         "cable slide: all of them (mass), those at the proximal end, the distal end, or both, none, or a slack cable. "
-        "The shares of the moving time are the duty cycle over which `capstan place` and `capstan recommend` average.",
+        "The fractions of the moving time are the duty cycle over which `capstan place` and `capstan recommend` average.",
         {log_argument},
         {{"still",
           '\0',

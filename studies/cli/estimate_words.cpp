@@ -31,7 +31,7 @@ ordered_json channel_json(const SensedCable& cable, const LeftOutChannel& result
                          {"paper_mean_rms_N", result.paper_mean_rms_N},
                          {"paper_mean_r_rms_N", result.paper_mean_r_rms_N},
                          {"trust", trust_json(result.trust)},
-                         {"unverified_share", result.unverified_share}};
+                         {"unverified_fraction", result.unverified_fraction}};
     if (result.widening_known) {
         json["widening"] = result.widening;
     } else {
@@ -61,7 +61,7 @@ std::string left_out_words(const gap::Recording& recording, const std::vector<Le
         }
     }
     std::string explained =
-        "In newtons. noise: of one sample. error: RMS of reading less prediction, noise included. in band: share of "
+        "In newtons. noise: of one sample. error: RMS of reading less prediction, noise included. in band: fraction of "
         "readings within the 95% band, whose mean half width is band; unwidened: the same without the model error that "
         "predicting the other channels shows. model: RMS of the model alone, which reads nothing. Mean, Mean-R: of the "
         "paper's estimators, each step from their own last estimate; they give no band.";

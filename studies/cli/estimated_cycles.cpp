@@ -29,7 +29,7 @@ std::string in_words(const StudyPlan& plan, const std::vector<CycleScore>& score
     }
     const std::string explained =
         "In newtons. error: mean size of the recursive estimator's error over samples, nodes and repetitions. in band: "
-        "share of tensions within its 95% band, whose mean half width is band. Mean, Mean-R: the paper's methods, each "
+        "fraction of tensions within its 95% band, whose mean half width is band. Mean, Mean-R: the paper's methods, each "
         "step from their own last estimate.";
     return text + "\n" + wrapped(explained, 100, "", "") + "\n";
 }

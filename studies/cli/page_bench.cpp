@@ -59,8 +59,8 @@ BenchPage::BenchPage(const bench::BenchPlan& plan)
                 "Tension along both cables at a few instants",
                 {"instant", "time_s", "cable", "position_m", "tension_N"},
                 {}},
-      least_a_N_(plan.cable.pretension_N),
-      least_b_N_(plan.cable.pretension_N) {}
+      min_a_N_(plan.cable.pretension_N),
+      min_b_N_(plan.cable.pretension_N) {}
 
 void BenchPage::add(const BenchInstant& now) {
     count(now);
@@ -72,11 +72,11 @@ void BenchPage::add(const BenchInstant& now) {
 void BenchPage::count(const BenchInstant& now) {
     peak_load_torque_Nm_ = std::max(peak_load_torque_Nm_, std::abs(now.load_torque_Nm));
     peak_motor_torque_Nm_ = std::max(peak_motor_torque_Nm_, std::abs(now.motor_torque_Nm));
-    const double least_a_N = least(now.tension_a_N);
-    const double least_b_N = least(now.tension_b_N);
-    least_a_N_ = std::min(least_a_N_, least_a_N);
-    least_b_N_ = std::min(least_b_N_, least_b_N);
-    if (std::min(least_a_N, least_b_N) <= slack_N) ++slack_samples_;
+    const double min_a_N = least(now.tension_a_N);
+    const double min_b_N = least(now.tension_b_N);
+    min_a_N_ = std::min(min_a_N_, min_a_N);
+    min_b_N_ = std::min(min_b_N_, min_b_N);
+    if (std::min(min_a_N, min_b_N) <= slack_N) ++slack_samples_;
     if (!now.solved) ++unsolved_;
 }
 
@@ -149,8 +149,8 @@ reports::ExperimentPage BenchPage::finished() const {
            {"Quantity", "Value"},
            {{"Largest motor torque [N m]", fmt::format("{:.4g}", peak_motor_torque_Nm_)},
             {"Largest load torque [N m]", fmt::format("{:.4g}", peak_load_torque_Nm_)},
-            {"Least tension in cable A [N]", fmt::format("{:.4g}", least_a_N_)},
-            {"Least tension in cable B [N]", fmt::format("{:.4g}", least_b_N_)},
+            {"Least tension in cable A [N]", fmt::format("{:.4g}", min_a_N_)},
+            {"Least tension in cable B [N]", fmt::format("{:.4g}", min_b_N_)},
             {"Samples with slack in a cable", std::to_string(slack_samples_)},
             {"Steps unsolved", std::to_string(unsolved_)}}}},
          ""},

@@ -31,8 +31,8 @@ class BenchPage {
     reports::Table angle_, torque_, transfer_, profile_, snapshot_;
     double peak_load_torque_Nm_ = 0.0;
     double peak_motor_torque_Nm_ = 0.0;
-    double least_a_N_ = 0.0;
-    double least_b_N_ = 0.0;
+    double min_a_N_ = 0.0;
+    double min_b_N_ = 0.0;
     std::size_t slack_samples_ = 0;  // of either cable
     std::size_t unsolved_ = 0;
 };

@@ -98,13 +98,13 @@ Curves curves_of(const Recording& recording, const Diagnosis& diagnosis) {
     return curves;
 }
 
-NumberTable experiments_table(const gap::Indistinct& indistinct) {
+NumberTable experiments_table(const gap::NonIdentifiable& non_identifiable) {
     constexpr std::size_t shown_experiments = 6;
     NumberTable table{
         "Probability that the right explanation would be named", {"Experiment", "Probability"}, {}};
-    for (const gap::ExperimentScore& each : indistinct.experiments) {
+    for (const gap::ExperimentScore& each : non_identifiable.experiments) {
         if (table.rows.size() < shown_experiments)
-            table.rows.push_back({each.description, fmt::format("{:.2f}", each.told_apart)});
+            table.rows.push_back({each.description, fmt::format("{:.2f}", each.discrimination_probability)});
     }
     return table;
 }
@@ -117,13 +117,13 @@ reports::ExperimentPage diagnosis_page(const Recording& recording, const Diagnos
     page.sections.push_back(
         {"runs", "Measured, nominal, corrected", "Long runs are thinned evenly for drawing.", {}, ""});
     page.sections.push_back({"loops", "Loops", "", {}, ""});
-    if (const std::string next = next_experiment_in_words(diagnosis.indistinct); !next.empty())
+    if (const std::string next = next_experiment_in_words(diagnosis.non_identifiable); !next.empty())
         page.sections.insert(
             page.sections.begin() + 1,
             {"next",
              "What to record next",
              next,
-             {experiments_table(diagnosis.indistinct)},
+             {experiments_table(diagnosis.non_identifiable)},
              "Each experiment is simulated with every explanation as it was fitted; the others may move all "
              "their numbers to imitate it. 0.5 is a guess."});
     for (Table* curve : {&curves.run, &curves.channel, &curves.residual, &curves.loop})

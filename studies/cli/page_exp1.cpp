@@ -116,7 +116,7 @@ reports::ExperimentPage exp1_page(const Settings& runs) {
         {"pretension",
          "What pretension does",
          "Dead width: motor torque that a reversal goes through before the load torque changes. Lost transfer: 1 - "
-         "peak / 650 mN m. The paper's peaks follow from its rms errors and their shares of the peak; its rms to the "
+         "peak / 650 mN m. The paper's peaks follow from its rms errors and their fraction of the peak; its rms to the "
          "ideal is that of its bench, ours of the model.",
          {numbers_beside_the_papers(runs)},
          ""}};

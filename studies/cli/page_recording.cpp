@@ -46,7 +46,7 @@ struct Overlay {
     Table residual{
         "channel_residual", "Measured less modelled", {"run", "channel", "time_s", "residual"}, {}};
     NumberTable numbers{"Residual of each channel, over whole runs",
-                        {"Channel", "Run", "Unit", "RMS of residual", "RMS of signal", "Share [%]"},
+                        {"Channel", "Run", "Unit", "RMS of residual", "RMS of signal", "Fraction [%]"},
                         {}};
 };
 

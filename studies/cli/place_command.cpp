@@ -25,12 +25,12 @@ void take_duty(const Invocation& invocation, StudyPlan& plan) {
     options.jobs = static_cast<int>(invocation.whole("jobs"));
     const duty::DutyCycle duty = duty::measure_duty(gap::read_recording(invocation.text("duty")), options);
     const double elsewhere = duty::use_duty(duty, plan);
-    std::string shares;
+    std::string fractions;
     for (const RegimeInstants& regime : plan.regimes) {
-        shares += fmt::format("{}{} {:.1f} %", shares.empty() ? "" : ", ", name_of(regime.regime),
-                              100.0 * regime.duty_share);
+        fractions += fmt::format("{}{} {:.1f} %", fractions.empty() ? "" : ", ", name_of(regime.regime),
+                                 100.0 * regime.duty_fraction);
     }
-    fmt::print(stderr, "duty cycle from {}: {}", invocation.text("duty"), shares);
+    fmt::print(stderr, "duty cycle from {}: {}", invocation.text("duty"), fractions);
     if (elsewhere > 0.0005)
         fmt::print(stderr, "; {:.1f} % of the moving time is in regimes that the configuration does not have",
                    100.0 * elsewhere);
@@ -85,7 +85,7 @@ Command place_command() {
           0,
           1000},
          {"duty", '\0', OptionKind::text, "LOG",
-          "Take the duty cycle from this recording instead of the configuration's duty_share."},
+          "Take the duty cycle from this recording instead of the configuration's duty_fraction."},
          {"until-resolved",
           '\0',
           OptionKind::real_number,

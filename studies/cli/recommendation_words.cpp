@@ -51,12 +51,12 @@ ordered_json recommendation_json(const storage::StudyDescription& study,
         entry["interval_95_N"] = {count.interval_low_N, count.interval_high_N};
         json["best_at_each_count"].push_back(std::move(entry));
     }
-    json["cannot_be_told_apart"] = ordered_json::array();
+    json["indistinguishable"] = ordered_json::array();
     for (const auto& other : r.alternatives) {
         ordered_json entry = choice_json(study, other.set_index, other.method);
         entry["difference_N"] = other.difference_N;
         entry["interval_95_N"] = {other.interval_low_N, other.interval_high_N};
-        json["cannot_be_told_apart"].push_back(std::move(entry));
+        json["indistinguishable"].push_back(std::move(entry));
     }
     return json;
 }

@@ -18,8 +18,8 @@ using bench::BenchInstant;
 
 std::string head_line(int nodes, bool with_tensions) {
     std::string line =
-        "time_s,motor_torque_Nm,motor_angle_rad,load_torque_Nm,load_angle_rad,solved,least_tension_a_N,"
-        "least_tension_b_N";
+        "time_s,motor_torque_Nm,motor_angle_rad,load_torque_Nm,load_angle_rad,solved,min_tension_a_N,"
+        "min_tension_b_N";
     for (const char cable : {'a', 'b'}) {
         for (int node = 1; with_tensions && node <= nodes; ++node)
             line += fmt::format(",tension_{}_{}_N", cable, node);

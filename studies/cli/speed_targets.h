@@ -14,7 +14,7 @@ struct SpeedTarget {
     bool at_least = true;  ///< else at most
 
     bool met() const { return at_least ? measured >= target : measured <= target; }
-    /// How much of the target is missing, as a share of it.
+    /// How much of the target is missing, as a fraction of it.
     double short_by() const {
         return met() ? 0.0 : at_least ? 1.0 - measured / target : measured / target - 1.0;
     }

@@ -71,7 +71,7 @@ storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const
     for (const gap::RecordedRun& run : recording.runs) runs.push_back(run.number);
     record.runs = list_text(runs);
     record.verdict = verdict_name(diagnosis);
-    record.confidence_share = diagnosis.ranked.front().probability;
+    record.confidence_fraction = diagnosis.ranked.front().probability;
     record.component = diagnosis.component;
     record.cable_end = diagnosis.end;
     record.position_m = diagnosis.position_m;
@@ -90,13 +90,13 @@ storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const
     for (const gap::FittedCause& each : diagnosis.causes) record.causes.push_back(cause_record(each));
     for (const gap::CandidateScore& each : diagnosis.candidates) {
         record.candidates.push_back({list_text(each.effects), list_text(each.variants),
-                                     static_cast<int>(each.open_numbers), each.misfit, each.nominal_price,
+                                     static_cast<int>(each.open_numbers), each.misfit, each.nominal_penalty,
                                      list_text(each.visibility), each.evidence});
     }
     for (const gap::ChannelGap& each : diagnosis.gap.channels)
         record.channels.push_back(channel_record(each));
-    for (const gap::GapShare& each : diagnosis.gap.map) {
-        record.gap.push_back({each.by, each.name, each.share, each.low, each.high, each.of_samples});
+    for (const gap::GapFraction& each : diagnosis.gap.map) {
+        record.gap.push_back({each.by, each.name, each.fraction, each.low, each.high, each.of_samples});
     }
     return record;
 }

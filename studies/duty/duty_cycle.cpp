@@ -116,7 +116,7 @@ class RunClassifier {
     }
 
     RunMotion single_cable(const gap::RecordedRun& run) const {
-        const QuasiStaticStep step(cable(run), ModelRules::cured());
+        const QuasiStaticStep step(cable(run), ModelRules::consistent());
         const gap::DrivenInputs inputs = gap::driven_inputs(recording_, run);
         const std::vector<double>& motor_angle_rad = channel(inputs, "motor_angle");
         RunMotion motion;
@@ -147,7 +147,7 @@ double MotionTimes::moving_s() const {
     return sum_s;
 }
 
-double DutyCycle::share(Regime regime) const {
+double DutyCycle::fraction(Regime regime) const {
     const double moving_s = all.moving_s();
     if (!(moving_s > 0.0)) {
         throw InvalidInput(
@@ -195,17 +195,17 @@ DutyCycle measure_duty(const gap::Recording& recording, const DutyOptions& optio
 
 double use_duty(const DutyCycle& duty, StudyPlan& plan) {
     double covered = 0.0;
-    for (const RegimeInstants& regime : plan.regimes) covered += duty.share(regime.regime);
+    for (const RegimeInstants& regime : plan.regimes) covered += duty.fraction(regime.regime);
     if (!(covered > 0.0)) {
         std::string missing;
         for (const Regime regime : all_regimes) {
-            if (duty.share(regime) > 0.0)
+            if (duty.fraction(regime) > 0.0)
                 missing += (missing.empty() ? "" : ", ") + std::string(name_of(regime));
         }
         throw InvalidInput({"the recording's drive is never in a regime of the configuration, only in " +
                             missing + "; add a [[regime]] for it"});
     }
-    for (RegimeInstants& regime : plan.regimes) regime.duty_share = duty.share(regime.regime) / covered;
+    for (RegimeInstants& regime : plan.regimes) regime.duty_fraction = duty.fraction(regime.regime) / covered;
     return 1.0 - covered;
 }
 

@@ -33,15 +33,15 @@ struct DutyCycle {
     MotionTimes all;
     int unsolved_steps = 0;  ///< steps of the model whose motion did not verify
 
-    /// Share of the moving time; they sum to 1. Throws InvalidInput if nothing moved.
-    double share(Regime regime) const;
+    /// Fraction of the moving time; they sum to 1. Throws InvalidInput if nothing moved.
+    double fraction(Regime regime) const;
 };
 
 /// Moves the recording's model with its driven channels and looks at which nodes slide in each sample. Throws
 /// InvalidInput where the bench's geometry is not known: which nodes move follows from it.
 DutyCycle measure_duty(const gap::Recording& recording, const DutyOptions& options);
 
-/// The plan with duty shares as measured: those of its regimes, made to sum to 1. Returns the share of the
+/// The plan with duty shares as measured: those of its regimes, made to sum to 1. Returns the fraction of the
 /// moving time that was spent in regimes which the plan does not have. Throws InvalidInput if that is all.
 double use_duty(const DutyCycle& duty, StudyPlan& plan);
 

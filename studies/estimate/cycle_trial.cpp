@@ -15,7 +15,7 @@ namespace {
 
 constexpr double two_sided_95 = 1.959964;
 // In parts of what the plan says the distal end may do in a sample.
-constexpr double wander_shares[] = {1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0};
+constexpr double wander_fractions[] = {1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0};
 constexpr int choosing_repetitions = 2;
 constexpr std::uint32_t first_choosing_repetition = 1u << 31;
 
@@ -86,11 +86,11 @@ Tally recursive(const Cycle& cycle, const Layout& layout, const std::vector<std:
     return tally;
 }
 
-double most_likely_wander_m(const Cycle& cycle, const Layout& layout, const CycleOptions& options) {
+double likeliest_wander_m(const Cycle& cycle, const Layout& layout, const CycleOptions& options) {
     double best = -std::numeric_limits<double>::infinity();
     double chosen_m = 0.0;
-    for (const double share : wander_shares) {
-        const double wander_m = share * cycle.plan.largest_distal_increment_m;
+    for (const double fraction : wander_fractions) {
+        const double wander_m = fraction * cycle.plan.largest_distal_increment_m;
         double evidence = 0.0;
         for (std::uint32_t r = 0; r < choosing_repetitions; ++r) {
             const auto readings_N = readings_of(cycle, first_choosing_repetition + r);
@@ -124,7 +124,7 @@ double paper_error_N(const Cycle& cycle, const Layout& layout,
 CycleScore score_of(const Cycle& cycle, const Layout& layout, const CycleOptions& options) {
     CycleScore score;
     score.layout = layout;
-    score.wander_m = most_likely_wander_m(cycle, layout, options);
+    score.wander_m = likeliest_wander_m(cycle, layout, options);
     const double tensions = static_cast<double>(cycle.tension_N.size() * cycle.start.tension_N.size());
     const double count = tensions * options.repetitions;
     for (int repetition = 0; repetition < options.repetitions; ++repetition) {

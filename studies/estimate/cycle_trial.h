@@ -19,7 +19,7 @@ struct CycleScore {
     Layout layout;
     double wander_m = 0.0;        ///< of the distal end in a sample; the most likely of a few on other draws
     double error_N = 0.0;         ///< mean size of the recursive estimator's error
-    double coverage = 0.0;        ///< share of tensions within its 95% band
+    double coverage = 0.0;        ///< fraction of tensions within its 95% band
     double band_N = 0.0;          ///< mean half width of that band
     double paper_mean_N = 0.0;    ///< mean size of the error of the paper's Mean from its own estimates
     double paper_mean_r_N = 0.0;  ///< of its Mean-R

@@ -61,7 +61,7 @@ LeftOutChannel left_out(const SensedCable& cable, std::size_t predicted, const T
     result.channel = predicted;
     const std::size_t one[] = {predicted};
     const ChannelSet used = all_but(cable, one);
-    result.trust = most_likely_trust(cable, used, options);
+    result.trust = likeliest_trust(cable, used, options);
     std::vector<double> asked;
     if (used.size() >= 2) {
         for (const std::size_t other : used) {
@@ -96,7 +96,7 @@ LeftOutChannel left_out(const SensedCable& cable, std::size_t predicted, const T
     result.coverage = static_cast<double>(within) / count;
     result.plain_coverage = static_cast<double>(within_plain) / count;
     result.mean_band_N /= count;
-    result.unverified_share =
+    result.unverified_fraction =
         static_cast<double>(summary.unverified) / static_cast<double>(summary.steps * options.members);
     result.model_alone_rms_N = model_alone_rms_N(cable, predicted, spot);
     result.paper_mean_rms_N = paper_rms_N(cable, used, predicted, mean_method);
@@ -128,7 +128,7 @@ std::vector<LeftOutChannel> leave_out(const SensedCable& cable, const std::vecto
 WholeEstimate prepare_whole(const SensedCable& cable, const TrackingOptions& options) {
     WholeEstimate whole;
     const ChannelSet all = all_but(cable, {});
-    whole.trust = most_likely_trust(cable, all, options);
+    whole.trust = likeliest_trust(cable, all, options);
     whole.widening_known = all.size() >= 2;
     if (!whole.widening_known) return whole;
     std::vector<std::vector<double>> asked(all.size());

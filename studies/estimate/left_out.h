@@ -16,10 +16,10 @@ struct LeftOutChannel {
     double model_alone_rms_N = 0.0;   ///< the same without any reading: the model as it is
     double paper_mean_rms_N = 0.0;    ///< the paper's Mean from its own estimates
     double paper_mean_r_rms_N = 0.0;  ///< its Mean-R
-    double plain_coverage = 0.0;      ///< share of readings within the band without widening
+    double plain_coverage = 0.0;      ///< fraction of readings within the band without widening
     double coverage = 0.0;            ///< within the band: 1.96 deviations of posterior, widening and noise
     double mean_band_N = 0.0;         ///< half width of that band, mean over samples
-    double unverified_share = 0.0;
+    double unverified_fraction = 0.0;
 };
 
 /// Leaves each of `channels` out in turn and predicts it from all the others. The widening of a channel's

@@ -35,7 +35,7 @@ double paper_rms_N(const SensedCable& cable, const ChannelSet& used, std::size_t
         CableSpecification specification = cable.specification;
         specification.segments = paper_segments;
         specification.pretension_N = run.pretension_N;
-        const QuasiStaticStep model(Cable(specification), ModelRules::cured());
+        const QuasiStaticStep model(Cable(specification), ModelRules::consistent());
         const auto node_of = [&](std::size_t channel) {
             const double place = cable.channels[channel].position_m / model.cable().segment_length_m();
             return std::clamp(static_cast<int>(std::lround(place)), 0, paper_segments);

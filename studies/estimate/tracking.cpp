@@ -53,7 +53,7 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
         const SensedRun& run = cable.runs[r];
         CableSpecification specification = cable.specification;
         specification.pretension_N = run.pretension_N;
-        const QuasiStaticStep model(Cable(specification), ModelRules::cured());
+        const QuasiStaticStep model(Cable(specification), ModelRules::consistent());
         RecursiveEstimator estimator(model, pretensioned(model.cable()), settings);
         std::vector<TensionReading> readings;
         for (const std::size_t channel : used) {
@@ -75,8 +75,7 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
     return summary;
 }
 
-ModelTrust most_likely_trust(const SensedCable& cable, const ChannelSet& used,
-                             const TrackingOptions& options) {
+ModelTrust likeliest_trust(const SensedCable& cable, const ChannelSet& used, const TrackingOptions& options) {
     TrackingOptions few = options;
     few.members = std::min(options.members, choosing_members);
     ModelTrust trust = first_guess;

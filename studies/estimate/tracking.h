@@ -43,7 +43,6 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
 
 /// The trust under which the readings used are most likely (E38), from a fixed grid: first the wander, then
 /// the error ratio, then the wander again. Looks at no other channel.
-ModelTrust most_likely_trust(const SensedCable& cable, const ChannelSet& used,
-                             const TrackingOptions& options);
+ModelTrust likeliest_trust(const SensedCable& cable, const ChannelSet& used, const TrackingOptions& options);
 
 }  // namespace capstan::estimate

@@ -18,7 +18,7 @@ namespace capstan::gap {
 namespace {
 
 // A parameter that could as well be twice or half as large is not known.
-constexpr double least_known_factor = 2.0;
+constexpr double min_known_factor = 2.0;
 // Two estimates that move together this much are told about.
 constexpr double trading_correlation = 0.95;
 constexpr double two_sided_95 = 1.959964;
@@ -179,7 +179,7 @@ class Calibrator {
     bool drop_least_known(const LogFit& whole, const Eigen::VectorXd& widths) {
         Eigen::Index worst = 0;
         const double width = widths.maxCoeff(&worst);
-        if (width < std::log(least_known_factor)) return false;
+        if (width < std::log(min_known_factor)) return false;
         const int index = fitted_[static_cast<std::size_t>(worst)];
         estimate(index).identifiable = false;
         estimate(index).reason = why_unknown(whole, worst);
@@ -192,8 +192,8 @@ class Calibrator {
         std::string partner = trading_partner(whole, worst);
         if (!partner.empty()) return partner;
         const double alone = two_sided_95 * std::sqrt(whole.covariance(worst, worst));
-        return alone < std::log(least_known_factor) ? "the runs disagree about it"
-                                                    : "hardly changes what was measured here";
+        return alone < std::log(min_known_factor) ? "the runs disagree about it"
+                                                  : "hardly changes what was measured here";
     }
 
     // The parameter that an estimate moves together with most, if that is almost wholly; else empty.

@@ -210,9 +210,9 @@ std::vector<double> OpenNumber::starts() const {
         case Kind::shape:
             return {0.0};
         case Kind::periods: {
-            constexpr int most_periods = 36;
+            constexpr int max_periods = 36;
             std::vector<double> starts;
-            for (int periods = 1; periods <= most_periods; ++periods) starts.push_back(periods);
+            for (int periods = 1; periods <= max_periods; ++periods) starts.push_back(periods);
             return starts;
         }
         case Kind::step: {

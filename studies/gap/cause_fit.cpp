@@ -37,8 +37,8 @@ BenchNumbers CauseFitter::numbers(const std::vector<const CandidateCause*>& caus
     BenchNumbers bench;
     // A search that goes astray ends at a bench that can still be built.
     const auto ratio = [](double logarithm) {
-        constexpr double most_log = 2.5;
-        return std::exp(std::clamp(logarithm, -most_log, most_log));
+        constexpr double max_log = 2.5;
+        return std::exp(std::clamp(logarithm, -max_log, max_log));
     };
     bench.friction_ratio = ratio(coordinates[0]);
     bench.stiffness_ratio = ratio(coordinates[1]);
@@ -165,12 +165,12 @@ double CauseFitter::misfit(const CauseFit& fit) const {
            static_cast<double>(data_rows_);
 }
 
-double CauseFitter::nominal_price(const CauseFit& fit) const {
+double CauseFitter::nominal_penalty(const CauseFit& fit) const {
     return 0.5 * prior_residuals(fit.causes, fit.coordinates).head(nominal_coordinates).squaredNorm() /
            (prior_weight_ * prior_weight_);
 }
 
-double CauseFitter::shape_price(const CauseFit& fit) const {
+double CauseFitter::shape_penalty(const CauseFit& fit) const {
     const Eigen::VectorXd priors = prior_residuals(fit.causes, fit.coordinates);
     return 0.5 * priors.tail(priors.size() - nominal_coordinates).squaredNorm() /
            (prior_weight_ * prior_weight_);
@@ -248,10 +248,10 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     LeastSquaresOptions search;
     search.differences = Differences::forward;
     search.parameter_tolerance = 1e-3;
-    search.most_iterations = 20;
+    search.max_iterations = 20;
     search.jacobian_at_end = false;
     search.dampings_at_once = bench_lanes;
-    search.hopeless_sum_of_squares = options.hopeless_sum_of_squares;
+    search.pruned_sum_of_squares = options.pruned_sum_of_squares;
     const LeastSquaresFit found = fit_least_squares(
         [&](const Eigen::MatrixXd& coordinates) {
             return residuals(start.causes, coordinates, options.left_out);

@@ -20,7 +20,7 @@ struct Hypothesis {
     Eigen::VectorXd coordinates;  // friction, stiffness, pretension logarithms, then each cause's numbers
 };
 
-/// Part of a recording that a fit does not see: of a run, from one share of its samples to another.
+/// Part of a recording that a fit does not see: of a run, from one fraction of its samples to another.
 struct LeftOut {
     std::size_t run = 0;
     double from = 0.0;
@@ -59,7 +59,7 @@ class CauseFitter {
         std::optional<LeftOut> left_out;  ///< residuals there count as zero
         /// The last cause's sizes are unknown: looked for over decades before the search.
         bool any_size = true;
-        double hopeless_sum_of_squares = std::numeric_limits<double>::infinity();
+        double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
     /// The bench with these causes at these coordinates.
@@ -75,10 +75,10 @@ class CauseFitter {
     /// in units of noise and floor; of a wrong nominal number, against the nominal bench.
     std::vector<std::vector<double>> visibility(std::span<const CauseFit> fits) const;
     /// How far the nominal numbers had to go: half the sum of squares in units of their uncertainty.
-    double nominal_price(const CauseFit& fit) const;
-    /// The same of how far the causes' own numbers are from what is usual: a toe of a tenth of a newton, a bend of
-    /// no length. Sizes cost next to nothing.
-    double shape_price(const CauseFit& fit) const;
+    double nominal_penalty(const CauseFit& fit) const;
+    /// The same of how far the causes' own numbers are from what is usual: a toe of a tenth of a newton, a
+    /// bend of no length. Sizes cost next to nothing.
+    double shape_penalty(const CauseFit& fit) const;
     /// Mean square of the residuals of the data.
     double misfit(const CauseFit& fit) const;
     /// Of the coordinates alone.

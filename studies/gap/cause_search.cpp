@@ -11,13 +11,13 @@ namespace capstan::gap {
 namespace {
 
 // How many causes the quick look leaves for a full fit.
-constexpr std::size_t most_fitted = 8;
+constexpr std::size_t max_fitted = 8;
 // How many of the best single causes are looked at with a second, and with how many others.
-constexpr std::size_t most_first_causes = 2;
-constexpr std::size_t most_second_causes = 3;
-constexpr int most_exchanges = 2;
+constexpr std::size_t max_first_causes = 2;
+constexpr std::size_t max_second_causes = 3;
+constexpr int max_exchanges = 2;
 // Effects whose residuals look much alike (a cosine of 0.95 and more over all protocols).
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> imitators = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> confusable_pairs = {{
     {"conduit_compliance", "environment_coupling"},
     {"pretension_drift", "param_T0"},
     {"pretension_drift", "param_mu"},
@@ -28,21 +28,21 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> imitators
     {"bending_stiffness", "load_dependent_friction"},
 }};
 // A search that promises a misfit this many times the best so far is given up.
-constexpr double hopeless_factor = 2.5;
+constexpr double pruned_factor = 2.5;
 // The quick look does with fewer segments and samples.
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
 
-std::vector<std::string> imitators_of(std::string_view effect) {
+std::vector<std::string> confusable_with(std::string_view effect) {
     std::vector<std::string> found;
-    for (const auto& [one, other] : imitators) {
+    for (const auto& [one, other] : confusable_pairs) {
         if (effect == one) found.emplace_back(other);
         if (effect == other) found.emplace_back(one);
     }
     return found;
 }
 
-double least_sum(const std::vector<ScoredFit>& fits) {
+double min_sum(const std::vector<ScoredFit>& fits) {
     double least = std::numeric_limits<double>::infinity();
     for (const ScoredFit& each : fits) least = std::min(least, each.fit.sum_of_squares);
     return least;
@@ -101,7 +101,7 @@ FoundCauses CauseSearch::run() {
     sort_by_evidence(found.singles);
     found.pairs = pairs_with(found.singles);
     if (found.pairs.empty() || found.pairs.front().evidence < found.singles.front().evidence)
-        fit_imitators(screened, found.singles);
+        fit_confusable(screened, found.singles);
     found.nominal_misfit = nominal_misfit_;
     found.evaluations = evaluations_;
     return found;
@@ -112,8 +112,8 @@ ScoredFit CauseSearch::scored(CauseFit fit) {
     ScoredFit scored;
     scored.fit = std::move(fit);
     scored.misfit = fitter_.misfit(scored.fit);
-    scored.nominal_price = fitter_.nominal_price(scored.fit);
-    scored.shape_price = fitter_.shape_price(scored.fit);
+    scored.nominal_penalty = fitter_.nominal_penalty(scored.fit);
+    scored.shape_penalty = fitter_.shape_penalty(scored.fit);
     scored.visibility = fitter_.visibility({&scored.fit, 1}).front();
     scored.evidence = evidence_.of(scored);
     return scored;
@@ -125,31 +125,31 @@ void CauseSearch::fit_best(const std::vector<Screened>& screened, std::vector<Sc
     for (const Screened& each : screened) {
         // A wrong nominal number is always worth a fit: the quick look lets every cause have it on top.
         const bool nominal_number = each.cause->numbers.empty();
-        if (fitted == most_fitted && !nominal_number) continue;
+        if (fitted == max_fitted && !nominal_number) continue;
         if (!nominal_number) ++fitted;
         tell("fitting " + each.cause->effect + " " + each.cause->variant,
-             0.2 + 0.4 * static_cast<double>(fits.size()) / (most_fitted + nominal_coordinates));
+             0.2 + 0.4 * static_cast<double>(fits.size()) / (max_fitted + nominal_coordinates));
         CauseFitter::FitOptions options;
-        options.hopeless_sum_of_squares = hopeless_factor * least_sum(fits);
+        options.pruned_sum_of_squares = pruned_factor * min_sum(fits);
         fits.push_back(scored(fitter_.fit(with(nominal_, each), options)));
     }
 }
 
 // The quick look is along straight lines; what looks much like the best so far must not fall through it.
-void CauseSearch::fit_imitators(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles) {
+void CauseSearch::fit_confusable(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles) {
     const std::string best = singles.front().fit.causes.front()->effect;
     const auto is_fitted = [&](const std::string& effect) {
         return std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& single) {
             return single.fit.causes.front()->effect == effect;
         });
     };
-    for (const std::string& imitator : imitators_of(best)) {
-        if (is_fitted(imitator)) continue;
+    for (const std::string& rival : confusable_with(best)) {
+        if (is_fitted(rival)) continue;
         const auto found = std::find_if(screened.begin(), screened.end(),
-                                        [&](const Screened& each) { return each.cause->effect == imitator; });
+                                        [&](const Screened& each) { return each.cause->effect == rival; });
         if (found == screened.end()) continue;
         CauseFitter::FitOptions options;
-        options.hopeless_sum_of_squares = hopeless_factor * least_sum(singles);
+        options.pruned_sum_of_squares = pruned_factor * min_sum(singles);
         singles.push_back(scored(fitter_.fit(with(nominal_, *found), options)));
     }
     sort_by_evidence(singles);
@@ -163,14 +163,14 @@ std::vector<ScoredFit> CauseSearch::pairs_with(const std::vector<ScoredFit>& sin
     std::vector<std::string> firsts;
     for (const ScoredFit& single : singles) {
         const std::string& first = single.fit.causes.front()->effect;
-        if (first == "none" || firsts.size() == most_first_causes ||
+        if (first == "none" || firsts.size() == max_first_causes ||
             std::find(firsts.begin(), firsts.end(), first) != firsts.end())
             continue;
         firsts.push_back(first);
         add_pairs(single.fit.hypothesis(), pairs);
     }
     sort_by_evidence(pairs);
-    for (int round = 0; round < most_exchanges && !pairs.empty(); ++round) {
+    for (int round = 0; round < max_exchanges && !pairs.empty(); ++round) {
         if (!worth_a_second_cause(pairs.front().misfit, nominal_misfit_)) break;
         const CauseFit best = pairs.front().fit;
         for (std::size_t kept = 0; kept < best.causes.size(); ++kept) add_pairs(only(best, kept), pairs);
@@ -184,7 +184,7 @@ void CauseSearch::add_pairs(const Hypothesis& present, std::vector<ScoredFit>& p
     const CandidateCause* first = present.causes.front();
     std::size_t seconds = 0;
     for (const Screened& each : screen(screener_, causes_, present)) {
-        if (seconds == most_second_causes) break;
+        if (seconds == max_second_causes) break;
         if (each.cause->effect == first->effect || is_part_of(*each.cause, *first)) continue;
         ++seconds;
         const auto same = [&](const ScoredFit& pair) {
@@ -195,7 +195,7 @@ void CauseSearch::add_pairs(const Hypothesis& present, std::vector<ScoredFit>& p
         tell("fitting " + first->effect + " with " + each.cause->effect,
              std::min(0.9, 0.6 + 0.03 * static_cast<double>(pairs.size())));
         CauseFitter::FitOptions options;
-        options.hopeless_sum_of_squares = hopeless_factor * least_sum(pairs);
+        options.pruned_sum_of_squares = pruned_factor * min_sum(pairs);
         pairs.push_back(scored(fitter_.fit(with(present, each), options)));
     }
 }

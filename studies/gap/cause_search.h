@@ -16,8 +16,8 @@ struct CauseSearchOptions {
     int stride = 1;     ///< every how manieth sample a step goes to
     int threads = 0;    ///< 0: as many as the machine has
     /// Told what is going on, and how much of the work is done.
-    std::function<void(const std::string& doing, double share_done)> on_progress = [](const std::string&,
-                                                                                      double) {};
+    std::function<void(const std::string& doing, double fraction_done)> on_progress = [](const std::string&,
+                                                                                         double) {};
 };
 
 /// What was fitted, best first.
@@ -46,7 +46,7 @@ class CauseSearch {
     void tell(const std::string& doing, double done) { options_.on_progress(doing, done); }
     ScoredFit scored(CauseFit fit);
     void fit_best(const std::vector<Screened>& screened, std::vector<ScoredFit>& fits);
-    void fit_imitators(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles);
+    void fit_confusable(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles);
     std::vector<ScoredFit> pairs_with(const std::vector<ScoredFit>& singles);
     void add_pairs(const Hypothesis& present, std::vector<ScoredFit>& pairs);
 

@@ -14,7 +14,7 @@ namespace {
 // have. Up to this misfit a recording may well have no gap, and `none` goes first; beyond, the cause has less
 // evidence.
 constexpr double tenable_misfit = 1.2;
-constexpr double unproven_price = 4.0;
+constexpr double unproven_penalty = 4.0;
 
 class Diagnoser {
   public:
@@ -40,7 +40,7 @@ class Diagnoser {
             if (nothing->misfit < tenable_misfit) {
                 nothing->evidence = leading.evidence + Evidence::overstated;
             } else {
-                leading.evidence -= unproven_price;
+                leading.evidence -= unproven_penalty;
             }
             sort_by_evidence(singles);
             sort_by_evidence(pairs);
@@ -52,8 +52,8 @@ class Diagnoser {
         const std::vector<WeighedHypothesis> weighed = search_.evidence().weigh(fits, nominal_misfit_);
         diagnosis.ranked = Evidence::rank(search_.causes(), weighed);
         tell("looking for the next experiment", 0.9);
-        diagnosis.indistinct =
-            told_apart_by(recording_, search_.coarse_fitter(), indistinct(weighed), options_.threads);
+        diagnosis.non_identifiable = discriminating_experiments(recording_, search_.coarse_fitter(),
+                                                                non_identifiable(weighed), options_.threads);
         diagnosis.independent_samples = fitter_.independent_samples();
         for (const auto* group : {&pairs, &singles}) {
             for (const ScoredFit& each : *group) {
@@ -61,7 +61,7 @@ class Diagnoser {
                                      {},
                                      open_numbers(each.fit),
                                      each.misfit,
-                                     each.nominal_price,
+                                     each.nominal_penalty,
                                      each.visibility,
                                      each.evidence};
                 for (const CandidateCause* cause : each.fit.causes) {

@@ -35,7 +35,7 @@ struct CandidateScore {
     std::vector<std::string> variants;
     std::size_t open_numbers = 0;
     double misfit = 0.0;
-    double nominal_price = 0.0;
+    double nominal_penalty = 0.0;
     std::vector<double> visibility;  ///< see ScoredFit
     double evidence = 0.0;
 };
@@ -54,7 +54,7 @@ struct Diagnosis {
     double misfit_after = 0.0;
     double independent_samples = 0.0;
     std::vector<CandidateScore> candidates;  ///< that were fitted, best first
-    Indistinct indistinct;                   ///< what it cannot decide, and the experiment that would
+    NonIdentifiable non_identifiable;        ///< what it cannot decide, and the experiment that would
     int evaluations = 0;                     ///< simulations of the whole recording
 };
 

@@ -86,8 +86,9 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
         if (sample % options_.stride != 0) continue;
         for (std::size_t bench = 0; bench < twins.size(); ++bench) {
             if (!reports[bench].converged) ++twins[bench].unsolved_steps;
-            if (options_.tells_sliding_share)
-                twins[bench].sliding_share.push_back(benches.cables().sliding_share(static_cast<int>(bench)));
+            if (options_.tells_sliding_fraction)
+                twins[bench].sliding_fraction.push_back(
+                    benches.cables().sliding_fraction(static_cast<int>(bench)));
             for (const Reader& reader : readers) {
                 const double value = reader.read(benches, static_cast<int>(bench));
                 twins[bench].values[reader.channel].push_back(

@@ -29,11 +29,12 @@ struct BenchNumbers {
 };
 
 struct EffectsTwinOptions {
-    /// Of each cable of a pair; a single cable has twice as many, for what arrives at its held end has passed the
-    /// whole cable, and with it the error of every segment. E18 has no stiction rule that would need more.
+    /// Of each cable of a pair; a single cable has twice as many, for what arrives at its held end has passed
+    /// the whole cable, and with it the error of every segment. E18 has no stiction rule that would need
+    /// more.
     int segments = 50;
-    int stride = 1;     ///< every how manieth sample a step goes to
-    bool tells_sliding_share = false;
+    int stride = 1;  ///< every how manieth sample a step goes to
+    bool tells_sliding_fraction = false;
 };
 
 /// A recorded bench of known geometry with effects (BenchSimulation), moved by the recording's driven

@@ -128,8 +128,8 @@ struct BandStart {
 };
 
 BandStart band_start(const Recording& recording) {
-    constexpr double stroke_share = 0.1;
-    constexpr double least_tension_N = 1.0;
+    constexpr double stroke_fraction = 0.1;
+    constexpr double min_tension_N = 1.0;
     std::vector<double> tension_N;
     std::vector<double> at_m;
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
@@ -140,10 +140,10 @@ BandStart band_start(const Recording& recording) {
     }
     std::sort(tension_N.begin(), tension_N.end());
     std::sort(at_m.begin(), at_m.end());
-    const double slack_N = std::max(least_tension_N, tension_N[tension_N.size() / 10]);
+    const double slack_N = std::max(min_tension_N, tension_N[tension_N.size() / 10]);
     const double tight_N = std::max(2.0 * slack_N, tension_N[9 * tension_N.size() / 10]);
     const double stroke_m = at_m.back() - at_m.front();
-    return {std::log(tight_N / slack_N), tight_N / (stroke_share * stroke_m) * length_m};
+    return {std::log(tight_N / slack_N), tight_N / (stroke_fraction * stroke_m) * length_m};
 }
 
 Recording bench_of_band(const Recording& recording, const Recording& fitted_to) {

@@ -16,23 +16,24 @@ namespace {
 constexpr double as_good_as_noise = 0.95;
 constexpr double below_noise_weight = 0.3;
 // Of an open number, in half logarithms of the independent samples.
-constexpr double number_price = 0.5;
+constexpr double number_penalty = 0.5;
 // A cause that changes no channel by this much, rms in units of noise and floor, is hardly what makes a gap.
 constexpr double visible = 2.0;
-constexpr double invisible_price = 8.0;
+constexpr double invisible_penalty = 8.0;
 // Known beforehand, as logarithms.
 constexpr double nothing_bonus = 1.0;
-constexpr double faulty_sensor_price = 2.0;
-constexpr double second_cause_price = 8.0;
-constexpr double unknown_price = 4.0;
+constexpr double faulty_sensor_penalty = 2.0;
+constexpr double second_cause_penalty = 8.0;
+constexpr double unknown_penalty = 4.0;
 // Two causes of one gap are about as visible; a faint second one mends what the first one's model lacks.
 constexpr double faint = 0.25;
-constexpr double faint_price = 60.0;
-// A cause nobody has thought of is granted to leave this share of the gap, at the price of as many numbers.
-constexpr double share_left_by_unknown = 0.1;
+constexpr double faint_penalty = 60.0;
+// A cause nobody has thought of is granted to leave this fraction of the gap, at the price of as many
+// numbers.
+constexpr double fraction_left_by_unknown = 0.1;
 constexpr std::size_t numbers_of_unknown = 4;
 // Something else may always be the matter.
-constexpr double anything_share = 0.02;
+constexpr double anything_fraction = 0.02;
 
 using Effects = std::vector<std::string>;  // of a hypothesis, sorted
 
@@ -48,29 +49,29 @@ Effects effects_of(const CauseFit& fit) {
 double Evidence::of(double misfit, std::size_t open_numbers) const {
     return -0.5 * samples_ *
                (std::log(std::max(misfit, as_good_as_noise)) + below_noise_weight * std::log(misfit)) -
-           0.5 * number_price * static_cast<double>(open_numbers) * std::log(samples_);
+           0.5 * number_penalty * static_cast<double>(open_numbers) * std::log(samples_);
 }
 
 double Evidence::of(const ScoredFit& fit) const {
-    double evidence = of(fit.misfit, open_numbers(fit.fit)) - fit.nominal_price - fit.shape_price;
+    double evidence = of(fit.misfit, open_numbers(fit.fit)) - fit.nominal_penalty - fit.shape_penalty;
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         const CandidateCause& cause = *fit.fit.causes[k];
         if (cause.effect == "none") {
             evidence += nothing_bonus;
             continue;
         }
-        evidence -= invisible_price * std::max(0.0, 1.0 - fit.visibility[k] / visible);
-        if (cause.family == "sensor") evidence -= faulty_sensor_price;
+        evidence -= invisible_penalty * std::max(0.0, 1.0 - fit.visibility[k] / visible);
+        if (cause.family == "sensor") evidence -= faulty_sensor_penalty;
     }
     if (fit.fit.causes.size() < 2) return evidence;
     const auto [least, most] = std::minmax_element(fit.visibility.begin(), fit.visibility.end());
     const double relative = *most > 0.0 ? *least / *most : 0.0;
-    return evidence - second_cause_price - faint_price * std::max(0.0, 1.0 - relative / faint);
+    return evidence - second_cause_penalty - faint_penalty * std::max(0.0, 1.0 - relative / faint);
 }
 
 double Evidence::of_unknown(double nominal_misfit) const {
-    return of(1.0 + share_left_by_unknown * std::max(0.0, nominal_misfit - 1.0), numbers_of_unknown) -
-           unknown_price;
+    return of(1.0 + fraction_left_by_unknown * std::max(0.0, nominal_misfit - 1.0), numbers_of_unknown) -
+           unknown_penalty;
 }
 
 std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fits,
@@ -112,9 +113,9 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         }
     }
     std::vector<RankedEffect> ranked;
-    const double anything = anything_share / static_cast<double>(probability.size());
-    for (const auto& [effect, share] : probability)
-        ranked.push_back({effect, (1.0 - anything_share) * share + anything});
+    const double anything = anything_fraction / static_cast<double>(probability.size());
+    for (const auto& [effect, fraction] : probability)
+        ranked.push_back({effect, (1.0 - anything_fraction) * fraction + anything});
     const auto evidence_of = [&](const RankedEffect& each) {
         const auto known = best.find(each.effect);
         return known == best.end() ? -std::numeric_limits<double>::infinity() : known->second;
@@ -129,8 +130,8 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
 
 bool worth_a_second_cause(double misfit, double nominal_misfit) {
     constexpr double nothing_left = 1.15;
-    constexpr double least_share = 0.01;
-    return misfit > nothing_left && misfit - 1.0 > least_share * (nominal_misfit - 1.0);
+    constexpr double min_fraction = 0.01;
+    return misfit > nothing_left && misfit - 1.0 > min_fraction * (nominal_misfit - 1.0);
 }
 
 std::size_t open_numbers(const CauseFit& fit) {

@@ -17,8 +17,8 @@ struct RankedEffect {
 struct ScoredFit {
     CauseFit fit;
     double misfit = 0.0;  ///< mean square residual, in units of noise and floor
-    double nominal_price = 0.0;
-    double shape_price = 0.0;
+    double nominal_penalty = 0.0;
+    double shape_penalty = 0.0;
     std::vector<double> visibility;  ///< of each cause: how much it changes the clearest channel, rms in
                                      ///< units of noise and floor
     double evidence = 0.0;           ///< logarithm, up to a constant
@@ -36,8 +36,9 @@ struct WeighedHypothesis {
 ///
 /// A hypothesis is nothing, one cause, two causes, or one that nobody has thought of. Its evidence is the
 /// profile likelihood of the mean square that it leaves, over the independent samples; a price for each open
-/// number, for how far the nominal numbers had to go and for numbers of its own that are not usual; and what is known beforehand: a cause that makes a
-/// gap can be seen, two at once are rarer than one, and the model's own floor looks like a faulty sensor.
+/// number, for how far the nominal numbers had to go and for numbers of its own that are not usual; and what
+/// is known beforehand: a cause that makes a gap can be seen, two at once are rarer than one, and the model's
+/// own floor looks like a faulty sensor.
 class Evidence {
   public:
     /// `independent_samples`: instants that tell something new.

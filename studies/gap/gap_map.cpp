@@ -14,7 +14,7 @@ namespace {
 
 // A part of a recording is named if the gap is this much denser there than on average, and holds this share.
 constexpr double worth_naming_density = 1.3;
-constexpr double worth_naming_share = 0.4;
+constexpr double worth_naming_fraction = 0.4;
 
 struct Part {
     std::string by;
@@ -90,21 +90,21 @@ class Tally {
 };
 
 // Of each part among all parts of its kind; empty if there is no energy.
-std::vector<double> shares_of(const std::vector<Part>& parts, const std::vector<double>& sums) {
-    std::vector<double> shares(parts.size(), 0.0);
+std::vector<double> fractions_of(const std::vector<Part>& parts, const std::vector<double>& sums) {
+    std::vector<double> fractions(parts.size(), 0.0);
     for (std::size_t part = 0; part < parts.size(); ++part) {
         double all = 0.0;
         for (std::size_t other = 0; other < parts.size(); ++other) {
             if (parts[other].by == parts[part].by) all += std::max(0.0, sums[other]);
         }
-        if (all > 0.0) shares[part] = std::max(0.0, sums[part]) / all;
+        if (all > 0.0) fractions[part] = std::max(0.0, sums[part]) / all;
     }
-    return shares;
+    return fractions;
 }
 
 }  // namespace
 
-std::vector<GapShare> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs) {
+std::vector<GapFraction> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs) {
     const Tally tally(recording, runs);
     const std::vector<Part>& parts = tally.parts();
     std::vector<double> energy(parts.size(), 0.0);
@@ -119,46 +119,47 @@ std::vector<GapShare> gap_map(const Recording& recording, const std::vector<RunR
     }
     if (!(sum > 0.0)) return {};
 
-    std::vector<std::vector<double>> drawn_shares(parts.size());
+    std::vector<std::vector<double>> drawn_fractions(parts.size());
     for_each_bootstrap_draw(tally.blocks().size(), 20221, [&](std::span<const std::size_t> drawn) {
         std::vector<double> sums(parts.size(), 0.0);
         for (const std::size_t block : drawn) {
             for (std::size_t part = 0; part < parts.size(); ++part)
                 sums[part] += tally.blocks()[block].energy[part];
         }
-        const std::vector<double> shares = shares_of(parts, sums);
-        for (std::size_t part = 0; part < parts.size(); ++part) drawn_shares[part].push_back(shares[part]);
+        const std::vector<double> fractions = fractions_of(parts, sums);
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            drawn_fractions[part].push_back(fractions[part]);
     });
 
-    const std::vector<double> shares = shares_of(parts, energy);
-    const std::vector<double> of_samples = shares_of(parts, samples);
-    std::vector<GapShare> map;
+    const std::vector<double> fractions = fractions_of(parts, energy);
+    const std::vector<double> of_samples = fractions_of(parts, samples);
+    std::vector<GapFraction> map;
     for (std::size_t part = 0; part < parts.size(); ++part) {
         if (samples[part] == 0.0) continue;
-        const BootstrapInterval interval = middle_95(std::move(drawn_shares[part]));
-        map.push_back(
-            {parts[part].by, parts[part].name, shares[part], interval.low, interval.high, of_samples[part]});
+        const BootstrapInterval interval = middle_95(std::move(drawn_fractions[part]));
+        map.push_back({parts[part].by, parts[part].name, fractions[part], interval.low, interval.high,
+                       of_samples[part]});
     }
     return map;
 }
 
-std::string gap_sentence(const std::vector<GapShare>& map) {
+std::string gap_sentence(const std::vector<GapFraction>& map) {
     if (map.empty()) return "Nothing is left beyond noise and the model's own floor.";
     std::string sentence;
     for (const char* by : {"channel", "run", "regime", "direction", "speed", "tension", "since reversal",
                            "session", "place"}) {
-        const GapShare* most = nullptr;
+        const GapFraction* most = nullptr;
         int parts = 0;
-        for (const GapShare& share : map) {
-            if (share.by != by) continue;
+        for (const GapFraction& fraction : map) {
+            if (fraction.by != by) continue;
             ++parts;
-            if (most == nullptr || share.share > most->share) most = &share;
+            if (most == nullptr || fraction.fraction > most->fraction) most = &fraction;
         }
-        if (most == nullptr || parts < 2 || most->share < worth_naming_share ||
-            most->share < worth_naming_density * most->of_samples)
+        if (most == nullptr || parts < 2 || most->fraction < worth_naming_fraction ||
+            most->fraction < worth_naming_density * most->of_samples)
             continue;
         sentence += fmt::format("{}{} {}: {:.0f}% ({:.0f} to {:.0f}%)", sentence.empty() ? "" : "; ", by,
-                                most->name, 1e2 * most->share, 1e2 * most->low, 1e2 * most->high);
+                                most->name, 1e2 * most->fraction, 1e2 * most->low, 1e2 * most->high);
     }
     return sentence.empty() ? "The gap is spread evenly over the recording."
                             : "Where the gap is densest: " + sentence + ".";

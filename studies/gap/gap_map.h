@@ -7,30 +7,30 @@
 
 namespace capstan::gap {
 
-/// Share of the explainable residual energy (beyond noise and the model's floor, in units of these) that
+/// Fraction of the explainable residual energy (beyond noise and the model's floor, in units of these) that
 /// falls into one part of the recording, with its 95% interval from a bootstrap over blocks of a second.
-struct GapShare {
+struct GapFraction {
     std::string by;    ///< run, channel, regime, direction, speed, tension, since reversal, session, place
     std::string name;  ///< of the part
-    double share = 0.0;
+    double fraction = 0.0;
     double low = 0.0;
     double high = 0.0;
-    double of_samples = 0.0;  ///< share of the compared samples in this part: what chance would give it
+    double of_samples = 0.0;  ///< fraction of the compared samples in this part: what chance would give it
 };
 
 /// What the nominal model leaves of one run.
 struct RunResiduals {
     std::size_t run = 0;
     std::vector<std::vector<double>>
-        residual;                       // channels x samples, in units of scale; empty if not compared
-    std::vector<double> sliding_share;  // samples, of the nominal model
-    int first_sample = 0;               ///< before it lies the first loading from rest
+        residual;                          // channels x samples, in units of scale; empty if not compared
+    std::vector<double> sliding_fraction;  // samples, of the nominal model
+    int first_sample = 0;                  ///< before it lies the first loading from rest
 };
 
 /// Empty if nothing is left beyond noise and floor.
-std::vector<GapShare> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs);
+std::vector<GapFraction> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs);
 
 /// Where the gap is denser than elsewhere, in a sentence.
-std::string gap_sentence(const std::vector<GapShare>& map);
+std::string gap_sentence(const std::vector<GapFraction>& map);
 
 }  // namespace capstan::gap

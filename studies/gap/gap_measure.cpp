@@ -32,7 +32,7 @@ double rms(double squares, double samples) {
     return std::sqrt(squares / samples);
 }
 
-double closed_share(const Squares& squares, double noise) {
+double closed_fraction(const Squares& squares, double noise) {
     const double closable = squares.before - squares.samples * noise * noise;
     if (!(closable > 0.0)) return std::numeric_limits<double>::quiet_NaN();
     return std::min(1.0, (squares.before - squares.held_out) / closable);
@@ -49,13 +49,13 @@ ChannelGap summarised(const Channel& channel, const std::vector<Squares>& blocks
     gap.after_rms = rms(all.after, all.samples);
     gap.held_out_rms = rms(all.held_out, all.samples);
     gap.runner_up_rms = rms(all.runner_up, all.samples);
-    gap.closed = closed_share(all, gap.noise);
+    gap.closed = closed_fraction(all, gap.noise);
     std::vector<double> closed;
     for_each_bootstrap_draw(blocks.size(), 20222, [&](std::span<const std::size_t> drawn) {
         Squares sum;
         for (const std::size_t block : drawn) sum += blocks[block];
-        const double share = closed_share(sum, gap.noise);
-        if (!std::isnan(share)) closed.push_back(share);
+        const double fraction = closed_fraction(sum, gap.noise);
+        if (!std::isnan(fraction)) closed.push_back(fraction);
     });
     const BootstrapInterval interval =
         closed.empty() ? BootstrapInterval{gap.closed, gap.closed} : middle_95(std::move(closed));
@@ -95,7 +95,7 @@ std::vector<LeftOut> left_out_in_turn(const Recording& recording) {
 GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, const GapModels& models) {
     EffectsTwinOptions every_sample = fitter.twin().options();
     every_sample.stride = 1;
-    every_sample.tells_sliding_share = true;
+    every_sample.tells_sliding_fraction = true;
     const EffectsTwin twin(recording, every_sample);
     GapMeasure measure;
     std::vector<RunResiduals> nominal_residuals;
@@ -108,7 +108,7 @@ GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, co
         twins[1] = twin.with_faults(twins[1], models.leading.sensor_faults);
         twins[2] = twin.with_faults(twins[2], models.runner_up.sensor_faults);
         const TwinRun held_out = held_out_run(twin, run, models.held_out);
-        RunResiduals residuals{run, {}, twins[0].sliding_share, 0};
+        RunResiduals residuals{run, {}, twins[0].sliding_fraction, 0};
         residuals.residual.resize(recording.channels.size());
         for (const ResidualSeries& series : fitter.series()) {
             if (series.run != run) continue;

@@ -17,7 +17,7 @@ struct ChannelGap {
     double after_rms = 0.0;
     double held_out_rms = 0.0;   ///< each run (or half of the only run) with numbers fitted to the others
     double runner_up_rms = 0.0;  ///< with the best other cause instead
-    /// Share of the closable gap (mean square beyond noise) that is closed on held-out data, with its 95%
+    /// Fraction of the closable gap (mean square beyond noise) that is closed on held-out data, with its 95%
     /// interval from a bootstrap over blocks of a second. No number where there is no gap to close.
     double closed = 0.0;
     double closed_low = 0.0;
@@ -39,8 +39,8 @@ struct GapModels {
 
 struct GapMeasure {
     std::vector<ChannelGap> channels;
-    std::vector<GapShare> map;  ///< of the nominal model
-    int worst_run = 0;          ///< where the gap is largest against noise
+    std::vector<GapFraction> map;  ///< of the nominal model
+    int worst_run = 0;             ///< where the gap is largest against noise
     std::string worst_channel;
     std::vector<TwinRun> nominal;  ///< runs, at every sample
     std::vector<TwinRun> leading;

@@ -133,7 +133,7 @@ class SingleCableTwin final : public KnownBench {
     }
 
     TwinRun run(std::size_t run, std::span<const double> values) const override {
-        const QuasiStaticStep step(cable(run, values), ModelRules::cured());
+        const QuasiStaticStep step(cable(run, values), ModelRules::consistent());
         PredictedChannels channels = predictions(run);
         CableState state = pretensioned(step.cable());
         const double rest_m = state.displacement_m.front();

@@ -29,8 +29,8 @@ Eigen::MatrixXd jacobian_at(const ResidualFunction& residuals, const Eigen::Vect
 LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
                                   const LeastSquaresOptions& options) {
     constexpr double start_damping = 1e-3;
-    constexpr double least_damping = 1e-9;
-    constexpr double most_damping = 1e9;
+    constexpr double min_damping = 1e-9;
+    constexpr double max_damping = 1e9;
     constexpr double ease = 0.2;
     constexpr double tighten = 5.0;
     constexpr double flat = 1e-12;  // keeps a parameter that changes nothing from making the matrix singular
@@ -46,7 +46,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     fit.sum_of_squares = fit.residuals.squaredNorm();
     fit.evaluations = 1;
     double damping = start_damping;
-    for (int iteration = 0; iteration < options.most_iterations && !fit.converged; ++iteration) {
+    for (int iteration = 0; iteration < options.max_iterations && !fit.converged; ++iteration) {
         fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
         fit.evaluations += per_jacobian;
         const Eigen::MatrixXd normal = fit.jacobian.transpose() * fit.jacobian;
@@ -58,7 +58,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
             return -damped.ldlt().solve(gradient);
         };
         const double promised = fit.sum_of_squares + gradient.dot(step_with(0.0));
-        if (iteration >= iterations_of_hope && promised > options.hopeless_sum_of_squares) return fit;
+        if (iteration >= iterations_of_hope && promised > options.pruned_sum_of_squares) return fit;
         while (true) {
             std::vector<double> dampings;
             Eigen::MatrixXd tried = fit.parameters.replicate(1, options.dampings_at_once);
@@ -81,12 +81,12 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
                 fit.parameters = tried.col(best);
                 fit.residuals = there.col(best);
                 fit.sum_of_squares = sum;
-                damping = std::max(least_damping, dampings[static_cast<std::size_t>(best)] * ease);
+                damping = std::max(min_damping, dampings[static_cast<std::size_t>(best)] * ease);
             }
             fit.converged = small;
             if (better || small) break;
             damping = dampings.back() * tighten;
-            if (damping > most_damping) return fit;
+            if (damping > max_damping) return fit;
         }
     }
     if (options.jacobian_at_end) {

@@ -28,12 +28,12 @@ struct LeastSquaresOptions {
     double difference_step = 0.01;
     /// A step that changes no parameter by more than this ends the search.
     double parameter_tolerance = 1e-4;
-    int most_iterations = 40;
+    int max_iterations = 40;
     bool jacobian_at_end = true;  ///< made once more at the fit, for its covariance
     /// Dampings that are tried side by side after each Jacobian.
     int dampings_at_once = 1;
     /// A search whose linear model promises no less than this is given up after two iterations.
-    double hopeless_sum_of_squares = std::numeric_limits<double>::infinity();
+    double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
 };
 
 /// Levenberg-Marquardt with the Jacobian by differences, from `start`.

@@ -12,7 +12,7 @@ namespace capstan::gap {
 namespace {
 
 constexpr double decided = 0.95;
-constexpr double least_probability = 0.05;
+constexpr double min_probability = 0.05;
 constexpr std::size_t largest_group = 3;
 
 // The coordinates of a hypothesis, each moved a little: a column each, the first as it is.
@@ -42,27 +42,27 @@ Known known_of(const CauseFitter& fitter, const CauseFit& fit) {
     return {fit.hypothesis(), residuals.col(0), differences(residuals, step)};
 }
 
-double least_sum(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
+double min_sum(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
     const Eigen::VectorXd best = jacobian.colPivHouseholderQr().solve(-residuals);
     return (residuals + jacobian * best).squaredNorm();
 }
 
 // Chi-square that an explanation still has to pay for data that another one made.
-double not_imitated(const Known& imitator, const CauseFitter& planned, const Hypothesis& truth) {
+double unexplained_by(const Known& rival, const CauseFitter& planned, const Hypothesis& truth) {
     const double weight = std::sqrt(planned.independent_samples() / static_cast<double>(planned.data_rows()));
-    const Eigen::MatrixXd moved = moved_a_little(imitator.hypothesis.coordinates, step);
+    const Eigen::MatrixXd moved = moved_a_little(rival.hypothesis.coordinates, step);
     std::vector<Hypothesis> all = {truth};
     for (Eigen::Index column = 0; column < moved.cols(); ++column)
-        all.push_back({imitator.hypothesis.causes, moved.col(column)});
+        all.push_back({rival.hypothesis.causes, moved.col(column)});
     const Eigen::MatrixXd residuals = weight * planned.data_residuals(all);
-    const Eigen::MatrixXd imitated = residuals.rightCols(moved.cols());
+    const Eigen::MatrixXd rival_change = residuals.rightCols(moved.cols());
 
-    const Eigen::Index before = imitator.residuals.size();
-    Eigen::MatrixXd jacobian(before + imitated.rows(), imitator.jacobian.cols());
-    jacobian << imitator.jacobian, differences(imitated, step);
+    const Eigen::Index before = rival.residuals.size();
+    Eigen::MatrixXd jacobian(before + rival_change.rows(), rival.jacobian.cols());
+    jacobian << rival.jacobian, differences(rival_change, step);
     Eigen::VectorXd off(jacobian.rows());
-    off << imitator.residuals, imitated.col(0) - residuals.col(0);
-    return std::max(0.0, least_sum(jacobian, off) - least_sum(imitator.jacobian, imitator.residuals));
+    off << rival.residuals, rival_change.col(0) - residuals.col(0);
+    return std::max(0.0, min_sum(jacobian, off) - min_sum(rival.jacobian, rival.residuals));
 }
 
 // What the bench would answer, noise apart: it sets how far the model can be trusted.
@@ -78,20 +78,20 @@ Recording answered(Recording recording, const EffectsTwinOptions& options, const
 
 }  // namespace
 
-std::vector<WeighedHypothesis> indistinct(std::span<const WeighedHypothesis> weighed) {
+std::vector<WeighedHypothesis> non_identifiable(std::span<const WeighedHypothesis> weighed) {
     if (weighed.empty() || weighed.front().probability >= decided) return {};
     std::vector<WeighedHypothesis> group;
     for (const WeighedHypothesis& each : weighed) {
-        if (each.fit != nullptr && each.probability >= least_probability && group.size() < largest_group)
+        if (each.fit != nullptr && each.probability >= min_probability && group.size() < largest_group)
             group.push_back(each);
     }
     if (group.size() < 2) group.clear();
     return group;
 }
 
-Indistinct told_apart_by(const Recording& recording, const CauseFitter& fitter,
-                         std::span<const WeighedHypothesis> group, int threads) {
-    Indistinct result;
+NonIdentifiable discriminating_experiments(const Recording& recording, const CauseFitter& fitter,
+                                           std::span<const WeighedHypothesis> group, int threads) {
+    NonIdentifiable result;
     std::vector<Known> known;
     for (const WeighedHypothesis& each : group) {
         result.group.push_back(each.effects);
@@ -106,19 +106,20 @@ Indistinct told_apart_by(const Recording& recording, const CauseFitter& fitter,
         const CauseFitter planned_fitter(planned, options, threads);
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t truth = 0; truth < known.size(); ++truth) {
-            for (std::size_t imitator = 0; imitator < known.size(); ++imitator) {
-                if (imitator == truth) continue;
+            for (std::size_t rival = 0; rival < known.size(); ++rival) {
+                if (rival == truth) continue;
                 least =
-                    std::min(least, not_imitated(known[imitator], planned_fitter, known[truth].hypothesis));
+                    std::min(least, unexplained_by(known[rival], planned_fitter, known[truth].hypothesis));
             }
         }
         const double apart = std::sqrt(least / Evidence::overstated);
         result.experiments.push_back({experiment.kind, experiment.name, experiment.description,
                                       0.5 * std::erfc(-0.5 * apart / std::sqrt(2.0))});
     }
-    std::stable_sort(
-        result.experiments.begin(), result.experiments.end(),
-        [](const ExperimentScore& a, const ExperimentScore& b) { return a.told_apart > b.told_apart; });
+    std::stable_sort(result.experiments.begin(), result.experiments.end(),
+                     [](const ExperimentScore& a, const ExperimentScore& b) {
+                         return a.discrimination_probability > b.discrimination_probability;
+                     });
     return result;
 }
 

@@ -15,24 +15,24 @@ struct ExperimentScore {
     std::string name;
     std::string description;
     /// That the right one of the two most alike is found, if each is as likely before: 0.5 is a guess.
-    double told_apart = 0.5;
+    double discrimination_probability = 0.5;
 };
 
 /// Explanations that a recording cannot tell apart, and what would.
-struct Indistinct {
+struct NonIdentifiable {
     std::vector<std::vector<std::string>> group;  ///< effects of each explanation, most probable first
     std::vector<ExperimentScore> experiments;     ///< most telling first; empty if nothing helps
 };
 
 /// The known explanations that share the leader's probability: each with at least a twentieth, while the
 /// first has less than 0.95. At most three; empty if the recording decides.
-std::vector<WeighedHypothesis> indistinct(std::span<const WeighedHypothesis> weighed);
+std::vector<WeighedHypothesis> non_identifiable(std::span<const WeighedHypothesis> weighed);
 
 /// Simulates every possible experiment with each explanation as it was fitted; another explanation may move
 /// all its numbers, as far as the recording at hand lets it, to imitate what comes out. What it cannot
 /// imitate, in units of noise and floor over the independent samples, tells the two apart.
 /// `fitter`: of the recording at hand.
-Indistinct told_apart_by(const Recording& recording, const CauseFitter& fitter,
-                         std::span<const WeighedHypothesis> group, int threads);
+NonIdentifiable discriminating_experiments(const Recording& recording, const CauseFitter& fitter,
+                                           std::span<const WeighedHypothesis> group, int threads);
 
 }  // namespace capstan::gap

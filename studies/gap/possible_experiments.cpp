@@ -96,7 +96,7 @@ class Planner {
         plans_.back().recording.runs.front().session_start_s += later_s;
         for (const CableName cable : {CableName::a, CableName::b}) {
             if (cable == CableName::b && !two_cables_) break;
-            for (const double share : {0.05, 0.25, 0.5, 0.75, 0.95}) add_sensor(cable, share);
+            for (const double fraction : {0.05, 0.25, 0.5, 0.75, 0.95}) add_sensor(cable, fraction);
         }
         return plans_;
     }
@@ -138,9 +138,9 @@ class Planner {
     }
 
     // The longest run once more, with one sensor that is not there yet.
-    void add_sensor(CableName cable, double share) {
+    void add_sensor(CableName cable, double fraction) {
         const double length_m = length_of(recording_.nominal->curvature);
-        const double position_m = share * length_m;
+        const double position_m = fraction * length_m;
         constexpr double as_good_as_there = 0.08;
         for (const TensionSensor& sensor : recording_.tension_sensors) {
             if (sensor.cable == cable &&

@@ -11,12 +11,12 @@ void ProblemList::add(const std::string& place, const std::string& problem) {
 }
 
 void ProblemList::throw_if_any() const {
-    constexpr std::size_t most_told = 12;
+    constexpr std::size_t max_listed = 12;
     if (problems_.empty()) return;
     std::vector<std::string> told = problems_;
-    if (told.size() > most_told) {
-        told.resize(most_told);
-        told.push_back(fmt::format("and {} problems more", problems_.size() - most_told));
+    if (told.size() > max_listed) {
+        told.resize(max_listed);
+        told.push_back(fmt::format("and {} problems more", problems_.size() - max_listed));
     }
     throw InvalidInput(told);
 }

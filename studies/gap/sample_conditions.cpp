@@ -44,7 +44,7 @@ std::vector<double> speed_of(const Recording& recording, const RecordedRun& run)
 using PerRun = std::vector<std::vector<double>>;  // runs x samples
 
 // Below this, in parts of the largest speed, nothing moves.
-constexpr double rest_share = 0.03;
+constexpr double rest_fraction = 0.03;
 
 struct Motion {
     PerRun speed;             // 0 at rest
@@ -57,7 +57,7 @@ Motion motion_of(const Recording& recording) {
         std::vector<double> speed = speed_of(recording, run);
         double most = 0.0;
         for (const double value : speed) most = std::max(most, std::abs(value));
-        for (double& value : speed) value = std::abs(value) < rest_share * most ? 0.0 : value;
+        for (double& value : speed) value = std::abs(value) < rest_fraction * most ? 0.0 : value;
         std::vector<double> since(speed.size(), std::numeric_limits<double>::infinity());
         double last_way = 0.0;
         std::optional<double> reversed_s;
@@ -142,7 +142,7 @@ std::vector<SampleSorting> sample_sortings(const Recording& recording,
     const auto regime = [&](std::size_t run, std::size_t sample) {
         constexpr double nearly_all = 0.95;
         if (motion.speed[run][sample] == 0.0) return 0;
-        return runs[run].sliding_share[sample] < nearly_all ? 1 : 2;
+        return runs[run].sliding_fraction[sample] < nearly_all ? 1 : 2;
     };
     const auto direction = [&](std::size_t run, std::size_t sample) {
         const double speed = motion.speed[run][sample];

@@ -20,7 +20,7 @@ struct TwinParameter {
 /// What a model says that the bench should have measured in one run.
 struct TwinRun {
     std::vector<std::vector<double>> values;  // channels x samples; empty for what the model does not predict
-    std::vector<double> sliding_share;        // samples: share of nodes that slide; empty if not asked for
+    std::vector<double> sliding_fraction;     // samples: fraction of nodes that slide; empty if not asked for
     int unsolved_steps = 0;                   ///< torque not met or motion pattern not verified
 };
 

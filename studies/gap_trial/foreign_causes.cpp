@@ -28,9 +28,9 @@ double moment_in_session_s(const EffectSetting& setting, TrialStream& draws) {
 WithheldEffect lobed_load_pulley(const EffectSetting&, TrialStream& draws) {
     const LobedPulley shape{0.0, draws.uniform(10.0, 25.0), draws.uniform(-3.14, 3.14)};
     WithheldEffect effect =
-        foreign("lobed_load_pulley", "share", 0.02, 0.5, [shape](TrueEffects& e, double size) {
+        foreign("lobed_load_pulley", "fraction", 0.02, 0.5, [shape](TrueEffects& e, double size) {
             e.lobed_pulley = shape;
-            e.lobed_pulley.share = size;
+            e.lobed_pulley.fraction = size;
         });
     effect.shape = {{"lobes", shape.lobes}, {"phase_rad", shape.phase_rad}};
     return effect;
@@ -50,7 +50,7 @@ WithheldEffect frictional_heating(const EffectSetting&, TrialStream& draws) {
 WithheldEffect one_way_friction(const EffectSetting&, TrialStream& draws) {
     const double sign = draws.sign();
     WithheldEffect effect =
-        foreign("one_way_friction", "share", 0.1, 0.9,
+        foreign("one_way_friction", "fraction", 0.1, 0.9,
                 [sign](TrueEffects& e, double size) { e.one_way_friction = sign * size; });
     effect.shape = {{"sign", sign}};
     return effect;
@@ -59,7 +59,7 @@ WithheldEffect one_way_friction(const EffectSetting&, TrialStream& draws) {
 WithheldEffect strand_break(const EffectSetting& setting, TrialStream& draws) {
     const double time_s = moment_in_session_s(setting, draws);
     WithheldEffect effect =
-        foreign("strand_break", "share", 0.1, 0.85, [time_s](TrueEffects& e, double size) {
+        foreign("strand_break", "fraction", 0.1, 0.85, [time_s](TrueEffects& e, double size) {
             e.strand_break = {size, time_s};
         });
     effect.shape = {{"session_time_s", time_s}};
@@ -69,9 +69,10 @@ WithheldEffect strand_break(const EffectSetting& setting, TrialStream& draws) {
 WithheldEffect pretension_dip(const EffectSetting& setting, TrialStream& draws) {
     const double time_s = moment_in_session_s(setting, draws);
     const double width_s = draws.uniform(1.0, 3.0);
-    WithheldEffect effect = foreign("pretension_dip", "share", 0.3, 0.98, [=](TrueEffects& e, double size) {
-        e.dip = {size, time_s, width_s};
-    });
+    WithheldEffect effect =
+        foreign("pretension_dip", "fraction", 0.3, 0.98, [=](TrueEffects& e, double size) {
+            e.dip = {size, time_s, width_s};
+        });
     effect.shape = {{"session_time_s", time_s}, {"width_s", width_s}};
     return effect;
 }
@@ -99,7 +100,7 @@ WithheldEffect wander(const EffectSetting& setting, TrialStream& draws) {
 WithheldEffect clipping(const EffectSetting& setting, TrialStream&) {
     const double highest = 0.5 * setting.spans.at("load_torque");
     WithheldEffect effect =
-        foreign("load_torque_clipping", "share_cut_off", 0.1, 0.7, [highest](TrueEffects& e, double size) {
+        foreign("load_torque_clipping", "fraction_cut_off", 0.1, 0.7, [highest](TrueEffects& e, double size) {
             if (size > 0.0) e.sensors["load_torque"].clipped_above = (1.0 - size) * highest;
         });
     effect.shape = {{"highest_Nm", highest}};

@@ -18,7 +18,7 @@ LumpedCableNumbers cable_numbers(const TrialBench& bench, const TrialRun& run, c
     numbers.dynamic_friction = effects.friction_ratio * bench.nominal.dynamic_friction;
     numbers.static_friction =
         effects.friction_ratio *
-        std::lerp(bench.nominal.dynamic_friction, bench.nominal.static_friction, options.static_share);
+        std::lerp(bench.nominal.dynamic_friction, bench.nominal.static_friction, options.static_fraction);
     numbers.pretension_N = effects.pretension_ratio * run.pretension_N;
     numbers.damping_s = options.damping_s;
     numbers.loss_stiffness_ratio = options.loss_stiffness_ratio;
@@ -33,14 +33,14 @@ struct Rim {
     LobedPulley lobes;
 
     double taken_up_m(double angle_rad) const {
-        if (lobes.share == 0.0) return radius_m * angle_rad;
-        return radius_m * (angle_rad - lobes.share / lobes.lobes *
+        if (lobes.fraction == 0.0) return radius_m * angle_rad;
+        return radius_m * (angle_rad - lobes.fraction / lobes.lobes *
                                            (std::cos(lobes.lobes * angle_rad + lobes.phase_rad) -
                                             std::cos(lobes.phase_rad)));
     }
     double arm_m(double angle_rad) const {
-        if (lobes.share == 0.0) return radius_m;
-        return radius_m * (1.0 + lobes.share * std::sin(lobes.lobes * angle_rad + lobes.phase_rad));
+        if (lobes.fraction == 0.0) return radius_m;
+        return radius_m * (1.0 + lobes.fraction * std::sin(lobes.lobes * angle_rad + lobes.phase_rad));
     }
 };
 
@@ -104,9 +104,9 @@ TrueRun run_pair(const TrialBench& bench, const TrialRun& run, const TrueEffects
     sample.finish(1);
     for (std::size_t fine = 0; fine + 1 < run.load_angle_rad.size(); ++fine) {
         for (int step = 1; step <= steps; ++step) {
-            const double share = static_cast<double>(step) / steps;
-            const double torque_Nm = torque.at(fine, share).value;
-            const MotionBetweenSamples::Point hand_now = hand.at(fine, share);
+            const double fraction = static_cast<double>(step) / steps;
+            const double torque_Nm = torque.at(fine, fraction).value;
+            const MotionBetweenSamples::Point hand_now = hand.at(fine, fraction);
             const double arm_m = rim.arm_m(load.pulley_rad());
             const CableEnds ends{-motor_radius_m * motor.pulley_rad(),
                                  -motor_radius_m * motor.pulley_rad_per_s(),

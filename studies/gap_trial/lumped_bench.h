@@ -17,7 +17,7 @@ struct LumpedBenchOptions {
     /// How much of static friction beyond dynamic friction holds a mass at rest. In a continuum the front of
     /// a motion has no width and static friction hardly matters; lumps make each front wait for it, which
     /// with all of it shifts torques by 6% at 60 masses and by less than half of that at 160.
-    double static_share = 0.1;
+    double static_fraction = 0.1;
 };
 
 /// What happened in a run, every 1 / fine_rate_Hz: means over the steps between for torques and tensions,

@@ -16,7 +16,7 @@ namespace capstan::gap_trial {
 namespace {
 
 // Of the two creeping elements.
-constexpr double fast_share = 0.7;
+constexpr double fast_fraction = 0.7;
 constexpr double slow_factor = 3.0;
 
 double overlap_m(double from_m, double to_m, const Stretch& stretch) {
@@ -40,7 +40,7 @@ double wrap_between(const std::vector<CurvaturePiece>& pieces, double from_m, do
 }
 
 // Wrap of a bend, spread evenly over its stretch, that falls between two positions.
-double share_between(const Stretch& stretch, double from_m, double to_m) {
+double fraction_between(const Stretch& stretch, double from_m, double to_m) {
     const double length_m = stretch.to_m - stretch.from_m;
     return length_m > 0.0 ? overlap_m(from_m, to_m, stretch) / length_m : 0.0;
 }
@@ -76,9 +76,9 @@ LumpedCable::LumpedCable(const LumpedCableNumbers& numbers, const TrueEffects& e
         const double from_m = static_cast<double>(i) * spacing_m_;
         const double to_m = from_m + spacing_m_;
         still_wrap_rad_[i] = wrap_between(numbers.curvature, from_m, to_m);
-        if (bent_here) still_wrap_rad_[i] += bend.angle_rad * share_between(bend.where, from_m, to_m);
-        moving_wrap_rad_[i] =
-            effects.moving_bend.angle_per_load_angle * share_between(effects.moving_bend.where, from_m, to_m);
+        if (bent_here) still_wrap_rad_[i] += bend.angle_rad * fraction_between(bend.where, from_m, to_m);
+        moving_wrap_rad_[i] = effects.moving_bend.angle_per_load_angle *
+                              fraction_between(effects.moving_bend.where, from_m, to_m);
     }
     follows_friction_ = effects.moving_bend.angle_per_load_angle != 0.0 ||
                         effects.stribeck.extra_friction != 0.0 || effects.load_dependence.exponent != 1.0 ||
@@ -245,9 +245,9 @@ void LumpedCable::follow(double load_angle_rad, double session_time_s, double el
 
 void LumpedCable::update_pretension(double session_time_s) {
     const StrandBreak& strands = effects_.strand_break;
-    if (strands.share != 0.0 && !numbers_.is_cable_b && stiffness_ratio_ == 1.0 &&
+    if (strands.fraction != 0.0 && !numbers_.is_cable_b && stiffness_ratio_ == 1.0 &&
         session_time_s >= strands.session_time_s) {
-        stiffness_ratio_ = 1.0 - strands.share;
+        stiffness_ratio_ = 1.0 - strands.fraction;
         // The lab sets the pretension of a run that begins with what is left.
         if (numbers_.session_start_s < strands.session_time_s) strands_kept_in_run_ = stiffness_ratio_;
         update_stiffness();
@@ -255,9 +255,9 @@ void LumpedCable::update_pretension(double session_time_s) {
     double kept = strands_kept_in_run_;
     if (effects_.drift.lost != 0.0)
         kept *= 1.0 + effects_.drift.lost * std::expm1(-session_time_s / effects_.drift.time_s);
-    if (effects_.dip.share != 0.0) {
+    if (effects_.dip.fraction != 0.0) {
         const double off = (session_time_s - effects_.dip.session_time_s) / effects_.dip.width_s;
-        kept *= 1.0 - effects_.dip.share * std::exp(-off * off);
+        kept *= 1.0 - effects_.dip.fraction * std::exp(-off * off);
     }
     slow_pretension_N_ = numbers_.pretension_N * kept;
 }
@@ -268,8 +268,8 @@ void LumpedCable::update_creep(double elapsed_s) {
     const double ratio = effects_.creep.ratio / numbers_.axial_stiffness_N;
     for (std::size_t j = 0; j < crept_m_.size(); ++j) {
         const double final_m = ratio * spring_m_[j] * (tension_N_[j] - numbers_.pretension_N);
-        crept_fast_m_[j] += fast * (fast_share * final_m - crept_fast_m_[j]);
-        crept_slow_m_[j] += slow * ((1.0 - fast_share) * final_m - crept_slow_m_[j]);
+        crept_fast_m_[j] += fast * (fast_fraction * final_m - crept_fast_m_[j]);
+        crept_slow_m_[j] += slow * ((1.0 - fast_fraction) * final_m - crept_slow_m_[j]);
         crept_m_[j] = crept_fast_m_[j] + crept_slow_m_[j];
     }
 }
@@ -309,8 +309,8 @@ void LumpedCable::update_friction(double load_angle_rad, double elapsed_s) {
 double LumpedCable::tension_N(double position_m) const {
     const double place = std::clamp(position_m / spacing_m_, 0.0, static_cast<double>(masses_));
     const auto below = std::min(static_cast<std::size_t>(place), position_m_.size() - 1);
-    const double share = place - static_cast<double>(below);
-    return (1.0 - share) * tension_N_[below] + share * tension_N_[below + 1];
+    const double fraction = place - static_cast<double>(below);
+    return (1.0 - fraction) * tension_N_[below] + fraction * tension_N_[below + 1];
 }
 
 double LumpedCable::energy_J(const CableEnds& ends) const {

@@ -9,7 +9,7 @@ namespace capstan::gap_trial {
 namespace {
 
 // Of the nominal rotor inertia, where lost motion parts the pulley from the rotor.
-constexpr double pulley_share = 0.3;
+constexpr double pulley_fraction = 0.3;
 // Flanks that meet: stiff against the cables, soft enough for the time step.
 constexpr double motor_flank_Nm_per_rad = 300.0;
 constexpr double motor_flank_Nms = 5e-3;
@@ -34,7 +34,7 @@ MotorSide::MotorSide(double nominal_inertia_kg_m2, const TrueEffects& effects, d
       cogging_(effects.cogging),
       half_gap_rad_(effects.motor_half_gap_rad),
       rotor_kg_m2_(nominal_inertia_kg_m2 + effects.extra_rotor_inertia_kg_m2),
-      pulley_kg_m2_(pulley_share * nominal_inertia_kg_m2),
+      pulley_kg_m2_(pulley_fraction * nominal_inertia_kg_m2),
       time_step_s_(time_step_s) {
     if (half_gap_rad_ > 0.0) rotor_kg_m2_ -= pulley_kg_m2_;
 }

@@ -18,7 +18,7 @@ class MotionBetweenSamples {
     };
 
     /// `share` (0 to 1) of the way from `sample` to the next.
-    Point at(std::size_t sample, double share) const {
+    Point at(std::size_t sample, double fraction) const {
         const double here = value(sample);
         const double next = value(sample + 1);
         const double slope = half_difference(sample);
@@ -26,7 +26,7 @@ class MotionBetweenSamples {
         const double rise = next - here;
         const double c = 3.0 * rise - 2.0 * slope - next_slope;
         const double d = slope + next_slope - 2.0 * rise;
-        const double s = share;
+        const double s = fraction;
         return {here + s * (slope + s * (c + s * d)), rate_Hz_ * (slope + s * (2.0 * c + 3.0 * s * d)),
                 rate_Hz_ * rate_Hz_ *
                     ((1.0 - s) * second_difference(sample) + s * second_difference(sample + 1))};

@@ -17,7 +17,7 @@ using gap::CandidateCause;
 constexpr gap::EffectsTwinOptions searching{40, 2};
 constexpr gap::EffectsTwinOptions measuring{40, 1};
 // A bend's cables are not in the label, so that a few candidates can be meant.
-constexpr std::size_t most_full_fits = 3;
+constexpr std::size_t max_full_fits = 3;
 
 bool is_meant(const CandidateCause& candidate, const TrueCause& truth) {
     return candidate.effect == truth.effect && candidate.component == truth.component &&
@@ -30,7 +30,7 @@ std::optional<gap::CauseFit> with_one_more(const gap::CauseFitter& fitter, const
     std::optional<gap::CauseFit> best;
     std::size_t fitted = 0;
     for (const gap::Screened& each : gap::screen(fitter, meant, present)) {
-        if (fitted++ == most_full_fits) break;
+        if (fitted++ == max_full_fits) break;
         gap::Hypothesis start = present;
         start.causes.push_back(each.cause);
         const Eigen::Index known = start.coordinates.size();

@@ -38,10 +38,10 @@ void apply_hysteresis(std::vector<double>& signal, double half_width) {
 }
 
 void apply_lag(std::vector<double>& signal, double lag_s) {
-    const double share = -std::expm1(-1.0 / (fine_rate_Hz * lag_s));
+    const double fraction = -std::expm1(-1.0 / (fine_rate_Hz * lag_s));
     double reading = signal.front();
     for (double& value : signal) {
-        reading += share * (value - reading);
+        reading += fraction * (value - reading);
         value = reading;
     }
 }
@@ -52,8 +52,8 @@ void apply_delay(std::vector<double>& signal, double delay_s) {
     for (std::size_t k = 0; k < signal.size(); ++k) {
         const double place = std::clamp(static_cast<double>(k) - delay_s * fine_rate_Hz, 0.0, last);
         const auto below = std::min(static_cast<std::size_t>(place), signal.size() - 2);
-        const double share = place - static_cast<double>(below);
-        signal[k] = (1.0 - share) * original[below] + share * original[below + 1];
+        const double fraction = place - static_cast<double>(below);
+        signal[k] = (1.0 - fraction) * original[below] + fraction * original[below + 1];
     }
 }
 

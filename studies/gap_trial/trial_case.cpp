@@ -12,7 +12,7 @@ namespace capstan::gap_trial {
 
 namespace {
 
-constexpr int most_attempts = 40;
+constexpr int max_attempts = 40;
 
 struct Streams {
     TrialStream bench;
@@ -117,7 +117,7 @@ bool is_finite(const SensedSession& session) {
 CaseLabel make_case(const PlannedCase& planned, const TrialOptions& options,
                     const std::filesystem::path& folder) {
     Streams draws(options.seed, planned.index);
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; attempt < max_attempts; ++attempt) {
         Setup setup = draw_setup(options, draws);
         if (!all_fit(planned, setup)) continue;
         setup.truth = run_session(setup.bench, setup.runs, setup.effects);
@@ -150,7 +150,7 @@ CaseLabel make_case(const PlannedCase& planned, const TrialOptions& options,
     throw std::runtime_error(fmt::format(
         "{}: no bench shows {} at this severity after {} draws; try another "
         "seed, severity or noise",
-        planned.name, planned.makers.empty() ? "nothing" : planned.makers.front().effect, most_attempts));
+        planned.name, planned.makers.empty() ? "nothing" : planned.makers.front().effect, max_attempts));
 }
 
 }  // namespace capstan::gap_trial

@@ -20,8 +20,8 @@ double time_of(std::size_t sample) {
 }
 
 // The minimum-jerk way from 0 to 1 (Flash and Hogan 1985).
-double smooth_way(double share) {
-    const double s = std::clamp(share, 0.0, 1.0);
+double smooth_way(double fraction) {
+    const double s = std::clamp(fraction, 0.0, 1.0);
     return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
 }
 

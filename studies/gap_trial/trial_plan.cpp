@@ -10,10 +10,10 @@ namespace capstan::gap_trial {
 
 namespace {
 
-constexpr double none_share = 0.10;
-constexpr double foreign_share = 0.12;
-constexpr double mixture_share = 0.10;
-constexpr double parameter_share = 0.09;
+constexpr double none_fraction = 0.10;
+constexpr double foreign_fraction = 0.12;
+constexpr double mixture_fraction = 0.10;
+constexpr double parameter_fraction = 0.09;
 // No case has this address.
 constexpr int whole_trial = 0x7fffffff;
 
@@ -108,22 +108,22 @@ std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
     Round foreign(foreign_causes(), draws);
     Round firsts(catalogue_effects(), draws);
     Round seconds(catalogue_effects(), draws);
-    const auto number_of = [&](TruthGroup group, double share) {
+    const auto number_of = [&](TruthGroup group, double fraction) {
         if (options.only) return *options.only == group ? options.cases : 0;
-        return static_cast<int>(std::lround(share * options.cases));
+        return static_cast<int>(std::lround(fraction * options.cases));
     };
 
     std::vector<PlannedCase> plan;
     const auto add = [&](TruthGroup group, Severity severity, std::vector<EffectMaker> makers) {
         plan.push_back({0, "", group, severity, std::move(makers)});
     };
-    for (int k = number_of(TruthGroup::none, none_share); k > 0; --k)
+    for (int k = number_of(TruthGroup::none, none_fraction); k > 0; --k)
         add(TruthGroup::none, Severity::strong, {});
-    for (int k = number_of(TruthGroup::foreign, foreign_share); k > 0; --k)
+    for (int k = number_of(TruthGroup::foreign, foreign_fraction); k > 0; --k)
         add(TruthGroup::foreign, severity_of(options.severity, plan.size()), {foreign.next()});
-    for (int k = number_of(TruthGroup::parameter, parameter_share); k > 0; --k)
+    for (int k = number_of(TruthGroup::parameter, parameter_fraction); k > 0; --k)
         add(TruthGroup::parameter, severity_of(options.severity, plan.size()), {parameters.next()});
-    for (int k = number_of(TruthGroup::mixture, mixture_share); k > 0; --k) {
+    for (int k = number_of(TruthGroup::mixture, mixture_fraction); k > 0; --k) {
         const EffectMaker& first = firsts.next();
         const EffectMaker* second = &seconds.next();
         while (effect_family(second->effect) == effect_family(first.effect)) second = &seconds.next();

@@ -86,9 +86,9 @@ double brier_of(const ScoredCase& scored) {
         for (const gap::RankedEffect& each : scored.answer->ranked) {
             if (each.effect == effect) stated += each.probability;
         }
-        const double true_share =
+        const double true_fraction =
             scored.truth.count(effect) > 0 ? 1.0 / static_cast<double>(scored.truth.size()) : 0.0;
-        sum += (stated - true_share) * (stated - true_share);
+        sum += (stated - true_fraction) * (stated - true_fraction);
     }
     return sum;
 }
@@ -122,7 +122,7 @@ Calibration calibrate(const std::vector<ScoredCase>& cases) {
         ReliabilityBin& bin = bins[static_cast<std::size_t>(index)];
         ++bin.cases;
         bin.mean_probability += stated;
-        bin.share_right += among_first(scored, 1) ? 1.0 : 0.0;
+        bin.fraction_right += among_first(scored, 1) ? 1.0 : 0.0;
     }
     for (int k = 0; k < bin_count; ++k) {
         ReliabilityBin& bin = bins[static_cast<std::size_t>(k)];
@@ -130,9 +130,9 @@ Calibration calibrate(const std::vector<ScoredCase>& cases) {
         bin.from = static_cast<double>(k) / bin_count;
         bin.to = static_cast<double>(k + 1) / bin_count;
         bin.mean_probability /= bin.cases;
-        bin.share_right /= bin.cases;
-        calibration.ece +=
-            std::abs(bin.mean_probability - bin.share_right) * bin.cases / static_cast<double>(cases.size());
+        bin.fraction_right /= bin.cases;
+        calibration.ece += std::abs(bin.mean_probability - bin.fraction_right) * bin.cases /
+                           static_cast<double>(cases.size());
         calibration.bins.push_back(bin);
     }
     return calibration;
@@ -199,23 +199,23 @@ bool first_two_are_the_two(const ScoredCase& scored) {
 constexpr double z95 = 1.959963984540054;
 
 // Wilson's interval: middle and half width.
-std::pair<double, double> wilson(double share, int of) {
+std::pair<double, double> wilson(double fraction, int of) {
     const double n = of;
-    const double middle = (share + z95 * z95 / (2.0 * n)) / (1.0 + z95 * z95 / n);
+    const double middle = (fraction + z95 * z95 / (2.0 * n)) / (1.0 + z95 * z95 / n);
     const double half =
-        z95 / (1.0 + z95 * z95 / n) * std::sqrt(share * (1.0 - share) / n + z95 * z95 / (4.0 * n * n));
+        z95 / (1.0 + z95 * z95 / n) * std::sqrt(fraction * (1.0 - fraction) / n + z95 * z95 / (4.0 * n * n));
     return {middle, half};
 }
 
 }  // namespace
 
-double Share::low() const {
+double Fraction::low() const {
     if (of == 0) return 0.0;
     const auto [middle, half] = wilson(value(), of);
     return std::max(0.0, middle - half);
 }
 
-double Share::high() const {
+double Fraction::high() const {
     if (of == 0) return 1.0;
     const auto [middle, half] = wilson(value(), of);
     return std::min(1.0, middle + half);

@@ -10,7 +10,7 @@
 namespace capstan::gap_trial {
 
 /// So many of so many, with Wilson's 95% interval (1927) for the probability behind it.
-struct Share {
+struct Fraction {
     int hits = 0;
     int of = 0;
 
@@ -27,9 +27,9 @@ struct Share {
 struct GroupScore {
     std::string by;  ///< "all", "truth", "effect", "severity", "bench", "runs"
     std::string name;
-    Share top1;
-    Share top3;
-    Share family;  ///< of the effect that leads
+    Fraction top1;
+    Fraction top3;
+    Fraction family;  ///< of the effect that leads
 };
 
 /// Stated probability of the leading effect against how often it was right.
@@ -38,7 +38,7 @@ struct ReliabilityBin {
     double to = 0.0;
     int cases = 0;
     double mean_probability = 0.0;
-    double share_right = 0.0;
+    double fraction_right = 0.0;
 };
 
 struct Calibration {
@@ -55,21 +55,21 @@ struct Shrinkage {
     int cases = 0;
     double median_before = 0.0;  ///< all three in units of what the true cause leaves
     double median_after = 0.0;   ///< by the diagnosis
-    Share as_good_as_truth;      ///< leaves at most 10% more
+    Fraction as_good_as_truth;   ///< leaves at most 10% more
 };
 
 struct TrialScore {
     std::vector<GroupScore> groups;  ///< the first is of all cases
-    Share false_alarms;              ///< something named where there is nothing
-    Share missed_gaps;               ///< `none` where there is something
-    Share foreign_found;             ///< `unknown` where the cause is outside the catalogue
-    Share needless_unknown;          ///< `unknown` where the catalogue has the cause
-    Share both_of_mixtures;          ///< the first two are the two
+    Fraction false_alarms;           ///< something named where there is nothing
+    Fraction missed_gaps;            ///< `none` where there is something
+    Fraction foreign_found;          ///< `unknown` where the cause is outside the catalogue
+    Fraction needless_unknown;       ///< `unknown` where the catalogue has the cause
+    Fraction both_of_mixtures;       ///< the first two are the two
     Calibration calibration;
     // Of single causes that lead the answer.
-    Share component;
-    Share end;    ///< where the truth has one
-    Share place;  ///< within 0.15 m of the true stretch's middle, where it has one
+    Fraction component;
+    Fraction end;    ///< where the truth has one
+    Fraction place;  ///< within 0.15 m of the true stretch's middle, where it has one
     double median_place_error_m = 0.0;
     Shrinkage load_torque;
     Shrinkage clearest_channel;

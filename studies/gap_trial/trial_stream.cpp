@@ -23,8 +23,8 @@ double TrialStream::normal() {
 }
 
 double TrialStream::uniform(double low, double high) {
-    const double share = 0.5 * std::erfc(-normal() / std::numbers::sqrt2);
-    return low + (high - low) * share;
+    const double fraction = 0.5 * std::erfc(-normal() / std::numbers::sqrt2);
+    return low + (high - low) * fraction;
 }
 
 double TrialStream::log_uniform(double low, double high) {

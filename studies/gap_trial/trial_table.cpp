@@ -10,13 +10,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string in_percent(const Share& share) {
-    if (share.of == 0) return "-";
-    return fmt::format("{:.1f}% ({:.0f}-{:.0f})", 1e2 * share.value(), 1e2 * share.low(), 1e2 * share.high());
+std::string in_percent(const Fraction& fraction) {
+    if (fraction.of == 0) return "-";
+    return fmt::format("{:.1f}% ({:.0f}-{:.0f})", 1e2 * fraction.value(), 1e2 * fraction.low(),
+                       1e2 * fraction.high());
 }
 
-std::string row(const std::string& what, const Share& share) {
-    return fmt::format("  {:<46} {:>18}  {:>4} of {}\n", what, in_percent(share), share.hits, share.of);
+std::string row(const std::string& what, const Fraction& fraction) {
+    return fmt::format("  {:<46} {:>18}  {:>4} of {}\n", what, in_percent(fraction), fraction.hits,
+                       fraction.of);
 }
 
 std::string group_rows(const TrialScore& score) {
@@ -37,7 +39,7 @@ std::string reliability_rows(const Calibration& calibration) {
         fmt::format("  {:<12} {:>5} {:>12} {:>12}\n", "probability", "cases", "mean stated", "right");
     for (const ReliabilityBin& bin : calibration.bins)
         text += fmt::format("  {:.1f} to {:.1f}   {:>5} {:>12.3f} {:>12.3f}\n", bin.from, bin.to, bin.cases,
-                            bin.mean_probability, bin.share_right);
+                            bin.mean_probability, bin.fraction_right);
     return text;
 }
 
@@ -50,18 +52,18 @@ std::string shrinkage_row(const std::string& channel, const Shrinkage& shrinkage
         in_percent(shrinkage.as_good_as_truth));
 }
 
-ordered_json share_json(const Share& share) {
-    return {{"hits", share.hits},
-            {"of", share.of},
-            {"share", share.of > 0 ? ordered_json(share.value()) : ordered_json(nullptr)},
-            {"interval_95", {share.low(), share.high()}}};
+ordered_json fraction_json(const Fraction& fraction) {
+    return {{"hits", fraction.hits},
+            {"of", fraction.of},
+            {"fraction", fraction.of > 0 ? ordered_json(fraction.value()) : ordered_json(nullptr)},
+            {"interval_95", {fraction.low(), fraction.high()}}};
 }
 
 ordered_json shrinkage_json(const Shrinkage& shrinkage) {
     return {{"cases", shrinkage.cases},
             {"median_before_by_truth", shrinkage.median_before},
             {"median_after_by_truth", shrinkage.median_after},
-            {"at_most_10_percent_more", share_json(shrinkage.as_good_as_truth)}};
+            {"at_most_10_percent_more", fraction_json(shrinkage.as_good_as_truth)}};
 }
 
 }  // namespace
@@ -101,17 +103,17 @@ std::string trial_json(const TrialOptions& options, const std::string& seal, con
     for (const GroupScore& group : score.groups)
         json["groups"].push_back({{"by", group.by},
                                   {"name", group.name},
-                                  {"top1", share_json(group.top1)},
-                                  {"top3", share_json(group.top3)},
-                                  {"family", share_json(group.family)}});
-    json["false_alarms"] = share_json(score.false_alarms);
-    json["missed_gaps"] = share_json(score.missed_gaps);
-    json["unknown_found"] = share_json(score.foreign_found);
-    json["needless_unknown"] = share_json(score.needless_unknown);
-    json["both_of_mixtures"] = share_json(score.both_of_mixtures);
-    json["component"] = share_json(score.component);
-    json["end"] = share_json(score.end);
-    json["place"] = share_json(score.place);
+                                  {"top1", fraction_json(group.top1)},
+                                  {"top3", fraction_json(group.top3)},
+                                  {"family", fraction_json(group.family)}});
+    json["false_alarms"] = fraction_json(score.false_alarms);
+    json["missed_gaps"] = fraction_json(score.missed_gaps);
+    json["unknown_found"] = fraction_json(score.foreign_found);
+    json["needless_unknown"] = fraction_json(score.needless_unknown);
+    json["both_of_mixtures"] = fraction_json(score.both_of_mixtures);
+    json["component"] = fraction_json(score.component);
+    json["end"] = fraction_json(score.end);
+    json["place"] = fraction_json(score.place);
     json["median_place_error_m"] = score.median_place_error_m;
     json["brier"] = score.calibration.brier;
     json["ece"] = score.calibration.ece;
@@ -121,7 +123,7 @@ std::string trial_json(const TrialOptions& options, const std::string& seal, con
                                        {"to", bin.to},
                                        {"cases", bin.cases},
                                        {"mean_probability", bin.mean_probability},
-                                       {"share_right", bin.share_right}});
+                                       {"fraction_right", bin.fraction_right}});
     json["shrinkage"] = {{"load_torque", shrinkage_json(score.load_torque)},
                          {"clearest_channel", shrinkage_json(score.clearest_channel)}};
     json["unanswered"] = score.unanswered;

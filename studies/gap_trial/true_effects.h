@@ -98,7 +98,7 @@ struct TrueSensorFault {
 
 /// Load pulley that is not round: r (1 + share sin(lobes angle + phase)).
 struct LobedPulley {
-    double share = 0.0;
+    double fraction = 0.0;
     double lobes = 12.0;
     double phase_rad = 0.0;
 };
@@ -113,13 +113,13 @@ struct FrictionalHeating {
 
 /// Strands of cable A that break in the middle of a session: its stiffness falls for good.
 struct StrandBreak {
-    double share = 0.0;
+    double fraction = 0.0;
     double session_time_s = 0.0;
 };
 
 /// A tensioner that gives and catches itself again: a dip of the pretension.
 struct PretensionDip {
-    double share = 0.0;
+    double fraction = 0.0;
     double session_time_s = 0.0;
     double width_s = 2.0;
 };

@@ -47,13 +47,13 @@ void round_to_steps(const TrialBench& bench, const TrueEffects& effects, SensedS
 // Changes of all predicted samples in units of noise and floor, one channel of one run after the other.
 struct ScaledChanges {
     Eigen::VectorXd effect;
-    Eigen::MatrixXd nominal;  // a column for friction, stiffness and pretension, per `most_move` of each
+    Eigen::MatrixXd nominal;  // a column for friction, stiffness and pretension, per `max_move` of each
     std::map<std::string, std::vector<std::pair<Eigen::Index, Eigen::Index>>> rows_of_channel;
     std::map<std::string, double> samples_of_channel;
 };
 
 // How far off a lab's friction, stiffness or pretension may be without anybody calling it wrong.
-constexpr double most_move_log = 0.03;
+constexpr double max_move_log = 0.03;
 
 ScaledChanges scaled_changes(const TrialBench& bench, const std::vector<TrialRun>& runs,
                              const Baseline& baseline, const SensedSession& with) {
@@ -86,7 +86,7 @@ ScaledChanges scaled_changes(const TrialBench& bench, const std::vector<TrialRun
             for (std::size_t n = 0; n < baseline.with_more.size(); ++n)
                 changes.nominal(row, static_cast<Eigen::Index>(n)) =
                     (baseline.with_more[n][run][channel][k] - without[k]) / scale *
-                    (most_move_log / Baseline::more_log);
+                    (max_move_log / Baseline::more_log);
         }
     });
     return changes;
@@ -173,13 +173,13 @@ SensedSession sense_session(const TrialBench& bench, const std::vector<TrueRun>&
 
 std::optional<SizedEffect> find_size(const EffectTrial& trial, const WithheldEffect& effect,
                                      const VisibilityRange& range, double wanted) {
-    constexpr int most_tries = 7;
+    constexpr int max_tries = 7;
     constexpr double largest_change = 6.0;
     // The sizes closest from below and above so far, where the change is neither linear nor steady.
     double too_small = 0.0;
     double too_large = effect.largest_size;
     double size = effect.first_size;
-    for (int attempt = 0; attempt < most_tries; ++attempt) {
+    for (int attempt = 0; attempt < max_tries; ++attempt) {
         TrueEffects effects = trial.before;
         effect.apply(effects, size);
         SensedSession with = sense_session(

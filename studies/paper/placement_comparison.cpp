@@ -122,7 +122,7 @@ constexpr double rounding_N = 0.03;
 
 const std::string agrees = "agrees";
 const std::string order_of_trial =
-    "several direction patterns often verify (see the ambiguous share), and the paper does not say in which order they are tried: ours by Hamming distance from the previous direction";
+    "several direction patterns often verify (see the ambiguous fraction), and the paper does not say in which order they are tried: ours by Hamming distance from the previous direction";
 const std::string instants_unknown =
     "the paper does not say which instants it used; those of the configuration were found by matching its figures";
 const std::string even_unclear =

@@ -51,7 +51,7 @@ const std::vector<CableSetting>& cable_settings() {
          {10.0}},
         {"reproduces",
          "2.86 rad of wrap (0.70 m over 2 m, as 0.28 m over 0.8 m would have) and lower pretensions, fitted to the "
-         "peaks that the paper's rms and share-of-peak figures imply",
+         "peaks that the paper's rms and fraction-of-peak figures imply",
          0.70,
          {3.0, 3.5, 4.0, 5.0}},
     };

@@ -61,11 +61,11 @@ RampRun run_pretension_ramps(const CableSetting& setting, double pretension_N, c
 /// What the paper says about Exp. 1 at one of its four pretensions, whose values it does not give.
 struct PaperRamp {
     std::string level;
-    double rms_to_ideal_Nm = 0.0;  ///< ideal transmission against the bench
-    double rms_of_model_Nm = 0.0;  ///< the paper's model against the bench
-    double share_of_peak = 0.0;    ///< that, in parts of the peak load torque
+    double rms_to_ideal_Nm = 0.0;   ///< ideal transmission against the bench
+    double rms_of_model_Nm = 0.0;   ///< the paper's model against the bench
+    double fraction_of_peak = 0.0;  ///< that, in parts of the peak load torque
 
-    double implied_peak_Nm() const { return rms_of_model_Nm / share_of_peak; }
+    double implied_peak_Nm() const { return rms_of_model_Nm / fraction_of_peak; }
 };
 
 /// From low to high, as the pretensions of `reproduces`.

@@ -51,7 +51,7 @@ Lap laps_of(long steps, double at_least_s, TakeSteps&& take_steps) {
 class ClosedFormRunner {
   public:
     ClosedFormRunner(const Cable& cable, const std::vector<EndConditions>& cycle)
-        : step_(cable, ModelRules::cured()), cycle_(cycle), state_(pretensioned(cable)) {
+        : step_(cable, ModelRules::consistent()), cycle_(cycle), state_(pretensioned(cable)) {
         run(0.0);
     }
 
@@ -81,12 +81,12 @@ class ClosedFormRunner {
 class ReplicatesRunner {
   public:
     ReplicatesRunner(const Cable& cable, ComparedMotion motion)
-        : step_(cable, ModelRules::cured()),
+        : step_(cable, ModelRules::consistent()),
           cycle_(steps_per_cycle, ReplicateEnds(replicates)),
           states_(pretensioned(cable), replicates) {
         for (int replicate = 0; replicate < replicates; ++replicate) {
-            const double share = (replicate + 0.5) / replicates;
-            const auto cycle = cycle_of(cable, motion, 1.0 + stroke_spread * (2.0 * share - 1.0));
+            const double fraction = (replicate + 0.5) / replicates;
+            const auto cycle = cycle_of(cable, motion, 1.0 + stroke_spread * (2.0 * fraction - 1.0));
             for (int n = 0; n < steps_per_cycle; ++n) cycle_[n].set(replicate, cycle[n]);
         }
         run(0.0);
@@ -123,7 +123,9 @@ class PeerRunner {
     }
 
     bool too_slow() const { return too_slow_; }
-    double converged_share() const { return static_cast<double>(converged_) / static_cast<double>(taken_); }
+    double converged_fraction() const {
+        return static_cast<double>(converged_) / static_cast<double>(taken_);
+    }
 
     Lap run(double at_least_s) {
         return laps_of(1, at_least_s, [&] {
@@ -160,7 +162,7 @@ std::vector<Agreement> compare_with_generic_solver() {
                                         ComparedMotion::monodirectional, ComparedMotion::bidirectional}) {
         for (const int segments : {1, 2, 3, 5, 10, 20, 40, 60}) {
             const Cable cable = preloaded_cable(segments);
-            const QuasiStaticStep step(cable, ModelRules::cured());
+            const QuasiStaticStep step(cable, ModelRules::consistent());
             const reference::GenericSolver generic(cable);
             Agreement row{motion, segments, 0, 0, 0.0};
             CableState state = pretensioned(cable);
@@ -222,7 +224,7 @@ std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Sol
         if (!entrant.steps_per_s.empty()) {
             rate.steps_per_s = median(entrant.steps_per_s);
             rate.closed_form_is_faster_by = median(entrant.ratio);
-            if (entrant.peer) rate.converged_share = entrant.peer->converged_share();
+            if (entrant.peer) rate.converged_fraction = entrant.peer->converged_fraction();
         }
         rates.push_back(rate);
     }
@@ -231,7 +233,7 @@ std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Sol
 
 double slowest_step_s(int segments) {
     const Cable cable = preloaded_cable(segments);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     const std::vector<EndConditions> cycle = cycle_of(cable, ComparedMotion::mass);
     CableState state = pretensioned(cable);
     for (const EndConditions& ends : cycle) step.advance(state, ends);
@@ -248,7 +250,7 @@ double slowest_step_s(int segments) {
 
 double bare_write_s(int segments) {
     const Cable cable = preloaded_cable(segments);
-    const PrefixTables tables(cable, ModelRules::cured());
+    const PrefixTables tables(cable, ModelRules::consistent());
     const SideTable& table = tables.proximal(sign(Direction::forward));
     CableState state = pretensioned(cable);
     double fastest_s = 1e9;

@@ -43,7 +43,7 @@ struct SolverRate {
     std::optional<double> steps_per_s;
     /// How many times as fast the closed-form step was; median over rounds, each of the same moment.
     std::optional<double> closed_form_is_faster_by;
-    double converged_share = 1.0;
+    double converged_fraction = 1.0;
 };
 
 struct RaceSettings {

@@ -26,15 +26,15 @@ std::vector<PlacementCandidate> placement_candidates(const storage::StudyDescrip
 }
 
 std::vector<Score> weighted_scores(const std::vector<PlacementCandidate>& candidates,
-                                   const std::vector<double>& share) {
+                                   const std::vector<double>& fraction) {
     std::vector<Score> scores;
     for (const PlacementCandidate& candidate : candidates) {
         Score score;
         score.block_objective_N.assign(candidate.block_error_N.front().size(), 0.0);
-        for (std::size_t s = 0; s < share.size(); ++s) {
-            score.objective_N += share[s] * candidate.error_N[s];
+        for (std::size_t s = 0; s < fraction.size(); ++s) {
+            score.objective_N += fraction[s] * candidate.error_N[s];
             for (std::size_t b = 0; b < score.block_objective_N.size(); ++b) {
-                score.block_objective_N[b] += share[s] * candidate.block_error_N[s][b];
+                score.block_objective_N[b] += fraction[s] * candidate.block_error_N[s][b];
             }
         }
         scores.push_back(std::move(score));
@@ -43,10 +43,10 @@ std::vector<Score> weighted_scores(const std::vector<PlacementCandidate>& candid
 }
 
 std::vector<int> best_of_regimes(const std::vector<PlacementCandidate>& candidates,
-                                 const std::vector<std::vector<double>>& regime_share) {
+                                 const std::vector<std::vector<double>>& regime_fraction) {
     std::vector<int> best;
-    for (const std::vector<double>& share : regime_share) {
-        const std::vector<Score> scores = weighted_scores(candidates, share);
+    for (const std::vector<double>& fraction : regime_fraction) {
+        const std::vector<Score> scores = weighted_scores(candidates, fraction);
         const auto least = std::min_element(scores.begin(), scores.end(), [](const Score& a, const Score& b) {
             return a.objective_N < b.objective_N;
         });
@@ -56,11 +56,11 @@ std::vector<int> best_of_regimes(const std::vector<PlacementCandidate>& candidat
 }
 
 std::vector<Score> regret_scores(const std::vector<PlacementCandidate>& candidates,
-                                 const std::vector<std::vector<double>>& regime_share,
+                                 const std::vector<std::vector<double>>& regime_fraction,
                                  const std::vector<int>& reference) {
     std::vector<Score> worst(candidates.size());
-    for (std::size_t regime = 0; regime < regime_share.size(); ++regime) {
-        const std::vector<Score> scores = weighted_scores(candidates, regime_share[regime]);
+    for (std::size_t regime = 0; regime < regime_fraction.size(); ++regime) {
+        const std::vector<Score> scores = weighted_scores(candidates, regime_fraction[regime]);
         const Score& best = scores[reference[regime]];
         for (std::size_t c = 0; c < scores.size(); ++c) {
             const double regret_N = scores[c].objective_N - best.objective_N;

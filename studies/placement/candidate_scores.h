@@ -31,16 +31,16 @@ struct Score {
 
 /// Mean error over scenarios with the given shares, which sum to one.
 std::vector<Score> weighted_scores(const std::vector<PlacementCandidate>& candidates,
-                                   const std::vector<double>& share);  // scenarios
+                                   const std::vector<double>& fraction);  // scenarios
 
-/// The best candidate of each regime, at any count. `regime_share` is regimes x scenarios, the shares of a
-/// regime's own scenarios.
+/// The best candidate of each regime, at any count. `regime_fraction` is regimes x scenarios, the fraction of
+/// a regime's own scenarios.
 std::vector<int> best_of_regimes(const std::vector<PlacementCandidate>& candidates,
-                                 const std::vector<std::vector<double>>& regime_share);
+                                 const std::vector<std::vector<double>>& regime_fraction);
 
 /// Largest regret over regimes: how much worse than the candidate `reference` of each regime.
 std::vector<Score> regret_scores(const std::vector<PlacementCandidate>& candidates,
-                                 const std::vector<std::vector<double>>& regime_share,
+                                 const std::vector<std::vector<double>>& regime_fraction,
                                  const std::vector<int>& reference);
 
 }  // namespace capstan

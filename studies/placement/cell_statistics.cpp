@@ -15,8 +15,8 @@ MeanAndError mean_and_error(std::span<const double> values) {
     return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1.0) / count) : 0.0};
 }
 
-double quantile(std::span<double> values, double share) {
-    const double place = share * static_cast<double>(values.size() - 1);
+double quantile(std::span<double> values, double fraction) {
+    const double place = fraction * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::size_t>(place);
     std::nth_element(values.begin(), values.begin() + below, values.end());
     const double low = values[below];
@@ -56,8 +56,8 @@ storage::CellRecord summarise_cell(const CellErrors& errors) {
     }
     cell.rms_error_N = std::sqrt(squares / repetitions);
     const double estimates = static_cast<double>(repetitions) * errors.sensor_count;
-    cell.unverified_share = static_cast<double>(unverified) / estimates;
-    cell.ambiguous_share = static_cast<double>(ambiguous) / estimates;
+    cell.unverified_fraction = static_cast<double>(unverified) / estimates;
+    cell.ambiguous_fraction = static_cast<double>(ambiguous) / estimates;
 
     for (std::size_t node = 0; node < nodes; ++node) {
         cell.nodes[node].node = static_cast<int>(node) + 1;

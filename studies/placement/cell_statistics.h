@@ -20,7 +20,7 @@ struct MeanAndError {
 MeanAndError mean_and_error(std::span<const double> values);
 
 /// Quantile by linear interpolation between order statistics (type 7). Reorders `values`.
-double quantile(std::span<double> values, double share);
+double quantile(std::span<double> values, double fraction);
 
 /// Errors of one cell over one block of repetitions.
 struct BlockSums {

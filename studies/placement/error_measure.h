@@ -7,9 +7,9 @@ namespace capstan {
 
 /// How the errors of an estimate become the numbers that are summed up over repetitions.
 struct ErrorMeasure {
-    std::span<const double> truth_N;  // nodes
-    std::span<const double> share;    // at least nodes: weights that sum to one
-    int width = 1;                    ///< 1: the weighted mean; nodes: each node's absolute error
+    std::span<const double> truth_N;   // nodes
+    std::span<const double> fraction;  // at least nodes: weights that sum to one
+    int width = 1;                     ///< 1: the weighted mean; nodes: each node's absolute error
 
     /// Writes `width` numbers [N]; tension(node) is the estimate.
     template <class Tension>
@@ -24,10 +24,10 @@ struct ErrorMeasure {
         int node = 0;
         for (; node + 4 <= nodes; node += 4) {
             for (int lane = 0; lane < 4; ++lane) {
-                sum_N[lane] += share[node + lane] * std::abs(tension(node + lane) - truth_N[node + lane]);
+                sum_N[lane] += fraction[node + lane] * std::abs(tension(node + lane) - truth_N[node + lane]);
             }
         }
-        for (; node < nodes; ++node) sum_N[0] += share[node] * std::abs(tension(node) - truth_N[node]);
+        for (; node < nodes; ++node) sum_N[0] += fraction[node] * std::abs(tension(node) - truth_N[node]);
         error_N[0] = (sum_N[0] + sum_N[1]) + (sum_N[2] + sum_N[3]);
     }
 };

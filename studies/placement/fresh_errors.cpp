@@ -30,7 +30,7 @@ std::vector<std::vector<double>> stored_sensor_errors_N(storage::Database& datab
 }
 
 StudyPlan with_fresh_repetitions(StudyPlan plan) {
-    plan.repetitions = std::min(plan.repetitions, most_fresh_repetitions);
+    plan.repetitions = std::min(plan.repetitions, max_fresh_repetitions);
     return plan;
 }
 

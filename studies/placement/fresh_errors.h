@@ -16,7 +16,7 @@ using FreshErrors = std::function<std::vector<PlacementCandidate>(
 
 /// Fresh draws are as many as the study's own, but no more than this: a choice is judged with an error of a
 /// hundredth of its spread, and joining a large study's shards on one machine takes minutes, not hours.
-inline constexpr int most_fresh_repetitions = 10000;
+inline constexpr int max_fresh_repetitions = 10000;
 
 /// Draws on addresses from `fresh_draws` on, with the weights of the W methods that the stored study had.
 /// `database` and `plan`, which the stored configuration describes, must outlive it; `jobs` as in RunOptions.

@@ -124,7 +124,7 @@ struct ErrorTable {
 
 void add_error(BlockSums& sums, double& repetition_error_N, std::span<const double> tension_N,
                std::span<const double> truth_N) {
-    const double share = 1.0 / static_cast<double>(truth_N.size());
+    const double fraction = 1.0 / static_cast<double>(truth_N.size());
     double* node_abs_N = sums.node_abs_error_N.data();
     double* node_signed_N = sums.node_signed_error_N.data();
     double absolute_N = 0.0;
@@ -136,9 +136,9 @@ void add_error(BlockSums& sums, double& repetition_error_N, std::span<const doub
         node_abs_N[node] += std::abs(error_N);
         node_signed_N[node] += error_N;
     }
-    repetition_error_N = absolute_N * share;
+    repetition_error_N = absolute_N * fraction;
     sums.error_N += repetition_error_N;
-    sums.squared_error_N2 += squared_N2 * share;
+    sums.squared_error_N2 += squared_N2 * fraction;
 }
 
 // Shares out the processor time of a block over what it went to, by wall time.
@@ -181,7 +181,7 @@ Verification count_verification(const SolvedReadings& solved, const SetEstimates
     return count;
 }
 
-std::vector<storage::SensorWeightRecord> weight_shares(std::span<const double> weight) {
+std::vector<storage::SensorWeightRecord> weight_fractions(std::span<const double> weight) {
     double total = 0.0;
     for (const double w : weight) total += w;
     std::vector<storage::SensorWeightRecord> records;
@@ -255,7 +255,7 @@ storage::FusionResult fuse_readings(const PreparedStudy& study, const StudyPoint
     });
 
     storage::FusionResult result{
-        point.scenario_index, point.noise_index, weight_shares(weight), {}, bounds(study, point)};
+        point.scenario_index, point.noise_index, weight_fractions(weight), {}, bounds(study, point)};
     result.cells.resize(study.cells());
     std::vector<int> block_sizes;
     for (int block = 0; block < blocks.count(); ++block) block_sizes.push_back(blocks.size(block));

@@ -22,12 +22,12 @@ struct Factor {
 class BranchAndBound {
   public:
     BranchAndBound(const AverageInformation& information, const PlacementConstraints& constraints,
-                   int sensors, long most_branches)
-        : share_(information.share),
+                   int sensors, long max_branches)
+        : fraction_(information.fraction),
           constraints_(constraints),
           usable_(constraints.usable_nodes()),
           sensors_(sensors),
-          branches_left_(most_branches) {
+          branches_left_(max_branches) {
         for (const SetInformation& scenario : information.scenarios) {
             Factor factor{&scenario, std::vector<double>(scenario.nodes()), {}};
             for (int node = 0; node < scenario.nodes(); ++node)
@@ -50,7 +50,8 @@ class BranchAndBound {
     double gain(int node) const {
         double nats = 0.0;
         for (std::size_t s = 0; s < factors_.size(); ++s) {
-            if (share_[s] > 0.0) nats += share_[s] * 0.5 * std::log(std::max(factors_[s].left[node], 1.0));
+            if (fraction_[s] > 0.0)
+                nats += fraction_[s] * 0.5 * std::log(std::max(factors_[s].left[node], 1.0));
         }
         return nats;
     }
@@ -167,7 +168,7 @@ class BranchAndBound {
         }
     }
 
-    const std::vector<double>& share_;
+    const std::vector<double>& fraction_;
     const PlacementConstraints& constraints_;
     std::vector<int> usable_;
     int sensors_;
@@ -180,10 +181,10 @@ class BranchAndBound {
 
 }  // namespace
 
-MostInformative most_informative_layout(const AverageInformation& information,
-                                        const PlacementConstraints& constraints, int sensors,
-                                        long most_branches) {
-    return BranchAndBound(information, constraints, sensors, most_branches).run();
+MostInformative max_information_layout(const AverageInformation& information,
+                                       const PlacementConstraints& constraints, int sensors,
+                                       long max_branches) {
+    return BranchAndBound(information, constraints, sensors, max_branches).run();
 }
 
 }  // namespace capstan

@@ -19,16 +19,16 @@ struct MostInformative {
 /// What a layout tells on average over scenarios: `share` sum to one, scenarios.
 struct AverageInformation {
     std::vector<SetInformation> scenarios;
-    std::vector<double> share;  // scenarios
+    std::vector<double> fraction;  // scenarios
 };
 
 /// Branch and bound over the allowed layouts of `sensors` sensors (D-optimal). Half a log determinant of I
 /// plus a covariance never loses by a sensor, and a sensor adds the less the more there are (it is
 /// submodular), so what a partial layout tells plus the largest single gains that are left bounds all that it
-/// can become. At most `most_branches` partial layouts are looked at, however fast the machine; a search that
+/// can become. At most `max_branches` partial layouts are looked at, however fast the machine; a search that
 /// ends there still has a valid bound.
-MostInformative most_informative_layout(const AverageInformation& information,
-                                        const PlacementConstraints& constraints, int sensors,
-                                        long most_branches = 200000);
+MostInformative max_information_layout(const AverageInformation& information,
+                                       const PlacementConstraints& constraints, int sensors,
+                                       long max_branches = 200000);
 
 }  // namespace capstan

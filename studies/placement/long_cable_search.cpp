@@ -19,7 +19,7 @@ using Nodes = std::vector<int>;
 
 // A search tries hundreds of layouts one after the other; what it chose is judged with all repetitions.
 constexpr int search_repetitions = 400;
-constexpr int most_searched_sensors = 12;
+constexpr int max_searched_sensors = 12;
 constexpr int farthest_move = 3;
 
 // The best method of a layout, over the duty cycle.
@@ -71,7 +71,7 @@ class LayoutRater {
             FusionTimes times;
             const auto result = fuse_readings(study_, {s, options_.noise_index}, solved_[s], weights_[s],
                                               options_.jobs, times);
-            for (const storage::CellRecord& cell : result.cells) add(cell, share_of(s), sums);
+            for (const storage::CellRecord& cell : result.cells) add(cell, fraction_of(s), sums);
         }
         for (auto& [key, rating] : sums) {
             Rating& best = ratings_[study_.sensor_sets[key.first]];
@@ -84,16 +84,16 @@ class LayoutRater {
   private:
     int scenarios() const { return static_cast<int>(study_.scenarios.size()); }
 
-    double share_of(int scenario) const {
+    double fraction_of(int scenario) const {
         for (const RegimeInstants& regime : plan_.regimes) {
             if (regime.regime == study_.scenarios[scenario].regime) {
-                return regime.duty_share / static_cast<double>(regime.samples.size());
+                return regime.duty_fraction / static_cast<double>(regime.samples.size());
             }
         }
         return 0.0;
     }
 
-    static void add(const storage::CellRecord& cell, double share,
+    static void add(const storage::CellRecord& cell, double fraction,
                     std::map<std::pair<int, std::string>, Rating>& sums) {
         if (find_fusion_method(cell.method)->knowledge == Knowledge::direction_known) return;
         Rating& rating = sums[{cell.set_index, cell.method}];
@@ -101,9 +101,9 @@ class LayoutRater {
             rating.error_N = 0.0;
             rating.block_error_N.assign(cell.block_mean_abs_error_N.size(), 0.0);
         }
-        rating.error_N += share * cell.mean_abs_error_N;
+        rating.error_N += fraction * cell.mean_abs_error_N;
         for (std::size_t b = 0; b < rating.block_error_N.size(); ++b) {
-            rating.block_error_N[b] += share * cell.block_mean_abs_error_N[b];
+            rating.block_error_N[b] += fraction * cell.block_mean_abs_error_N[b];
         }
     }
 
@@ -177,7 +177,8 @@ AverageInformation information_of(const PreparedStudy& study, int noise_index) {
         information.scenarios.emplace_back(scenario, study.plan.noise_levels[noise_index].level);
         for (const RegimeInstants& regime : study.plan.regimes) {
             if (regime.regime == scenario.regime)
-                information.share.push_back(regime.duty_share / static_cast<double>(regime.samples.size()));
+                information.fraction.push_back(regime.duty_fraction /
+                                               static_cast<double>(regime.samples.size()));
         }
     }
     return information;
@@ -219,14 +220,14 @@ PlacementAnswer search_long_cable(const StudyPlan& plan, const PlacementOptions&
         plan.placement.largest_error_after_loss_N != PlacementPlan{}.largest_error_after_loss_N) {
         throw InvalidInput(
             {"placement.objective: this cable has too many layouts to score all, and the greedy search "
-             "knows only \"all_nodes\" without largest_error_after_loss_N; set most_sensors or forbid "
+             "knows only \"all_nodes\" without largest_error_after_loss_N; set max_sensors or forbid "
              "nodes until all layouts fit"});
     }
     const double start_s = wall_time_s();
     LayoutRater searched(with_repetitions(plan, std::min(plan.repetitions, search_repetitions)), options, 0);
     LayoutRater fresh(plan, options, fresh_draws);
     GreedySearch search(searched, plan.placement);
-    const int most = std::min(search.constraints().most_sensors(), most_searched_sensors);
+    const int most = std::min(search.constraints().max_sensors(), max_searched_sensors);
     const AverageInformation information = information_of(searched.study(), options.noise_index);
     Nodes layout = plan.placement.required_nodes;
     std::sort(layout.begin(), layout.end());
@@ -240,7 +241,7 @@ PlacementAnswer search_long_cable(const StudyPlan& plan, const PlacementOptions&
             CountAnswer count;
             count.sensors = static_cast<int>(layout.size());
             const MostInformative informative =
-                most_informative_layout(information, search.constraints(), count.sensors);
+                max_information_layout(information, search.constraints(), count.sensors);
             // From two starts, so that a wrong first sensor need not stay.
             Nodes best = search.improved(layout);
             const Nodes other = search.improved(informative.nodes);

@@ -14,8 +14,8 @@ bool holds(const std::vector<Value>& values, const Value& value) {
 const std::string required_key = "required_nodes";
 
 // In the order in which a clash names them.
-const std::vector<std::string> constraint_keys = {required_key,   "forbidden_nodes",     "minimum_spacing",
-                                                  "most_sensors", "most_in_distal_half", "budget"};
+const std::vector<std::string> constraint_keys = {required_key,  "forbidden_nodes",    "minimum_spacing",
+                                                  "max_sensors", "max_in_distal_half", "budget"};
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::vector<int> PlacementConstraints::usable_nodes() const {
 }
 
 // Spacing, budget and the given number each allow so many and no more.
-int PlacementConstraints::most_sensors() const {
+int PlacementConstraints::max_sensors() const {
     const std::vector<int> usable = usable_nodes();
     int by_spacing = 0;
     int next_free = 0;
@@ -47,7 +47,7 @@ int PlacementConstraints::most_sensors() const {
         if (spent > plan_.budget) break;
         ++by_budget;
     }
-    return std::min({by_spacing, by_budget, plan_.most_sensors});
+    return std::min({by_spacing, by_budget, plan_.max_sensors});
 }
 
 double PlacementConstraints::cost(const std::vector<int>& layout) const {
@@ -70,10 +70,10 @@ std::vector<std::string> PlacementConstraints::broken_by(const std::vector<int>&
         near = near || layout[k] - layout[k - 1] < plan_.minimum_spacing;
     }
     breaks("minimum_spacing", near);
-    breaks("most_sensors", static_cast<int>(layout.size()) > plan_.most_sensors);
+    breaks("max_sensors", static_cast<int>(layout.size()) > plan_.max_sensors);
     const auto in_distal_half =
         std::count_if(layout.begin(), layout.end(), [&](int node) { return 2 * node > nodes_ - 1; });
-    breaks("most_in_distal_half", in_distal_half > plan_.most_in_distal_half);
+    breaks("max_in_distal_half", in_distal_half > plan_.max_in_distal_half);
     breaks("budget", cost(layout) > plan_.budget);
     return broken;
 }

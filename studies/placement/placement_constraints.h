@@ -16,7 +16,7 @@ class PlacementConstraints {
     /// Nodes that are not forbidden, from 0, rising.
     std::vector<int> usable_nodes() const;
     /// No layout with more sensors can satisfy them.
-    int most_sensors() const;
+    int max_sensors() const;
     /// Sum of the nodes' costs.
     double cost(const std::vector<int>& layout) const;
     /// The keys of the constraints that a layout (nodes from 0, rising) breaks; none: it is allowed.

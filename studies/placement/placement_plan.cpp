@@ -39,8 +39,8 @@ std::string said_by(const std::string& key, const PlacementPlan& plan) {
     if (key == "required_nodes") return key + " = [" + nodes_as_people_count(plan.required_nodes) + "]";
     if (key == "forbidden_nodes") return key + " = [" + nodes_as_people_count(plan.forbidden_nodes) + "]";
     if (key == "minimum_spacing") return key + " = " + std::to_string(plan.minimum_spacing);
-    if (key == "most_sensors") return key + " = " + std::to_string(plan.most_sensors);
-    if (key == "most_in_distal_half") return key + " = " + std::to_string(plan.most_in_distal_half);
+    if (key == "max_sensors") return key + " = " + std::to_string(plan.max_sensors);
+    if (key == "max_in_distal_half") return key + " = " + std::to_string(plan.max_in_distal_half);
     std::snprintf(number, sizeof number, "%g", plan.budget);
     return key + " = " + number;
 }

@@ -25,8 +25,8 @@ struct PlacementPlan {
     std::vector<int> forbidden_nodes{};
     std::vector<int> required_nodes{};
     int minimum_spacing = 1;  ///< segments between neighbouring sensors
-    int most_sensors = 64;
-    int most_in_distal_half = 64;      ///< sensors beyond the middle of the cable
+    int max_sensors = 64;
+    int max_in_distal_half = 64;       ///< sensors beyond the middle of the cable
     std::vector<double> node_costs{};  // nodes; empty: each sensor costs 1
     double budget = 1e9;               ///< in the unit of node_costs
     /// Error after losing whichever one sensor is worst to lose; a layout may not exceed it [N].

@@ -21,13 +21,13 @@ struct ScenarioShares {
     std::vector<double> duty;                 // scenarios
 };
 
-ScenarioShares scenario_shares(const storage::StudyDescription& study);
+ScenarioShares scenario_fractions(const storage::StudyDescription& study);
 
 /// Every regime, minimax regret, duty cycle. `reference` is the candidate from which the regret of each
 /// regime is measured: best_of_regimes().
 std::vector<PlacementQuestion> placement_questions(const std::vector<PlacementCandidate>& candidates,
                                                    const storage::StudyDescription& study,
-                                                   const ScenarioShares& shares,
+                                                   const ScenarioShares& fractions,
                                                    const std::vector<int>& reference);
 
 }  // namespace capstan

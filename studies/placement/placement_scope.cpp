@@ -43,17 +43,17 @@ void summarise_quantile(const BlockErrors& errors, std::size_t candidates, std::
     const double q_N = quantile(sorted_N, judged_quantile);
     // Density from the spacing around the quantile, as wide as the square root of its distance to the end
     // asks for (Bofinger's n^-1/5 rule gives about this at a few thousand repetitions).
-    const double half_share = std::min(0.04, 1.0 - judged_quantile - 0.5 / repetitions);
-    const double spacing_N =
-        quantile(sorted_N, judged_quantile + half_share) - quantile(sorted_N, judged_quantile - half_share);
-    const double per_share_N = spacing_N / (2.0 * half_share);
+    const double half_fraction = std::min(0.04, 1.0 - judged_quantile - 0.5 / repetitions);
+    const double spacing_N = quantile(sorted_N, judged_quantile + half_fraction) -
+                             quantile(sorted_N, judged_quantile - half_fraction);
+    const double per_fraction_N = spacing_N / (2.0 * half_fraction);
     result.error_N[candidate] = q_N;
     for (int b = 0; b < blocks.count; ++b) {
         int above = 0;
         for (int r = b * blocks.size; r < (b + 1) * blocks.size; ++r) above += error_N[r] > q_N;
-        const double share_above = static_cast<double>(above) / blocks.size;
+        const double fraction_above = static_cast<double>(above) / blocks.size;
         result.block_error_N[candidate * blocks.count + b] =
-            q_N + (share_above - (1.0 - judged_quantile)) * per_share_N;
+            q_N + (fraction_above - (1.0 - judged_quantile)) * per_fraction_N;
     }
 }
 
@@ -84,28 +84,28 @@ ScenarioErrors summarise(const BlockErrors& errors, const CandidateList& candida
     return result;
 }
 
-PlacementScope::PlacementScope(std::string name, std::string regime, std::vector<double> share)
-    : name_(std::move(name)), regime_(std::move(regime)), share_{std::move(share)} {}
+PlacementScope::PlacementScope(std::string name, std::string regime, std::vector<double> fraction)
+    : name_(std::move(name)), regime_(std::move(regime)), fraction_{std::move(fraction)} {}
 
-PlacementScope::PlacementScope(std::string name, std::vector<std::vector<double>> regime_share,
+PlacementScope::PlacementScope(std::string name, std::vector<std::vector<double>> regime_fraction,
                                std::vector<int> reference)
-    : name_(std::move(name)), share_(std::move(regime_share)), reference_(std::move(reference)) {}
+    : name_(std::move(name)), fraction_(std::move(regime_fraction)), reference_(std::move(reference)) {}
 
 double PlacementScope::regret_N(const std::vector<ScenarioErrors>& scenarios, int candidate,
                                 std::size_t regime) const {
     double error_N = 0.0;
     for (std::size_t s = 0; s < scenarios.size(); ++s) {
-        const double share = share_[regime][s];
-        if (share == 0.0) continue;
-        error_N += share * scenarios[s].error_N[candidate];
-        if (!reference_.empty()) error_N -= share * scenarios[s].error_N[reference_[regime]];
+        const double fraction = fraction_[regime][s];
+        if (fraction == 0.0) continue;
+        error_N += fraction * scenarios[s].error_N[candidate];
+        if (!reference_.empty()) error_N -= fraction * scenarios[s].error_N[reference_[regime]];
     }
     return error_N;
 }
 
 std::size_t PlacementScope::worst_regime(const std::vector<ScenarioErrors>& scenarios, int candidate) const {
     std::size_t worst = 0;
-    for (std::size_t regime = 1; regime < share_.size(); ++regime) {
+    for (std::size_t regime = 1; regime < fraction_.size(); ++regime) {
         if (regret_N(scenarios, candidate, regime) > regret_N(scenarios, candidate, worst)) worst = regime;
     }
     return worst;
@@ -120,13 +120,13 @@ std::vector<double> PlacementScope::block_objective_N(const std::vector<Scenario
     const std::size_t regime = worst_regime(scenarios, candidate);
     std::vector<double> value_N(scenarios.front().blocks, 0.0);
     for (std::size_t s = 0; s < scenarios.size(); ++s) {
-        const double share = share_[regime][s];
-        if (share == 0.0) continue;
+        const double fraction = fraction_[regime][s];
+        if (fraction == 0.0) continue;
         const auto own_N = scenarios[s].blocks_of(candidate);
-        for (std::size_t b = 0; b < value_N.size(); ++b) value_N[b] += share * own_N[b];
+        for (std::size_t b = 0; b < value_N.size(); ++b) value_N[b] += fraction * own_N[b];
         if (reference_.empty()) continue;
         const auto reference_N = scenarios[s].blocks_of(reference_[regime]);
-        for (std::size_t b = 0; b < value_N.size(); ++b) value_N[b] -= share * reference_N[b];
+        for (std::size_t b = 0; b < value_N.size(); ++b) value_N[b] -= fraction * reference_N[b];
     }
     return value_N;
 }

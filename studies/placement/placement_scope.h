@@ -29,10 +29,10 @@ ScenarioErrors summarise(const BlockErrors& errors, const CandidateList& candida
 class PlacementScope {
   public:
     /// Mean over scenarios with the given shares, which sum to one.
-    PlacementScope(std::string name, std::string regime, std::vector<double> share);
-    /// Largest regret over regimes: how much worse than the regime's reference. `regime_share` is regimes x
-    /// scenarios; `reference` a candidate for each regime.
-    PlacementScope(std::string name, std::vector<std::vector<double>> regime_share,
+    PlacementScope(std::string name, std::string regime, std::vector<double> fraction);
+    /// Largest regret over regimes: how much worse than the regime's reference. `regime_fraction` is regimes
+    /// x scenarios; `reference` a candidate for each regime.
+    PlacementScope(std::string name, std::vector<std::vector<double>> regime_fraction,
                    std::vector<int> reference);
 
     const std::string& name() const { return name_; }      ///< "regime", "minimax_regret" or "duty_cycle"
@@ -49,8 +49,8 @@ class PlacementScope {
 
     std::string name_;
     std::string regime_;
-    std::vector<std::vector<double>> share_;  // regimes (or 1) x scenarios
-    std::vector<int> reference_;              // regimes; empty: none
+    std::vector<std::vector<double>> fraction_;  // regimes (or 1) x scenarios
+    std::vector<int> reference_;                 // regimes; empty: none
 };
 
 /// An estimate and its 95% interval, Student's t on block values.

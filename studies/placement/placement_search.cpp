@@ -13,16 +13,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Equal shares of a regime's own scenarios; zero elsewhere.
-std::vector<double> scenario_shares(const PreparedStudy& study, Regime regime) {
-    std::vector<double> share;
+// Equal fraction of a regime's own scenarios; zero elsewhere.
+std::vector<double> scenario_fractions(const PreparedStudy& study, Regime regime) {
+    std::vector<double> fraction;
     double total = 0.0;
     for (const PreparedScenario& scenario : study.scenarios) {
-        share.push_back(scenario.regime == regime ? 1.0 : 0.0);
-        total += share.back();
+        fraction.push_back(scenario.regime == regime ? 1.0 : 0.0);
+        total += fraction.back();
     }
-    for (double& s : share) s /= total;
-    return share;
+    for (double& s : fraction) s /= total;
+    return fraction;
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ bool PlacementSearch::survives_loss(const std::vector<double>& objective_N, int 
            after_loss_N(objective_N, candidate) <= limit_N;
 }
 
-double PlacementSearch::least_after_loss_N(const PlacementScope& scope) const {
+double PlacementSearch::min_after_loss_N(const PlacementScope& scope) const {
     const std::vector<double> objective_N = objectives_N(scope);
     double least_N = infinity;
     for (int c = candidates_.of(1, 0); c < candidates_.count(); ++c) {
@@ -106,18 +106,18 @@ std::vector<PlacementSearch::Ranked> PlacementSearch::ranked_sets(const std::vec
 
 std::vector<PlacementScope> PlacementSearch::scopes() const {
     std::vector<PlacementScope> scopes;
-    std::vector<std::vector<double>> regime_share;
+    std::vector<std::vector<double>> regime_fraction;
     std::vector<int> reference;
-    std::vector<double> duty_share(study_.scenarios.size(), 0.0);
+    std::vector<double> duty_fraction(study_.scenarios.size(), 0.0);
     for (const RegimeInstants& regime : study_.plan.regimes) {
-        regime_share.push_back(scenario_shares(study_, regime.regime));
-        for (std::size_t s = 0; s < duty_share.size(); ++s) {
-            duty_share[s] += regime.duty_share * regime_share.back()[s];
+        regime_fraction.push_back(scenario_fractions(study_, regime.regime));
+        for (std::size_t s = 0; s < duty_fraction.size(); ++s) {
+            duty_fraction[s] += regime.duty_fraction * regime_fraction.back()[s];
         }
-        scopes.emplace_back("regime", std::string(name_of(regime.regime)), regime_share.back());
+        scopes.emplace_back("regime", std::string(name_of(regime.regime)), regime_fraction.back());
         const std::vector<double> objective_N = objectives_N(scopes.back());
         int best = -1;
-        for (int sensors = 1; sensors <= candidates_.subsets.most_sensors(); ++sensors) {
+        for (int sensors = 1; sensors <= candidates_.subsets.max_sensors(); ++sensors) {
             const std::vector<Ranked> ranked = ranked_sets(objective_N, sensors);
             if (ranked.empty()) continue;
             if (best < 0 || ranked.front().objective_N < objective_N[best]) best = ranked.front().candidate;
@@ -126,20 +126,20 @@ std::vector<PlacementScope> PlacementSearch::scopes() const {
     }
     const bool any_allowed =
         std::all_of(reference.begin(), reference.end(), [](int best) { return best >= 0; });
-    if (any_allowed) scopes.emplace_back("minimax_regret", regime_share, reference);
-    scopes.emplace_back("duty_cycle", "", duty_share);
+    if (any_allowed) scopes.emplace_back("minimax_regret", regime_fraction, reference);
+    scopes.emplace_back("duty_cycle", "", duty_fraction);
     return scopes;
 }
 
 // By count: the set at which adding one sensor after the other ends; 0 where it came to no end.
 std::vector<int> PlacementSearch::greedy_forward(const std::vector<double>& objective_N) const {
     const SensorSubsets& subsets = candidates_.subsets;
-    std::vector<int> by_count(subsets.most_sensors() + 1, 0);
+    std::vector<int> by_count(subsets.max_sensors() + 1, 0);
     std::vector<int> required = study_.plan.placement.required_nodes;
     std::sort(required.begin(), required.end());
     int here = subsets.find(required);
     if (here > 0) by_count[subsets.sensors(here)] = here;
-    while (here >= 0 && subsets.sensors(here) < subsets.most_sensors()) {
+    while (here >= 0 && subsets.sensors(here) < subsets.max_sensors()) {
         int best = -1;
         for (std::size_t p = 0; p < subsets.usable_nodes().size(); ++p) {
             const std::uint64_t places = subsets.places(here) | std::uint64_t{1} << p;
@@ -159,7 +159,7 @@ std::vector<int> PlacementSearch::greedy_forward(const std::vector<double>& obje
 // By count: the set at which taking away one sensor after the other, beginning with all, ends.
 std::vector<int> PlacementSearch::greedy_backward(const std::vector<double>& objective_N) const {
     const SensorSubsets& subsets = candidates_.subsets;
-    std::vector<int> by_count(subsets.most_sensors() + 1, 0);
+    std::vector<int> by_count(subsets.max_sensors() + 1, 0);
     int here = subsets.find(subsets.usable_nodes());  // not there if a set of all is too large
     while (here > 0) {
         by_count[subsets.sensors(here)] = here;
@@ -177,26 +177,27 @@ std::vector<int> PlacementSearch::greedy_backward(const std::vector<double>& obj
 }
 
 // By count: the allowed set whose readings tell most of the state before any is made.
-std::vector<int> PlacementSearch::most_informative(const PlacementScope& scope) const {
+std::vector<int> PlacementSearch::max_information(const PlacementScope& scope) const {
     const SensorSubsets& subsets = candidates_.subsets;
-    std::vector<double> share(study_.scenarios.size(), 0.0);
+    std::vector<double> fraction(study_.scenarios.size(), 0.0);
     for (const RegimeInstants& regime : study_.plan.regimes) {
         const bool alone = scope.name() == "regime";
         if (alone && name_of(regime.regime) != scope.regime()) continue;
-        const std::vector<double> own = scenario_shares(study_, regime.regime);
-        for (std::size_t s = 0; s < share.size(); ++s) share[s] += (alone ? 1.0 : regime.duty_share) * own[s];
+        const std::vector<double> own = scenario_fractions(study_, regime.regime);
+        for (std::size_t s = 0; s < fraction.size(); ++s)
+            fraction[s] += (alone ? 1.0 : regime.duty_fraction) * own[s];
     }
     std::vector<SetInformation> information;
     for (const PreparedScenario& scenario : study_.scenarios) {
         information.emplace_back(scenario, study_.plan.noise_levels[noise_index_].level);
     }
-    std::vector<int> by_count(subsets.most_sensors() + 1, 0);
+    std::vector<int> by_count(subsets.max_sensors() + 1, 0);
     std::vector<double> most(by_count.size(), -1.0);
     for (int s = 1; s < subsets.count(); ++s) {
         if (!allowed_[s]) continue;
         double nats = 0.0;
-        for (std::size_t k = 0; k < share.size(); ++k) {
-            if (share[k] > 0.0) nats += share[k] * information[k].nats(subsets.nodes_of(s));
+        for (std::size_t k = 0; k < fraction.size(); ++k) {
+            if (fraction[k] > 0.0) nats += fraction[k] * information[k].nats(subsets.nodes_of(s));
         }
         if (nats > most[subsets.sensors(s)]) {
             most[subsets.sensors(s)] = nats;
@@ -266,9 +267,9 @@ ScopeAnswer PlacementSearch::answer(const PlacementScope& scope, int runners_up)
     const std::vector<double> objective_N = objectives_N(scope);
     const std::vector<int> forward = greedy_forward(objective_N);
     const std::vector<int> backward = greedy_backward(objective_N);
-    const std::vector<int> informative = most_informative(scope);
+    const std::vector<int> informative = max_information(scope);
     ScopeAnswer answer{scope.name(), scope.regime(), {}, 0};
-    for (int sensors = 1; sensors <= subsets.most_sensors(); ++sensors) {
+    for (int sensors = 1; sensors <= subsets.max_sensors(); ++sensors) {
         const std::vector<Ranked> ranked = ranked_sets(objective_N, sensors);
         if (ranked.empty()) continue;
         CountAnswer count;

@@ -22,7 +22,7 @@ class PlacementSearch {
     ScopeAnswer answer(const PlacementScope& scope, int runners_up) const;
 
     /// The smallest error after the loss that is worst, over all layouts that the other constraints allow.
-    double least_after_loss_N(const PlacementScope& scope) const;
+    double min_after_loss_N(const PlacementScope& scope) const;
 
   private:
     struct Ranked {
@@ -36,7 +36,7 @@ class PlacementSearch {
     bool survives_loss(const std::vector<double>& objective_N, int candidate) const;
     std::vector<int> greedy_forward(const std::vector<double>& objective_N) const;
     std::vector<int> greedy_backward(const std::vector<double>& objective_N) const;
-    std::vector<int> most_informative(const PlacementScope& scope) const;
+    std::vector<int> max_information(const PlacementScope& scope) const;
     JudgedLayout judged(const std::vector<double>& objective_N, const std::string& how, int candidate) const;
     void compare_all(const PlacementScope& scope, const std::vector<double>& objective_N,
                      CountAnswer& answer) const;

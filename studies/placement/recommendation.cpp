@@ -111,15 +111,15 @@ std::vector<storage::RecommendationRecord> recommend(storage::Database& database
                                                      const RecommendationPolicy& policy,
                                                      const FreshErrors& fresh_errors) {
     const storage::StudyDescription study = storage::load_study(database, study_id);
-    const ScenarioShares shares = scenario_shares(study);
+    const ScenarioShares fractions = scenario_fractions(study);
     std::vector<storage::RecommendationRecord> recommendations;
     for (int noise = 0; noise < static_cast<int>(study.noise_levels.size()); ++noise) {
         const auto candidates =
             placement_candidates(study, storage::read_cell_summaries(database, study_id, noise));
         if (candidates.empty()) continue;  // only methods that are told the direction
-        const std::vector<int> reference = best_of_regimes(candidates, shares.regime);
+        const std::vector<int> reference = best_of_regimes(candidates, fractions.regime);
         std::vector<Choice> choices;
-        for (const PlacementQuestion& question : placement_questions(candidates, study, shares, reference))
+        for (const PlacementQuestion& question : placement_questions(candidates, study, fractions, reference))
             choices.push_back(choose(noise, candidates, question, policy));
 
         // On fresh draws: what was chosen, in the order of the questions, then what regrets are measured
@@ -132,7 +132,7 @@ std::vector<storage::RecommendationRecord> recommend(storage::Database& database
             chosen.push_back(candidates[each]);
         }
         const auto asked_afresh =
-            placement_questions(fresh_errors(noise, chosen), study, shares, chosen_reference);
+            placement_questions(fresh_errors(noise, chosen), study, fractions, chosen_reference);
         for (std::size_t q = 0; q < choices.size(); ++q) {
             storage::RecommendationRecord& record = choices[q].record;
             const Score& score = asked_afresh[q].scores[q];

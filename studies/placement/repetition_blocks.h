@@ -8,9 +8,9 @@ struct RepetitionBlocks {
     int repetitions = 0;
 
     /// At most this many: enough for the spread between blocks, few enough to store for every cell.
-    static constexpr int most_blocks = 40;
+    static constexpr int max_blocks = 40;
 
-    int block_size() const { return (repetitions + most_blocks - 1) / most_blocks; }
+    int block_size() const { return (repetitions + max_blocks - 1) / max_blocks; }
     int count() const { return (repetitions + block_size() - 1) / block_size(); }
     int first(int block) const { return block * block_size(); }
     int end(int block) const {

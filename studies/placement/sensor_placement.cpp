@@ -13,10 +13,10 @@ namespace capstan {
 namespace {
 
 // And beyond this many nodes times layouts an exact search takes many minutes.
-constexpr double most_scored_nodes = 1.2e6;
+constexpr double max_scored_nodes = 1.2e6;
 
 // Beyond this the scores of all candidates do not fit into the memory that a study may take.
-constexpr double most_score_bytes = 600.0 * 1024 * 1024;
+constexpr double max_score_bytes = 600.0 * 1024 * 1024;
 
 std::vector<const FusionMethod*> fusable_methods(const PreparedStudy& study) {
     std::vector<const FusionMethod*> methods;
@@ -31,8 +31,8 @@ EqualBlocks blocks_of(int repetitions) {
     return {blocks.count(), blocks.block_size()};  // rounds up to whole blocks
 }
 
-double score_bytes(const PreparedStudy& study, int nodes, int most_sensors, std::size_t methods) {
-    const double candidates = SensorSubsets::how_many(nodes, most_sensors) * static_cast<double>(methods);
+double score_bytes(const PreparedStudy& study, int nodes, int max_sensors, std::size_t methods) {
+    const double candidates = SensorSubsets::how_many(nodes, max_sensors) * static_cast<double>(methods);
     const EqualBlocks blocks = blocks_of(study.plan.repetitions);
     const double kept = sizeof(double) * candidates * (blocks.count + 1.0);
     return static_cast<double>(study.scenarios.size()) *
@@ -43,15 +43,15 @@ double score_bytes(const PreparedStudy& study, int nodes, int most_sensors, std:
 std::optional<SensorSubsets> all_subsets(const PreparedStudy& study, std::size_t methods) {
     std::vector<int> all(study.nodes());
     for (int node = 0; node < study.nodes(); ++node) all[node] = node;
-    if (score_bytes(study, study.nodes(), study.nodes(), methods) <= most_score_bytes) {
+    if (score_bytes(study, study.nodes(), study.nodes(), methods) <= max_score_bytes) {
         return SensorSubsets(all, study.nodes());
     }
     const PlacementConstraints constraints(study.plan.placement, study.nodes());
     const std::vector<int> usable = constraints.usable_nodes();
-    const int most = constraints.most_sensors();
+    const int most = constraints.max_sensors();
     if (usable.size() > 63 ||
-        SensorSubsets::how_many(static_cast<int>(usable.size()), most) * study.nodes() > most_scored_nodes ||
-        score_bytes(study, static_cast<int>(usable.size()), most, methods) > most_score_bytes)
+        SensorSubsets::how_many(static_cast<int>(usable.size()), most) * study.nodes() > max_scored_nodes ||
+        score_bytes(study, static_cast<int>(usable.size()), most, methods) > max_score_bytes)
         return std::nullopt;
     return SensorSubsets(usable, most);
 }
@@ -87,12 +87,12 @@ void refuse_empty(const PlacementSearch& search, const std::vector<PlacementScop
             "placement.largest_error_after_loss_N: no layout that the other constraints allow stays below "
             "it (%s%s); the best leaves %.4g N",
             answers[k].scope.c_str(), answers[k].regime.empty() ? "" : (" " + answers[k].regime).c_str(),
-            search.least_after_loss_N(scopes[k]));
+            search.min_after_loss_N(scopes[k]));
         throw InvalidInput({text});
     }
 }
 
-double least_resolved_N(const std::vector<ScopeAnswer>& scopes) {
+double min_resolved_N(const std::vector<ScopeAnswer>& scopes) {
     double worst_N = 0.0;
     for (const ScopeAnswer& scope : scopes) {
         for (const CountAnswer& count : scope.counts) worst_N = std::max(worst_N, count.at_most_better_N);
@@ -136,12 +136,12 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
             answer.scopes.push_back(search.answer(scope, options.runners_up));
         refuse_empty(search, scopes, answer.scopes);
         if (!options.resolve_to_N) break;
-        const double left_N = least_resolved_N(answer.scopes);
+        const double left_N = min_resolved_N(answer.scopes);
         char text[120];
         std::snprintf(text, sizeof text, "%d repetitions: some layout may still be better by %.4f N",
                       blocks.repetitions(), left_N);
         progress(text);
-        if (left_N <= *options.resolve_to_N || 2 * blocks.repetitions() > options.most_repetitions) break;
+        if (left_N <= *options.resolve_to_N || 2 * blocks.repetitions() > options.max_repetitions) break;
     }
 
     const double fresh_start_s = wall_time_s();

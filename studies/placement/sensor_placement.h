@@ -17,7 +17,7 @@ struct PlacementOptions {
     /// Repetitions are added until, with 95% certainty, no candidate is better than the optimum of its count
     /// by more than this [N]; nothing: the plan's repetitions only.
     std::optional<double> resolve_to_N;
-    int most_repetitions = 128000;  ///< where that stops in any case
+    int max_repetitions = 128000;  ///< where that stops in any case
     std::function<void(const std::string&)> on_progress;
 };
 

@@ -7,7 +7,7 @@ namespace capstan {
 
 namespace {
 
-constexpr int most_direct_places = 16;
+constexpr int max_direct_places = 16;
 
 // binomial[n][k], Pascal's triangle.
 std::vector<std::vector<double>> binomials(int n, int k) {
@@ -30,20 +30,20 @@ std::uint64_t next_with_as_many(std::uint64_t places) {
 
 }  // namespace
 
-double SensorSubsets::how_many(int nodes, int most_sensors) {
-    const std::vector<std::vector<double>> binomial = binomials(nodes, std::min(nodes, most_sensors));
+double SensorSubsets::how_many(int nodes, int max_sensors) {
+    const std::vector<std::vector<double>> binomial = binomials(nodes, std::min(nodes, max_sensors));
     double sets = 0.0;
     for (const double of_a_size : binomial[nodes]) sets += of_a_size;
     return sets;
 }
 
-SensorSubsets::SensorSubsets(std::vector<int> nodes, int most_sensors)
-    : nodes_(std::move(nodes)), most_sensors_(std::min(most_sensors, static_cast<int>(nodes_.size()))) {
+SensorSubsets::SensorSubsets(std::vector<int> nodes, int max_sensors)
+    : nodes_(std::move(nodes)), max_sensors_(std::min(max_sensors, static_cast<int>(nodes_.size()))) {
     const int usable = static_cast<int>(nodes_.size());
-    binomial_ = binomials(usable, most_sensors_);
+    binomial_ = binomials(usable, max_sensors_);
     first_of_size_ = {0};
     places_ = {0};
-    for (int size = 1; size <= most_sensors_; ++size) {
+    for (int size = 1; size <= max_sensors_; ++size) {
         first_of_size_.push_back(count());
         std::uint64_t places = (std::uint64_t{1} << size) - 1;
         for (const std::uint64_t past = std::uint64_t{1} << usable; places < past;
@@ -51,7 +51,7 @@ SensorSubsets::SensorSubsets(std::vector<int> nodes, int most_sensors)
             places_.push_back(places);
         }
     }
-    if (usable <= most_direct_places) {
+    if (usable <= max_direct_places) {
         direct_.assign(std::size_t{1} << usable, -1);
         for (int subset = 0; subset < count(); ++subset) direct_[places_[subset]] = subset;
     }
@@ -67,7 +67,7 @@ SensorSubsets::SensorSubsets(std::vector<int> nodes, int most_sensors)
 
 void SensorSubsets::descend(int subset, int first_place) {
     if (subset != 0) depth_first_.push_back(subset);
-    if (sensors(subset) == most_sensors_) return;
+    if (sensors(subset) == max_sensors_) return;
     for (int place = first_place; place < static_cast<int>(nodes_.size()); ++place) {
         descend(at(places_[subset] | std::uint64_t{1} << place), place + 1);
     }
@@ -93,7 +93,7 @@ int SensorSubsets::at(std::uint64_t places) const {
 }
 
 int SensorSubsets::find(const std::vector<int>& nodes) const {
-    if (static_cast<int>(nodes.size()) > most_sensors_) return -1;
+    if (static_cast<int>(nodes.size()) > max_sensors_) return -1;
     std::uint64_t places = 0;
     for (const int node : nodes) {
         const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node);

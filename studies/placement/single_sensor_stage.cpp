@@ -58,7 +58,7 @@ storage::SingleSensorRecord summarise_known(const PreparedStudy& study, const Pr
     auto record = summarise_sensor(scenario, study.plan.repetitions, sensor, solved,
                                    [&](int) -> const SensorBranch& { return branch; });
     record.knowledge = "direction_known";
-    record.at_rest_share = known ? 0.0 : 1.0;
+    record.at_rest_fraction = known ? 0.0 : 1.0;
     return record;
 }
 
@@ -80,9 +80,9 @@ storage::SingleSensorRecord summarise_unknown(const PreparedStudy& study, const 
         ambiguous += verifying > 1;
         at_rest += (moving_nodes(branch_of(r).directions) >> sensor & 1) == 0;
     }
-    record.unverified_share = static_cast<double>(unverified) / repetitions;
-    record.ambiguous_share = static_cast<double>(ambiguous) / repetitions;
-    record.at_rest_share = static_cast<double>(at_rest) / repetitions;
+    record.unverified_fraction = static_cast<double>(unverified) / repetitions;
+    record.ambiguous_fraction = static_cast<double>(ambiguous) / repetitions;
+    record.at_rest_fraction = static_cast<double>(at_rest) / repetitions;
     return record;
 }
 

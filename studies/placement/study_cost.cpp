@@ -61,8 +61,8 @@ class Pilot {
     // another part while there is time.
     void time_parts() {
         const double start_s = thread_processor_time_s();
-        const int most_parts = parts_of(plans_.first(1));
-        for (int round = 0; round < most_parts; ++round) {
+        const int max_parts = parts_of(plans_.first(1));
+        for (int round = 0; round < max_parts; ++round) {
             for (const std::size_t k : spread_order()) {
                 const bool enough = thread_processor_time_s() - start_s >= options_.seconds;
                 if (enough && timings_.count(nodes_of(plans_[k])) != 0) continue;

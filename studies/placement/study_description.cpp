@@ -53,7 +53,7 @@ storage::StudyDescription describe(const PreparedStudy& study, const std::string
     description.study.segments = study.step.cable().segments();
     description.cable_segments = cable_segments(study.step.cable());
     for (const RegimeInstants& regime : plan.regimes) {
-        description.regimes.push_back({std::string(name_of(regime.regime)), regime.duty_share});
+        description.regimes.push_back({std::string(name_of(regime.regime)), regime.duty_fraction});
     }
     for (const PreparedScenario& scenario : study.scenarios) {
         description.scenarios.push_back(scenario_record(study, scenario));

@@ -62,7 +62,7 @@ class Doubling {
 
     ExtensionOutcome run(const std::string& program_version, const RunOptions& options) {
         // A larger one that is there, killed or not, was begun because all smaller ones did not do.
-        for (int n = repetitions_after(1); n <= resolution_.most_repetitions && n > 0; n *= 2) {
+        for (int n = repetitions_after(1); n <= resolution_.max_repetitions && n > 0; n *= 2) {
             if (find_same(database_, study_.with_repetitions(n))) doublings_ = rounds_to(n);
         }
         if (doublings_ > 0 && !run_round(program_version, options)) return outcome_;
@@ -82,7 +82,7 @@ class Doubling {
         while (repetitions_after(rounds) < repetitions) ++rounds;
         return rounds;
     }
-    bool can_double() const { return 2LL * repetitions_after(doublings_) <= resolution_.most_repetitions; }
+    bool can_double() const { return 2LL * repetitions_after(doublings_) <= resolution_.max_repetitions; }
 
     double look() {
         const double alpha = 0.025 / static_cast<double>(1 << doublings_);
@@ -113,14 +113,15 @@ class Doubling {
 
 double unresolved_N(storage::Database& database, std::int64_t study_id, double alpha) {
     const storage::StudyDescription study = storage::load_study(database, study_id);
-    const ScenarioShares shares = scenario_shares(study);
+    const ScenarioShares fractions = scenario_fractions(study);
     double worst_N = 0.0;
     for (int noise = 0; noise < static_cast<int>(study.noise_levels.size()); ++noise) {
         const auto candidates =
             placement_candidates(study, storage::read_cell_summaries(database, study_id, noise));
         if (candidates.empty()) continue;  // only methods that are told the direction
-        const std::vector<int> reference = best_of_regimes(candidates, shares.regime);
-        for (const PlacementQuestion& question : placement_questions(candidates, study, shares, reference)) {
+        const std::vector<int> reference = best_of_regimes(candidates, fractions.regime);
+        for (const PlacementQuestion& question :
+             placement_questions(candidates, study, fractions, reference)) {
             worst_N = std::max(worst_N, unresolved_at_each_count_N(candidates, question.scores, alpha));
         }
     }

@@ -36,7 +36,7 @@ ExtensionOutcome extend_study(storage::Database& database, const StudyToExtend& 
 
 struct Resolution {
     double tolerance_N = 0.0;
-    int most_repetitions = 128000;
+    int max_repetitions = 128000;
     std::function<void(int repetitions, double unresolved_N)> on_look;  ///< may be empty
 };
 

@@ -159,9 +159,9 @@ void check_regimes(const StudyPlan& plan, Problems& problems) {
         if (regime.samples.empty())
             problems.push_back(where + ": samples is empty; name at least one instant");
         instants += static_cast<int>(regime.samples.size());
-        duty += regime.duty_share;
-        if (!(regime.duty_share >= 0.0 && regime.duty_share <= 1.0)) {
-            problems.push_back(where + ": duty_share is " + number(regime.duty_share) +
+        duty += regime.duty_fraction;
+        if (!(regime.duty_fraction >= 0.0 && regime.duty_fraction <= 1.0)) {
+            problems.push_back(where + ": duty_fraction is " + number(regime.duty_fraction) +
                                ", but must be 0 to 1");
         }
         for (const int sample : regime.samples) {
@@ -175,7 +175,7 @@ void check_regimes(const StudyPlan& plan, Problems& problems) {
     }
     if (instants == 0) problems.push_back("regime: no instant is named; add a [[regime]] with samples");
     if (instants > 0 && !(std::abs(duty - 1.0) < 1e-9)) {
-        problems.push_back("regime: the duty_share values sum to " + number(duty) + ", but must sum to 1");
+        problems.push_back("regime: the duty_fraction values sum to " + number(duty) + ", but must sum to 1");
     }
 }
 
@@ -243,9 +243,9 @@ std::vector<std::string> problems_of(const StudyPlan& plan) {
         problems.push_back("recommendation.worthwhile_gain_N must be 0 or more");
     try {
         const Cable cable(plan.transmission.cable);
-        if (cable.segments() > most_estimated_segments) {
+        if (cable.segments() > max_estimated_segments) {
             problems.push_back("transmission.segments is " + std::to_string(cable.segments()) +
-                               ", but a study takes at most " + std::to_string(most_estimated_segments));
+                               ", but a study takes at most " + std::to_string(max_estimated_segments));
         }
     } catch (const InvalidInput& invalid) {
         for (const std::string& problem : invalid.problems()) problems.push_back("transmission: " + problem);

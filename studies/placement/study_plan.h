@@ -33,7 +33,7 @@ struct EndMotion {
 
 struct Transmission {
     CableSpecification cable;
-    ModelRules rules = ModelRules::cured();
+    ModelRules rules = ModelRules::consistent();
 };
 
 /// The true motion, sampled at a fixed rate; sample 0 is the pretensioned cable at rest.
@@ -50,11 +50,11 @@ std::string_view name_of(Regime regime);
 inline constexpr Regime all_regimes[] = {Regime::mass, Regime::partial_proximal, Regime::partial_distal,
                                          Regime::partial_both};
 
-/// The instants at which a regime is judged, and its share of the working time.
+/// The instants at which a regime is judged, and its fraction of the working time.
 struct RegimeInstants {
     Regime regime = Regime::mass;
     std::vector<int> samples;
-    double duty_share = 0.0;
+    double duty_fraction = 0.0;
 };
 
 struct NamedNoise {

@@ -28,7 +28,7 @@ SubsetCurves::SubsetCurves(const CandidateList& candidates, const FeasibleCurve&
     }
     const std::size_t points = curve.points();
     per_sensor_.resize(candidates.subsets.usable_nodes().size() * points);
-    stack_.resize((candidates.subsets.most_sensors() + 1) * points, 0.0);
+    stack_.resize((candidates.subsets.max_sensors() + 1) * points, 0.0);
     log_likelihood_.resize(points);
     stride_ = padded_nodes(curve.nodes());
     tension_N_.resize(stride_);
@@ -42,12 +42,12 @@ SubsetCurves::SubsetCurves(const CandidateList& candidates, const FeasibleCurve&
 // maximum_likelihood_around() on profiles whose nodes lie side by side.
 void SubsetCurves::score_maximum_likelihood(std::span<const double> log_likelihood, int peak,
                                             double* error_N) {
-    const CurvePlace place = most_likely_place(log_likelihood, peak);
+    const CurvePlace place = likeliest_place(log_likelihood, peak);
     const double* here_N = profile_N_.data() + static_cast<std::ptrdiff_t>(place.point) * stride_;
     const double* there_N = profile_N_.data() + static_cast<std::ptrdiff_t>(place.neighbour) * stride_;
     double* tension_N = tension_N_.data();
     for (int node = 0; node < stride_; ++node)
-        tension_N[node] = here_N[node] + place.share * (there_N[node] - here_N[node]);
+        tension_N[node] = here_N[node] + place.fraction * (there_N[node] - here_N[node]);
     measure_.write([tension_N](int node) { return tension_N[node]; }, error_N);
 }
 

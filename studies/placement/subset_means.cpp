@@ -91,8 +91,8 @@ void SubsetMeans::score(const SensorEstimates& estimates, std::span<double> erro
     votes_.read(estimates);
     std::vector<const double*> profile_N;
     for (const int node : subsets.usable_nodes()) profile_N.push_back(estimates.padded_profile_N(node));
-    if (any_equal) fill_subset_sums(subsets, profile_N, truth_N_, measure_.share, equal_);
-    if (any_weighted) fill_subset_sums(subsets, profile_N, truth_N_, measure_.share, weighted_);
+    if (any_equal) fill_subset_sums(subsets, profile_N, truth_N_, measure_.fraction, equal_);
+    if (any_weighted) fill_subset_sums(subsets, profile_N, truth_N_, measure_.fraction, weighted_);
 
     for (int s = 1; s < subsets.count(); ++s) {
         const auto slot = [&](int method) {

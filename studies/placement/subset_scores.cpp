@@ -13,19 +13,19 @@ namespace capstan {
 namespace {
 
 // What of a repetition's node errors counts: shares that sum to one.
-std::vector<double> node_shares(PlacementObjective objective, int nodes) {
-    std::vector<double> share(padded_nodes(nodes), 0.0);
+std::vector<double> node_fractions(PlacementObjective objective, int nodes) {
+    std::vector<double> fraction(padded_nodes(nodes), 0.0);
     switch (objective) {
         case PlacementObjective::load_end:
-            share[nodes - 1] = 1.0;
+            fraction[nodes - 1] = 1.0;
             break;
         case PlacementObjective::all_nodes:
         case PlacementObjective::worst_node:
         case PlacementObjective::quantile_95:
-            std::fill(share.begin(), share.begin() + nodes, 1.0 / nodes);
+            std::fill(fraction.begin(), fraction.begin() + nodes, 1.0 / nodes);
             break;
     }
-    return share;
+    return fraction;
 }
 
 int width_of(PlacementObjective objective, int nodes) {
@@ -43,8 +43,8 @@ void score_blocks(const ScoringTask& task, const SolvedReadings& solved, int fir
     const PreparedScenario& scenario = task.study.scenarios[task.point.scenario_index];
     const int nodes = task.study.nodes();
     const auto candidates = static_cast<std::size_t>(task.candidates.count());
-    const std::vector<double> share = node_shares(task.objective, nodes);
-    const ErrorMeasure measure{scenario.truth.tension_N, share, width_of(task.objective, nodes)};
+    const std::vector<double> fraction = node_fractions(task.objective, nodes);
+    const ErrorMeasure measure{scenario.truth.tension_N, fraction, width_of(task.objective, nodes)};
     const CurveLikelihood likelihood(scenario.curve,
                                      task.study.plan.noise_levels[task.point.noise_index].level);
     errors.width = measure.width;

@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, profile_group>;  // its lanes divide a group
 
 void fill(const SensorSubsets& subsets, const double* const* profile_N, const double* truth_N,
-          const double* share, SubsetSums& sums) {
+          const double* fraction, SubsetSums& sums) {
     const Tag d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const int stride = sums.stride;
@@ -44,7 +44,7 @@ void fill(const SensorSubsets& subsets, const double* const* profile_N, const do
                 hn::StoreU(here, d, sum + node);
                 if (keeps_averages) hn::StoreU(mean, d, average + node);
                 const auto off = hn::Abs(hn::Sub(mean, hn::LoadU(d, truth_N + node)));
-                error = hn::Add(error, hn::Mul(hn::LoadU(d, share + node), off));
+                error = hn::Add(error, hn::Mul(hn::LoadU(d, fraction + node), off));
             }
             hn::StoreU(error, d, partial + first);
         }
@@ -77,8 +77,8 @@ SubsetSums make_subset_sums(const SensorSubsets& subsets, std::vector<double> fa
 }
 
 void fill_subset_sums(const SensorSubsets& subsets, std::span<const double* const> profile_N,
-                      std::span<const double> truth_N, std::span<const double> share, SubsetSums& sums) {
-    HWY_DYNAMIC_DISPATCH(fill)(subsets, profile_N.data(), truth_N.data(), share.data(), sums);
+                      std::span<const double> truth_N, std::span<const double> fraction, SubsetSums& sums) {
+    HWY_DYNAMIC_DISPATCH(fill)(subsets, profile_N.data(), truth_N.data(), fraction.data(), sums);
 }
 
 }  // namespace capstan

@@ -14,7 +14,7 @@ struct SubsetSums {
     std::vector<double> weight;      // subsets: sum of factors
     std::vector<double> tension_N;   // subsets x stride: sum of factor times profile
     std::vector<double> average_N;   // subsets x stride: tension_N / weight; empty where nobody asks for it
-    std::vector<double> mean_abs_N;  // subsets: of average - truth, weighted by the shares of the nodes
+    std::vector<double> mean_abs_N;  // subsets: of average - truth, weighted by the fraction of the nodes
 
     const double* sum_N(int subset) const {
         return tension_N.data() + static_cast<std::ptrdiff_t>(subset) * stride;
@@ -33,6 +33,6 @@ SubsetSums make_subset_sums(const SensorSubsets& subsets, std::vector<double> fa
 /// Fills the sums. `profile_N` is one pointer for each place, to `stride` numbers; truth and share are
 /// `stride` long, zero in the padding.
 void fill_subset_sums(const SensorSubsets& subsets, std::span<const double* const> profile_N,
-                      std::span<const double> truth_N, std::span<const double> share, SubsetSums& sums);
+                      std::span<const double> truth_N, std::span<const double> fraction, SubsetSums& sums);
 
 }  // namespace capstan

@@ -10,14 +10,14 @@ namespace capstan {
 namespace {
 
 // Of the grid on which effects are simulated: in each of the plan's segments.
-constexpr int least_segments = 60;
+constexpr int min_segments = 60;
 // A node that goes this much less than the one that goes most is at rest: bristles give a little.
-constexpr double at_rest_share = 1e-2;
+constexpr double at_rest_fraction = 1e-2;
 // Displacements are the pulley's turns.
 constexpr double radius_m = 1.0;
 
 int pieces_of_each_segment(int segments) {
-    return (least_segments + segments - 1) / segments;
+    return (min_segments + segments - 1) / segments;
 }
 
 CableState read_off(const BenchSimulation& bench, const Cable& cable, int pieces) {
@@ -42,7 +42,7 @@ MotionPattern pattern_between(const CableState& before, const CableState& now) {
     }
     const auto way = [&](int node) {
         const double by = moved[static_cast<std::size_t>(node)];
-        return std::abs(by) <= at_rest_share * most ? Direction::none : direction_of(by);
+        return std::abs(by) <= at_rest_fraction * most ? Direction::none : direction_of(by);
     };
     const auto moving_from = [&](int end, int step) {
         int count = 0;

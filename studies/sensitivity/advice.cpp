@@ -14,7 +14,7 @@ namespace capstan::sensitivity {
 namespace {
 
 // Layouts times nodes; more take many minutes under a hundred sets of parameters.
-constexpr double most_scored_nodes = 1.0e5;
+constexpr double max_scored_nodes = 1.0e5;
 
 EqualBlocks blocks_of(int repetitions) {
     const RepetitionBlocks blocks{repetitions};
@@ -31,19 +31,19 @@ std::vector<const FusionMethod*> methods_of(const PreparedStudy& study) {
     return methods;
 }
 
-// Equal shares of each regime's instants.
-std::vector<double> shares_of(const PreparedStudy& study) {
+// Equal fraction of each regime's instants.
+std::vector<double> fractions_of(const PreparedStudy& study) {
     const std::string& asked = study.plan.sensitivity.regime;
-    std::vector<double> share;
+    std::vector<double> fraction;
     for (const PreparedScenario& scenario : study.scenarios) {
         const auto regime =
             std::find_if(study.plan.regimes.begin(), study.plan.regimes.end(),
                          [&](const RegimeInstants& each) { return each.regime == scenario.regime; });
         const double of_regime =
-            asked == "duty_cycle" ? regime->duty_share : (name_of(regime->regime) == asked ? 1.0 : 0.0);
-        share.push_back(of_regime / static_cast<double>(regime->samples.size()));
+            asked == "duty_cycle" ? regime->duty_fraction : (name_of(regime->regime) == asked ? 1.0 : 0.0);
+        fraction.push_back(of_regime / static_cast<double>(regime->samples.size()));
     }
-    return share;
+    return fraction;
 }
 
 bool has_regime(const StudyPlan& plan) {
@@ -84,7 +84,7 @@ std::vector<std::string> problems_of_question(const StudyPlan& plan) {
     }
     const int nodes = static_cast<int>(
         PlacementConstraints(plan.placement, plan.transmission.cable.segments + 1).usable_nodes().size());
-    if (nodes > 63 || SensorSubsets::how_many(nodes, asked.sensors) * nodes > most_scored_nodes) {
+    if (nodes > 63 || SensorSubsets::how_many(nodes, asked.sensors) * nodes > max_scored_nodes) {
         problems.push_back(
             "sensitivity.sensors: so many nodes have too many layouts of " + std::to_string(asked.sensors) +
             " sensors to score under many sets of parameters; ask about fewer sensors, or forbid "
@@ -127,7 +127,7 @@ std::optional<AdviceThere> AdviceQuestion::ask(const std::vector<double>& ratio,
         throw InvalidInput({"sensitivity.sensors: no layout of " + std::to_string(sensors) +
                             " sensors satisfies the constraints in [placement]; ask about another number"});
     }
-    const PlacementScope scope("regime", "", shares_of(study));
+    const PlacementScope scope("regime", "", fractions_of(study));
     const auto weights = ScoredDraws::weights(study, noise_index_, 1);
     const EqualBlocks blocks = blocks_of(plan->repetitions);
     const PlacementObjective objective = plan->placement.objective;

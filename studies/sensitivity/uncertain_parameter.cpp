@@ -43,18 +43,19 @@ int nearest(const std::vector<int>& samples, int sample) {
 bool move_instants(StudyPlan& plan) {
     const auto samples = samples_by_regime(plan);
     std::vector<RegimeInstants> left;
-    double share = 0.0;
+    double fraction = 0.0;
     for (RegimeInstants regime : plan.regimes) {
         const auto found = samples.find(regime.regime);
         if (found == samples.end()) continue;
         for (int& sample : regime.samples) sample = nearest(found->second, sample);
-        share += regime.duty_share;
+        fraction += regime.duty_fraction;
         left.push_back(std::move(regime));
     }
     if (left.empty()) return false;
     const bool all_left = left.size() == plan.regimes.size();
     for (RegimeInstants& regime : left) {
-        if (!all_left) regime.duty_share = share > 0.0 ? regime.duty_share / share : 1.0 / left.size();
+        if (!all_left)
+            regime.duty_fraction = fraction > 0.0 ? regime.duty_fraction / fraction : 1.0 / left.size();
     }
     plan.regimes = std::move(left);
     return true;

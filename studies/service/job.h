@@ -20,7 +20,7 @@ enum class JobState {
 std::string_view name_of(JobKind kind);
 std::string_view name_of(JobState state);
 
-/// One thing to be done. What is kept over a restart is all but `doing`, `share_done` and `left_s`.
+/// One thing to be done. What is kept over a restart is all but `doing`, `fraction_done` and `left_s`.
 struct Job {
     int number = 0;  ///< from 1
     JobKind kind = JobKind::study;
@@ -32,7 +32,7 @@ struct Job {
     std::optional<std::int64_t> result_id;  ///< study_id or diagnosis_id, as soon as it is known
     std::string message;                    ///< why it failed; empty otherwise
     std::string doing;
-    double share_done = 0.0;
+    double fraction_done = 0.0;
     std::optional<double> left_s;
 
     bool operator==(const Job&) const = default;

@@ -14,7 +14,7 @@ inline nlohmann::ordered_json job_json(const Job& job) {
                  {"title", job.title},
                  {"state", name_of(job.state)},
                  {"doing", job.doing},
-                 {"share_done", job.share_done},
+                 {"fraction_done", job.fraction_done},
                  {"left_s", job.left_s ? Json(*job.left_s) : Json(nullptr)},
                  {"message", job.message}};
     json[job.kind == JobKind::study ? "study_id" : "diagnosis_id"] =

@@ -16,8 +16,8 @@ namespace capstan::service {
 
 namespace {
 
-constexpr int signal_code = 128;         // above: ended by a signal, or by a request to end (the program's 130)
-constexpr std::size_t most_jobs = 1000;  // that the list tells of; the oldest that have ended are forgotten
+constexpr int signal_code = 128;  // above: ended by a signal, or by a request to end (the program's 130)
+constexpr std::size_t max_jobs = 1000;  // that the list tells of; the oldest that have ended are forgotten
 
 std::int64_t last_id(const JobCommands& commands, JobKind kind) {
     storage::Database database = storage::Database::open_read_only(commands.database);
@@ -81,7 +81,7 @@ int JobQueue::next_number() const {
 
 Job JobQueue::add(Job job) {
     jobs_.push_back(std::move(job));
-    while (jobs_.size() > most_jobs) {
+    while (jobs_.size() > max_jobs) {
         const auto ended = std::ranges::find_if(jobs_, [](const Job& each) {
             return each.state == JobState::done || each.state == JobState::failed;
         });
@@ -251,12 +251,12 @@ void JobQueue::hear(int number, const std::string& line, std::string& last_words
     for (Job& job : jobs_) {
         if (job.number != number || json.value("event", "") != "progress") continue;
         job.doing = json.value("doing", "");
-        job.share_done = json.value("share_done", 0.0);
+        job.fraction_done = json.value("fraction_done", 0.0);
         job.left_s.reset();
         if (json.contains("left_s") && json["left_s"].is_number()) job.left_s = json["left_s"].get<double>();
         const double units = json.value("units", 0.0);
         if (units > 0.0) {
-            job.share_done = json.value("units_done", 0.0) / units;
+            job.fraction_done = json.value("units_done", 0.0) / units;
             job.doing = fmt::format("{} of {} units", json.value("units_done", 0), json.value("units", 0));
         }
     }
@@ -279,7 +279,7 @@ void JobQueue::run(Job job) {
         each.state = JobState::running;
         each.last_before = job.last_before;
         each.result_id = job.result_id;
-        each.share_done = 0.0;
+        each.fraction_done = 0.0;
     });
     {
         const std::lock_guard lock(mutex_);
@@ -301,7 +301,7 @@ void JobQueue::run(Job job) {
         each.left_s.reset();
         if (code == 0) {
             each.state = JobState::done;
-            each.share_done = 1.0;
+            each.fraction_done = 1.0;
         } else if (ending_) {
             each.state = JobState::running;  // goes on at the next start
         } else if (stop_asked_ && code > signal_code) {

@@ -8,7 +8,7 @@ namespace capstan::service {
 
 namespace {
 
-constexpr std::size_t most_scorers = 4;  // each keeps the readings of a study
+constexpr std::size_t max_scorers = 4;  // each keeps the readings of a study
 
 std::shared_ptr<LayoutScorer> scorer_of(RouteContext& context, std::int64_t study_id) {
     const std::lock_guard lock(context.scorers_mutex);
@@ -16,7 +16,7 @@ std::shared_ptr<LayoutScorer> scorer_of(RouteContext& context, std::int64_t stud
     if (found != context.scorers.end()) return found->second;
     storage::Database database = context.open();
     study_state(database, study_id);
-    if (context.scorers.size() >= most_scorers) context.scorers.clear();
+    if (context.scorers.size() >= max_scorers) context.scorers.clear();
     return context.scorers[study_id] =
                std::make_shared<LayoutScorer>(context.options.answers.stored_plan(database, study_id));
 }

@@ -14,11 +14,11 @@ namespace capstan::service {
 
 namespace {
 
-constexpr int most_repetitions = 2000;
+constexpr int max_repetitions = 2000;
 constexpr int one_thread = 1;  // a study may be under way beside
 
 StudyPlan short_enough(StudyPlan plan) {
-    plan.repetitions = std::min(plan.repetitions, most_repetitions);
+    plan.repetitions = std::min(plan.repetitions, max_repetitions);
     return plan;
 }
 

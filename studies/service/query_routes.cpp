@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::ptrdiff_t at_once = 4;             // queries; more would only wait for the processor
 constexpr std::chrono::seconds longest_wait{10};  // for a turn
-constexpr std::size_t most_rows = 100'000;        // of an answer; `capstan query` has no limit
+constexpr std::size_t max_rows = 100'000;         // of an answer; `capstan query` has no limit
 
 std::counting_semaphore<at_once> turns{at_once};
 
@@ -34,8 +34,8 @@ storage::QueryResult answer(const RouteContext& context, const std::string& sql)
     const Turn turn;
     storage::Database database = context.open();
     try {
-        return storage::run_read_only(
-            database, sql, {}, {.time_limit_s = context.options.query_limit_s, .row_limit = most_rows});
+        return storage::run_read_only(database, sql, {},
+                                      {.time_limit_s = context.options.query_limit_s, .row_limit = max_rows});
     } catch (const storage::QueryTooSlow& error) {
         throw BadRequest(error.what(), 408);
     } catch (const storage::Error& error) {

@@ -7,8 +7,8 @@ namespace capstan::service {
 namespace {
 
 constexpr std::chrono::milliseconds moment{500};
-constexpr std::size_t most_places = 32;  // of studies and questions that are looked at now
-constexpr std::size_t most_bytes = 16'000'000;
+constexpr std::size_t max_places = 32;  // of studies and questions that are looked at now
+constexpr std::size_t max_bytes = 16'000'000;
 constexpr std::size_t largest_kept = 4'000'000;  // the report of 100,000 cells has 3.5 million
 
 }  // namespace
@@ -36,7 +36,7 @@ void ReportShelf::make_room(const std::string& name, std::size_t bytes) {
 void ReportShelf::drop_the_oldest() {
     std::size_t bytes = 0;
     for (const auto& [name, entry] : places_) bytes += entry.bytes;
-    while (places_.size() > most_places || bytes > most_bytes) {
+    while (places_.size() > max_places || bytes > max_bytes) {
         const auto oldest =
             std::ranges::min_element(places_, {}, [](const auto& named) { return named.second.asked; });
         bytes -= oldest->second.bytes;

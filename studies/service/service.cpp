@@ -21,7 +21,7 @@ constexpr int patience_s = 10;       // for a slow sender or reader
 // Left to itself, the C library gives 64 threads up to eight heaps for each processor, and each grows as far
 // as the largest answers that happened to be made in it. Two are enough for threads that mostly wait, and
 // soon as large as they get.
-void share_memory_among_threads() {
+void fraction_memory_among_threads() {
     ::mallopt(M_ARENA_MAX, 2);
 }
 
@@ -85,7 +85,7 @@ struct Service::Parts {
 };
 
 Service::Service(ServiceOptions options) : parts_(std::make_unique<Parts>(std::move(options))) {
-    share_memory_among_threads();
+    fraction_memory_among_threads();
     httplib::Server& server = parts_->server;
     Access& access = parts_->options.access;
     server.new_task_queue = [] { return new httplib::ThreadPool(request_threads); };

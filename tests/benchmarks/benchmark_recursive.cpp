@@ -15,7 +15,7 @@ using namespace capstan;
 
 void recursive(benchmark::State& bench, double amplitude_m) {
     constexpr int steps_per_cycle = 1000;
-    const QuasiStaticStep model(paper::preloaded_cable(40), ModelRules::cured());
+    const QuasiStaticStep model(paper::preloaded_cable(40), ModelRules::consistent());
     const CableState start = pretensioned(model.cable());
     const int sensors = static_cast<int>(bench.range(1));
     CableState truth = start;

@@ -17,7 +17,7 @@ using paper::Solver;
 
 void closed_form(benchmark::State& bench, ComparedMotion motion) {
     const Cable cable = paper::preloaded_cable(static_cast<int>(bench.range(0)));
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     const std::vector<EndConditions> cycle = paper::cycle_of(cable, motion);
     CableState state = pretensioned(cable);
     std::size_t next = 0;
@@ -29,14 +29,14 @@ void closed_form(benchmark::State& bench, ComparedMotion motion) {
         next = next + 1 < cycle.size() ? next + 1 : 0;
     }
     bench.SetItemsProcessed(bench.iterations());
-    bench.counters["mass_share"] = static_cast<double>(mass) / static_cast<double>(bench.iterations());
+    bench.counters["mass_fraction"] = static_cast<double>(mass) / static_cast<double>(bench.iterations());
 }
 
 // Items are steps of one replicate.
 void replicates(benchmark::State& bench, ComparedMotion motion) {
     constexpr int count = 64;
     const Cable cable = paper::preloaded_cable(static_cast<int>(bench.range(0)));
-    const ReplicateStep step(cable, ModelRules::cured());
+    const ReplicateStep step(cable, ModelRules::consistent());
     std::vector<ReplicateEnds> cycle(paper::steps_per_cycle, ReplicateEnds(count));
     for (int replicate = 0; replicate < count; ++replicate) {
         const auto ends = paper::cycle_of(cable, motion, 0.9 + 0.2 * replicate / count);
@@ -50,7 +50,7 @@ void replicates(benchmark::State& bench, ComparedMotion motion) {
         next = next + 1 < cycle.size() ? next + 1 : 0;
     }
     bench.SetItemsProcessed(bench.iterations() * count);
-    bench.counters["one_by_one_share"] =
+    bench.counters["one_by_one_fraction"] =
         static_cast<double>(one_by_one) / static_cast<double>(bench.iterations() * count);
 }
 
@@ -59,7 +59,7 @@ void replicates(benchmark::State& bench, ComparedMotion motion) {
 void peer(benchmark::State& bench, ComparedMotion motion, Solver solver) {
     const Cable cable = paper::preloaded_cable(static_cast<int>(bench.range(0)));
     const std::vector<EndConditions> cycle = paper::cycle_of(cable, motion);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     std::vector<CableState> before;
     CableState state = pretensioned(cable);
     for (const EndConditions& ends : cycle) {
@@ -76,7 +76,7 @@ void peer(benchmark::State& bench, ComparedMotion motion, Solver solver) {
         next = (next + stride) % cycle.size();
     }
     bench.SetItemsProcessed(bench.iterations());
-    bench.counters["converged_share"] =
+    bench.counters["converged_fraction"] =
         static_cast<double>(converged) / static_cast<double>(bench.iterations());
 }
 

@@ -34,7 +34,7 @@ frequency_Hz = 1
 [[regime]]
 name = "mass"
 samples = [15, 18, 21, 39, 42, 45]
-duty_share = 1
+duty_fraction = 1
 
 [[noise]]
 label = "5 %"

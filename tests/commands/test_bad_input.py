@@ -42,7 +42,7 @@ class BadConfiguration(CapstanTest):
         self.refused("name = \n", "x.toml:1:", "not valid TOML")
 
     def test_instant_in_another_regime_lists_those_that_fit(self):
-        self.refused('[[regime]]\nname = "partial_proximal"\nsamples = [112]\nduty_share = 1\n'
+        self.refused('[[regime]]\nname = "partial_proximal"\nsamples = [112]\nduty_fraction = 1\n'
                      '[estimation]\nweights = "same_regime"\n', "x.toml:3: ", "samples that are: ")
 
     def test_everything_at_once(self):

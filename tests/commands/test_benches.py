@@ -42,7 +42,7 @@ class Benches(PageTest):
         slack_b = [row for row in rows if row["tension_b_1_N"] == row["tension_b_101_N"] == 0]
         self.assertGreater(len(slack_b), 100)
         for row in slack_b:
-            self.assertEqual(row["least_tension_b_N"], 0)
+            self.assertEqual(row["min_tension_b_N"], 0)
             self.assertGreater(row["tension_a_1_N"] + row["tension_a_101_N"], 0)
             self.assertGreaterEqual(row["load_torque_Nm"], 0)
 

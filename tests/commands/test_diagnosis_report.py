@@ -20,7 +20,7 @@ class DiagnosisReport(ServiceTest):
 
     def test_a_stored_diagnosis_is_told_as_it_was_made(self):
         made = json.loads(self.run_capstan("diagnose", self.log, "--json", "--db", "kept.db", "--progress", "none").stdout)
-        self.assertIn("experiments", made.pop("indistinct"))  # the one thing that no table keeps
+        self.assertIn("experiments", made.pop("non_identifiable"))  # the one thing that no table keeps
         self.assertEqual(json.loads(self.report("json")), made)
         self.run_capstan("report", "--diagnosis", 1, "-o", "named.json", "--db", "kept.db")
         self.assertEqual(json.loads((self.folder / "named.json").read_text()), made)

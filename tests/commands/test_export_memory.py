@@ -13,7 +13,7 @@ ROWS = 400_000
 
 
 class ExportMemory(CapstanTest):
-    def most_memory_KiB(self, *words):
+    def max_memory_KiB(self, *words):
         """Of a finished command, as the system counted it."""
         # The address sanitizer would keep what is freed, and its 256 MB would be counted.
         environment = os.environ | {"ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1"}
@@ -35,7 +35,7 @@ class ExportMemory(CapstanTest):
         connection.close()
         sizes, grown = {}, {}
         for file_format in ("csv", "json", "parquet"):
-            memory = [self.most_memory_KiB("export", name, "--format", file_format, "--tables", "cell_block", "--db", name + ".db")
+            memory = [self.max_memory_KiB("export", name, "--format", file_format, "--tables", "cell_block", "--db", name + ".db")
                       for name in ("small", "large")]
             sizes[file_format] = (self.folder / "large" / f"cell_block.{file_format}").stat().st_size
             grown[file_format] = memory[1] - memory[0]

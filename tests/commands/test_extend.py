@@ -41,7 +41,7 @@ class Extend(CapstanTest):
         done = self.run_capstan("study", "extend", "--until-resolved", 0.2, "--db", "a.db")
         self.assertIn("50 repetitions: some choice may still be better by", done.stderr)
         self.assertIn("With 95 % certainty no choice is better", done.stderr)
-        done = self.run_capstan("study", "extend", "--until-resolved", 1e-6, "--most-repetitions", 100, "--db", "a.db")
+        done = self.run_capstan("study", "extend", "--until-resolved", 1e-6, "--max-repetitions", 100, "--db", "a.db")
         self.assertIn("not within the tolerance", done.stderr)
 
     def test_says_what_is_missing(self):

@@ -47,10 +47,10 @@ class GapTrial(CapstanTest):
         words = self.run_capstan("gap-trial", *SMALL, "--keep", "kept").stdout  # nothing left to diagnose
         self.assertIn("100.0%", words)
         score = json.loads(self.run_capstan("gap-trial", "--unseal", "kept/labels.json", "--json").stdout)
-        self.assertEqual(score["groups"][0]["top1"], {"hits": 2, "of": 2, "share": 1.0,
+        self.assertEqual(score["groups"][0]["top1"], {"hits": 2, "of": 2, "fraction": 1.0,
                                                       "interval_95": score["groups"][0]["top1"]["interval_95"]})
         self.assertEqual((score["brier"], score["ece"]), (0.0, 0.0))
-        self.assertEqual(score["component"]["share"], 1.0)
+        self.assertEqual(score["component"]["fraction"], 1.0)
         self.assertEqual(score["unanswered"], [])
 
     def test_labels_that_were_changed_are_refused(self):

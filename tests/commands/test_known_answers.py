@@ -17,11 +17,11 @@ amplitude_m = 0.01
 [[regime]]
 name = "mass"
 samples = [50]
-duty_share = 0.5
+duty_fraction = 0.5
 [[regime]]
 name = "partial_proximal"
 samples = [6]
-duty_share = 0.5
+duty_fraction = 0.5
 [layouts]
 explicit = [[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]]
 [estimation]
@@ -40,7 +40,7 @@ amplitude_m = 0.01
 [[regime]]
 name = "mass"
 samples = [35, 48, 62, 98, 143]
-duty_share = 1
+duty_fraction = 1
 [estimation]
 distal_side = "admitted"
 curve_points = 1024
@@ -112,7 +112,7 @@ class KnownAnswers(CapstanTest):
         db = f"calm-{noise_N}-{points}.db"
         config = self.write(f"{db}.toml", CALM.format(noise_N=noise_N, points=points))
         self.run_capstan("study", "run", config, "--db", db)
-        return self.cells(db, "mean_abs_error_N, cell.bias_N, unverified_share, ambiguous_share")
+        return self.cells(db, "mean_abs_error_N, cell.bias_N, unverified_fraction, ambiguous_fraction")
 
     def test_with_the_directions_known_the_error_goes_with_the_noise(self):
         before = None
@@ -145,7 +145,7 @@ class KnownAnswers(CapstanTest):
         self.run_capstan("study", "run", config, "--db", "moving.db")
         worst = collections.defaultdict(float)
         for (_, _, _, method), (error_N, bias_N, unverified, ambiguous) in self.cells(
-                "moving.db", "mean_abs_error_N, cell.bias_N, unverified_share, ambiguous_share").items():
+                "moving.db", "mean_abs_error_N, cell.bias_N, unverified_fraction, ambiguous_fraction").items():
             self.assertEqual((unverified, ambiguous), (0, 0))
             worst[method] = max(worst[method], error_N)
         for method, error_N in sorted(worst.items()):

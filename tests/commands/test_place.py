@@ -38,7 +38,7 @@ class Place(CapstanTest):
 
     def test_constraints_are_kept(self):
         config = self.config_with("forbidden_nodes = [11]\nrequired_nodes = [1]\nminimum_spacing = 2\n"
-                                  "most_in_distal_half = 1\nbudget = 3\n")
+                                  "max_in_distal_half = 1\nbudget = 3\n")
         for scope in self.answer(config, "--repetitions", 20)["scopes"]:
             self.assertEqual(scope["counts"][-1]["sensor_count"], 3)
             for count in scope["counts"]:
@@ -96,12 +96,12 @@ class Duty(CapstanTest):
 
     def test_shares_sum_to_one_and_place_takes_them(self):
         duty = json.loads(self.run_capstan("duty", "bench.csv", "--json").stdout)
-        self.assertAlmostEqual(sum(duty["duty_share"].values()), 1.0)
-        self.assertGreater(duty["duty_share"]["partial_proximal"], 0.2)  # creeping after each reversal
+        self.assertAlmostEqual(sum(duty["duty_fraction"].values()), 1.0)
+        self.assertGreater(duty["duty_fraction"]["partial_proximal"], 0.2)  # creeping after each reversal
         told = self.run_capstan("place", *PAPER, "--duty", "bench.csv")
         self.assertIn("duty cycle from bench.csv: mass", told.stderr)
         words = self.run_capstan("duty", "bench.csv").stdout
-        self.assertIn("duty_share = ", words)
+        self.assertIn("duty_fraction = ", words)
 
 
 if __name__ == "__main__":

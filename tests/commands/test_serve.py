@@ -148,7 +148,7 @@ class Serve(ServiceTest):
         stored = self.get("/api/diagnoses")[0]
         self.assertEqual(stored["recording"], shell["case"])
         self.assertIn(shell["ranked"][0]["effect"], stored["verdict"])
-        self.assertAlmostEqual(stored["confidence_share"], shell["ranked"][0]["probability"], places=12)
+        self.assertAlmostEqual(stored["confidence_fraction"], shell["ranked"][0]["probability"], places=12)
         rows = []
         for db in ("served.db", "shell.db"):
             connection = sqlite3.connect(self.folder / db)

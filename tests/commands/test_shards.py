@@ -19,11 +19,11 @@ amplitude_m = 0.015
 [[regime]]
 name = "mass"
 samples = [112]
-duty_share = 0.5
+duty_fraction = 0.5
 [[regime]]
 name = "partial_proximal"
 samples = [6]
-duty_share = 0.5
+duty_fraction = 0.5
 [layouts]
 families = "all"
 counts = [1, 3]

@@ -90,8 +90,8 @@ int main(int count, char** words) {
         return try_walk(options, options.walk, tally, &std::cout) ? 0 : 1;
     }
     int failures = 0;
-    constexpr int most_failures = 10;
-    for (long number = 0; tally.steps + tally.pull_pull_steps < options.steps && failures < most_failures;
+    constexpr int max_failures = 10;
+    for (long number = 0; tally.steps + tally.pull_pull_steps < options.steps && failures < max_failures;
          ++number) {
         failures += !try_walk(options, number, tally, nullptr);
     }

@@ -15,8 +15,8 @@ class VerifiedAnswers {
   public:
     explicit VerifiedAnswers(const QuasiStaticStep& step) : step_(step) {}
 
-    /// The ends have what was prescribed, no segment holds more than static friction can, and under the cured
-    /// rules every taut segment is as long as its tensions say.
+    /// The ends have what was prescribed, no segment holds more than static friction can, and under the
+    /// consistent rules every taut segment is as long as its tensions say.
     void demand_of(const StepReport& report, const CableState& state, const EndConditions& ends);
 
     void restart() { unbroken_ = true; }

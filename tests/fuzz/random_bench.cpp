@@ -118,7 +118,7 @@ Trial<CableSpecification> any_cable(Choices& choices) {
 }
 
 ModelRules any_rules(Choices& choices) {
-    return choices.one_in(3) ? ModelRules::paper() : ModelRules::cured();
+    return choices.one_in(3) ? ModelRules::paper() : ModelRules::consistent();
 }
 
 test::InputPair any_pair(Choices& choices) {

@@ -10,7 +10,7 @@ namespace capstan::fuzz {
 namespace {
 
 constexpr int segments = 8;
-constexpr int most_samples = 200;  // longer runs only take longer
+constexpr int max_samples = 200;  // longer runs only take longer
 
 }  // namespace
 
@@ -18,7 +18,7 @@ void try_recording(const std::filesystem::path& samples) {
     try {
         const gap::Recording recording = gap::read_recording(samples);
         const auto twin = gap::make_twin(recording, segments);
-        if (recording.runs.front().samples() > most_samples) return;
+        if (recording.runs.front().samples() > max_samples) return;
         const gap::TwinRun run = twin->run(0, gap::nominal_values(*twin));
         demand(run.values.size() == recording.channels.size(), "a twin has the recording's channels");
     } catch (const InvalidInput& refusal) {

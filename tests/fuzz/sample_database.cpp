@@ -29,7 +29,7 @@ amplitude_m = 0.003
 [[regime]]
 name = "mass"
 samples = [5, 45]
-duty_share = 1
+duty_fraction = 1
 
 [[noise]]
 label = "5 %"

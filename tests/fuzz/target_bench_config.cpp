@@ -13,12 +13,12 @@ namespace {
 
 using namespace capstan;
 
-constexpr int most_samples = 20;
-constexpr int most_segments = 30;
+constexpr int max_samples = 20;
+constexpr int max_segments = 30;
 
 void simulate_a_little(bench::BenchPlan plan) {
-    if (plan.cable.segments > most_segments) return;
-    plan.duration_s = std::min(plan.duration_s, most_samples / plan.sample_rate_Hz);
+    if (plan.cable.segments > max_segments) return;
+    plan.duration_s = std::min(plan.duration_s, max_samples / plan.sample_rate_Hz);
     try {
         bench::simulate_bench(plan, [](const bench::BenchInstant&) {});
     } catch (const InvalidInput&) {

@@ -17,7 +17,7 @@ namespace {
 
 using namespace capstan;
 
-constexpr int most_jobs = 50;  // then the service starts anew: its list of jobs only grows
+constexpr int max_jobs = 50;  // then the service starts anew: its list of jobs only grows
 
 // A service on loopback, with a program for its jobs that does nothing.
 class Host {
@@ -106,7 +106,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::demand(answer.empty() || answer.starts_with("HTTP/1.1 "), "an answer is HTTP: " + head);
     fuzz::demand(!answer.starts_with("HTTP/1.1 500"), "no failure of our own: " + answer);
     jobs += answer.starts_with("HTTP/1.1 202");
-    if (jobs >= most_jobs) {
+    if (jobs >= max_jobs) {
         jobs = 0;
         host.reset();
         host = std::make_unique<Host>(folder);

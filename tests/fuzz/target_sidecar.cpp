@@ -11,7 +11,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int samples_per_run = 24;
-constexpr std::size_t most_runs = 3;
+constexpr std::size_t max_runs = 3;
 
 // Any channel moves, each in its own way.
 std::string samples_for(const json& sidecar) {
@@ -29,7 +29,7 @@ std::string samples_for(const json& sidecar) {
         }
     }
     text += "\n";
-    for (std::size_t run = 0; runs.is_array() && run < std::min(most_runs, runs.size()); ++run) {
+    for (std::size_t run = 0; runs.is_array() && run < std::min(max_runs, runs.size()); ++run) {
         const json number = runs[run].is_object() ? runs[run].value("run", json(1)) : json(1);
         for (int sample = 0; sample < samples_per_run; ++sample) {
             text += number.dump(-1, ' ', false, json::error_handler_t::replace) + "," +

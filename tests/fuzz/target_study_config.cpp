@@ -13,15 +13,15 @@ namespace {
 using namespace capstan;
 
 // A long motion of a long cable is no fault of a configuration, but would take the fuzzer's time.
-constexpr double most_node_steps = 20'000;
-constexpr std::size_t most_studies = 4;
-constexpr std::size_t most_instants = 8;
+constexpr double max_node_steps = 20'000;
+constexpr std::size_t max_studies = 4;
+constexpr std::size_t max_instants = 8;
 
 bool soon_done(const StudyPlan& plan) {
     std::size_t instants = 0;
     for (const RegimeInstants& regime : plan.regimes) instants += regime.samples.size();
     const double nodes = plan.transmission.cable.segments + 1.0;
-    return nodes <= 65 && nodes * plan.motion.samples <= most_node_steps && instants <= most_instants;
+    return nodes <= 65 && nodes * plan.motion.samples <= max_node_steps && instants <= max_instants;
 }
 
 std::size_t studies_of(const Sweep& sweep) {
@@ -32,7 +32,7 @@ std::size_t studies_of(const Sweep& sweep) {
 }
 
 void prepare_all(const cli::ReadConfig& config) {
-    if (!soon_done(config.plan) || studies_of(config.plan.sweep) > most_studies) return;
+    if (!soon_done(config.plan) || studies_of(config.plan.sweep) > max_studies) return;
     for (const int segments : config.plan.sweep.segments) {
         if (segments > 64) return;
     }

@@ -24,7 +24,7 @@ double friction_exponent(const Cable& cable) {
     return cable.dynamic_friction() * wrap_rad;
 }
 
-// One answer and no other (engine/README.md, departure 3): cured rules, mu_s = mu_d, within rounding.
+// One answer and no other (engine/README.md, departure 3): consistent rules, mu_s = mu_d, within rounding.
 bool must_verify(const QuasiStaticStep& step) {
     return step.rules().elongation == ElongationRule::mean_tension &&
            step.cable().static_friction() == step.cable().dynamic_friction() &&
@@ -32,10 +32,10 @@ bool must_verify(const QuasiStaticStep& step) {
 }
 
 std::string group_of(const QuasiStaticStep& step) {
-    const bool cured = step.rules().elongation == ElongationRule::mean_tension;
+    const bool consistent = step.rules().elongation == ElongationRule::mean_tension;
     const bool stiction = step.cable().static_friction() > step.cable().dynamic_friction();
     const bool resolved = friction_exponent(step.cable()) < exponent_that_doubles_resolve;
-    return std::string(cured ? "cured rules, mu_s " : "paper's rules, mu_s ") +
+    return std::string(consistent ? "consistent rules, mu_s " : "paper's rules, mu_s ") +
            (stiction ? "above" : "equal to") + " mu_d, friction exponent " +
            (resolved ? "below 20" : "20 to 300");
 }

@@ -101,7 +101,7 @@ std::vector<FusionMethodRecord> methods() {
 }
 
 // Between 0 (all at the distal end) and 1 (all at the proximal end).
-double proximal_share(const std::vector<int>& sensor_nodes) {
+double proximal_fraction(const std::vector<int>& sensor_nodes) {
     double sum = 0;
     for (int node : sensor_nodes) sum += static_cast<double>(nodes - node) / segments;
     return sum / static_cast<double>(sensor_nodes.size());
@@ -111,7 +111,7 @@ double error_N(const Instant& instant, double noise, const std::vector<int>& sen
                const std::string& method) {
     const double m = static_cast<double>(sensor_nodes.size());
     const double scale = noise / 0.1;
-    double proximal = proximal_share(sensor_nodes);
+    double proximal = proximal_fraction(sensor_nodes);
     if (is_partial(instant.regime)) proximal = 0.6 * std::abs(proximal - 0.45) + 0.15;
     const double shift =
         1 + 0.05 * wobble(m, proximal * 9, instant.sample) + (instant.forward ? 0.12 : -0.12);
@@ -143,8 +143,8 @@ CellRecord cell(const Instant& instant, double noise, int set_index, const std::
     record.error_q05_N = 0.1 * record.mean_abs_error_N;
     record.error_q50_N = 0.8 * record.mean_abs_error_N;
     record.error_q95_N = 2.6 * record.mean_abs_error_N;
-    record.unverified_share = 0.3 * (1 - proximal_share(sensor_nodes));
-    record.ambiguous_share = 0.4 * proximal_share(sensor_nodes);
+    record.unverified_fraction = 0.3 * (1 - proximal_fraction(sensor_nodes));
+    record.ambiguous_fraction = 0.4 * proximal_fraction(sensor_nodes);
     for (int node = 1; with_nodes && node <= nodes; ++node) {
         const double error = record.mean_abs_error_N * (0.5 + 1.1 * std::pow((node - 1.0) / segments, 1.5));
         record.nodes.push_back({node, error, 0.2 * error * wobble(node)});
@@ -162,9 +162,9 @@ SingleSensorRecord single_sensor(const Instant& instant, double noise, bool know
     const double mean_N = known ? 0.335 : 0.41 + 1.0 * std::pow(proximal, 1.4) + 0.03 * wobble(sensor);
     record.mean_abs_error_N = mean_N * noise / 0.1 * (instant.forward ? 1.1 : 0.9);
     record.standard_error_N = 0.02 * record.mean_abs_error_N;
-    record.unverified_share = known ? 0 : 0.49 * (1 - proximal) * (instant.forward ? 1 : 0.4);
-    record.ambiguous_share = known ? 0 : 0.42 * proximal * proximal;
-    record.at_rest_share = rests ? 0.9 : 0.03;
+    record.unverified_fraction = known ? 0 : 0.49 * (1 - proximal) * (instant.forward ? 1 : 0.4);
+    record.ambiguous_fraction = known ? 0 : 0.42 * proximal * proximal;
+    record.at_rest_fraction = rests ? 0.9 : 0.03;
     for (int node = 1; node <= nodes; ++node) {
         const double tension_N = true_tension_N(instant, node);
         const double spread = tension_N * noise * (known ? 1 : 1 + 1.5 * proximal);

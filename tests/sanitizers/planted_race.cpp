@@ -11,7 +11,7 @@
 namespace {
 
 constexpr int tasks = 1000;
-constexpr int most_rounds = 1000;
+constexpr int max_rounds = 1000;
 
 struct Sum {
     long plain = 0;
@@ -40,7 +40,7 @@ int main(int count, char** words) {
     Sum sum;
     int rounds = 0;
     bool shared = false;
-    while (!shared && rounds < most_rounds) {
+    while (!shared && rounds < max_rounds) {
         shared = add_up(sum, plant);
         ++rounds;
     }

@@ -11,7 +11,7 @@ WITH per_instant AS (
     SELECT s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method,
            avg(c.mean_abs_error_N) AS mean_abs_error_N, avg(c.standard_error_N) AS standard_error_N,
            avg(c.rms_error_N) AS rms_error_N, avg(c.bias_N) AS bias_N, max(c.worst_node_error_N) AS worst_node_error_N,
-           avg(c.unverified_share) AS unverified_share, avg(c.ambiguous_share) AS ambiguous_share
+           avg(c.unverified_fraction) AS unverified_fraction, avg(c.ambiguous_fraction) AS ambiguous_fraction
     FROM cell c JOIN scenario s USING (scenario_id) JOIN layout l USING (sensor_set_id)
     GROUP BY s.study_id, s.regime, c.scenario_id, c.noise_level_id, l.family, l.sensor_count, c.method)
 SELECT p.study_id, t.name AS study, p.regime, p.noise_level_id, n.label AS noise, p.family, p.sensor_count, p.method,
@@ -21,7 +21,7 @@ SELECT p.study_id, t.name AS study, p.regime, p.noise_level_id, n.label AS noise
        avg(p.mean_abs_error_N) - 1.959963984540054 * sqrt(sum(p.standard_error_N * p.standard_error_N)) / count(*) AS interval_low_N,
        avg(p.mean_abs_error_N) + 1.959963984540054 * sqrt(sum(p.standard_error_N * p.standard_error_N)) / count(*) AS interval_high_N,
        avg(p.rms_error_N) AS rms_error_N, avg(p.bias_N) AS bias_N, max(p.worst_node_error_N) AS worst_node_error_N,
-       avg(p.unverified_share) AS unverified_share, avg(p.ambiguous_share) AS ambiguous_share
+       avg(p.unverified_fraction) AS unverified_fraction, avg(p.ambiguous_fraction) AS ambiguous_fraction
 FROM per_instant p JOIN study t USING (study_id) JOIN noise_level n USING (noise_level_id)
 JOIN fusion_method f ON f.study_id = p.study_id AND f.method = p.method
 GROUP BY p.study_id, p.regime, p.noise_level_id, p.family, p.sensor_count, p.method;

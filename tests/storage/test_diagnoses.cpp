@@ -19,7 +19,7 @@ DiagnosisRecord example_diagnosis() {
     record.program_version = "0.1.0";
     record.runs = "[1,3]";
     record.verdict = "backlash + drift";
-    record.confidence_share = 0.48;
+    record.confidence_fraction = 0.48;
     record.component = "cable_a";
     record.cable_end = "motor";
     record.position_m = 0.25;
@@ -73,15 +73,15 @@ TEST_F(Diagnoses, AreJudgedByTheLoadTorqueInTheirView) {
     write_diagnosis(database, without_load);
     Database reader = Database::open_read_only(folder / "results.db");
     const QueryResult result =
-        run_read_only(reader, "SELECT channel, closed_share FROM v_diagnosis ORDER BY diagnosis_id");
+        run_read_only(reader, "SELECT channel, closed_fraction FROM v_diagnosis ORDER BY diagnosis_id");
     EXPECT_EQ(result.rows, (std::vector<std::vector<QueryValue>>{{std::string("load_torque"), 0.98},
                                                                  {std::string("motor_angle"), {}}}));
 }
 
 TEST_F(Diagnoses, WithAValueThatIsNotANumberLeaveNothing) {
     DiagnosisRecord record = example_diagnosis();
-    record.gap.back().energy_share = std::numeric_limits<double>::quiet_NaN();
-    expect_says(error_of([&] { write_diagnosis(database, record); }), "diagnosis_gap.energy_share");
+    record.gap.back().energy_fraction = std::numeric_limits<double>::quiet_NaN();
+    expect_says(error_of([&] { write_diagnosis(database, record); }), "diagnosis_gap.energy_fraction");
     EXPECT_TRUE(load_diagnoses(database).empty());
 }
 

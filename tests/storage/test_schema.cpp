@@ -40,7 +40,7 @@ TEST(Schema, EveryRealColumnEndsInAUnitOrSaysThatItHasNone) {
     for (const Column& column : columns) {
         if (column.type != "REAL") continue;
         EXPECT_TRUE(ends_in_one_of(
-            column.name, {"_N", "_m", "_rad", "_s", "_share", "_ratio", "_count", "_log", "_in_unit"}))
+            column.name, {"_N", "_m", "_rad", "_s", "_fraction", "_ratio", "_count", "_log", "_in_unit"}))
             << column.table << "." << column.name;
     }
 }

@@ -12,20 +12,20 @@ namespace capstan::reference {
 
 namespace {
 
-// A node that moves less than this is at rest: above the residual's share of a displacement, far below a
+// A node that moves less than this is at rest: above the residual's fraction of a displacement, far below a
 // step.
 constexpr double rest_m = 1e-13;
 // Rounding of displacements of up to a metre, with three digits to spare (E5).
 constexpr double displacement_rounding_m = 1e-12;
 // Per solve; a hard case takes some tens.
-constexpr int most_iterations = 200;
+constexpr int max_iterations = 200;
 
 // Until the residual is small or MINPACK gives up, which is false.
 bool find_root_from(SignSystem& system, Eigen::VectorXd& y_N, ReferenceReport& report) {
     Eigen::HybridNonLinearSolver<SignSystem> solver(system);
     solver.parameters.xtol = 1e-16;  // the residual decides
     auto status = solver.solveInit(y_N);
-    for (int k = 0; k < most_iterations; ++k) {
+    for (int k = 0; k < max_iterations; ++k) {
         report.residual_N = solver.fvec.cwiseAbs().maxCoeff();
         if (report.residual_N <= GenericSolver::largest_residual_N) return true;
         if (status != Eigen::HybridNonLinearSolverSpace::Running) return false;

@@ -8,7 +8,7 @@
 namespace capstan::reference {
 
 /// What does not change from step to step, worked out here anew: the reference solvers share the equations
-/// with the closed-form step (engine/README.md, cured rules) and none of its code.
+/// with the closed-form step (engine/README.md, consistent rules) and none of its code.
 struct CableConstants {
     explicit CableConstants(const Cable& cable);
 

@@ -169,20 +169,20 @@ TEST(CurvePeak, FoundWhileAddingIsTheFirstLargestOfTheSum) {
             sensor.back() = 0.0;
             EXPECT_EQ(add_log_likelihood_and_find_peak(before, sensor, sum), top) << points;
             for (std::size_t k = 0; k < sum.size(); ++k) ASSERT_EQ(sum[k], before[k] + sensor[k]);
-            EXPECT_EQ(most_likely_point(sum), top) << points;
+            EXPECT_EQ(likeliest_point(sum), top) << points;
         }
     }
 }
 
 TEST(CurvePeak, OfAPlateauIsThePointItself) {
     const std::vector<double> flat{0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0};
-    EXPECT_EQ(most_likely_place(flat, 2).share, 0.0);
-    EXPECT_EQ(most_likely_place(flat, 2).point, 2);
+    EXPECT_EQ(likeliest_place(flat, 2).fraction, 0.0);
+    EXPECT_EQ(likeliest_place(flat, 2).point, 2);
 }
 
 TEST(CurvePeak, OfNoNumberIsTheFirstPoint) {
     const std::vector<double> none(16, std::nan(""));
-    EXPECT_EQ(most_likely_point(none), 0);
+    EXPECT_EQ(likeliest_point(none), 0);
 }
 
 }  // namespace

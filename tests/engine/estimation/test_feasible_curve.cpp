@@ -63,7 +63,7 @@ double distance_from_truth_N(const Instant& instant, int points) {
 }
 
 TEST(FeasibleCurve, PassesThroughTheTruthUnderTheCuredRules) {
-    const QuasiStaticStep step(test::paper_cable(10), ModelRules::cured());
+    const QuasiStaticStep step(test::paper_cable(10), ModelRules::consistent());
     for (const int sample : {112, 142, 6, 104}) {
         const Instant instant = test::instant_of(step, sample);
         const double coarse_N = distance_from_truth_N(instant, 64);
@@ -92,8 +92,8 @@ TEST(FeasibleCurve, RefusesAPriorThatItCannotSample) {
     }
 }
 
-// At the end of its range a sensor says "at least that": certain far below the true tension, a coin's toss where
-// the tension is the range itself, and never less likely for more tension.
+// At the end of its range a sensor says "at least that": certain far below the true tension, a coin's toss
+// where the tension is the range itself, and never less likely for more tension.
 TEST(CurveLikelihood, ASaturatedReadingSaysAtLeastThat) {
     const Instant instant = paper_instant(112);
     const FeasibleCurve curve = curve_of(instant, 128);
@@ -127,14 +127,14 @@ TEST(CurveLikelihood, OneSensorMoreAddsItsOwn) {
     add_log_likelihoods(all, std::vector<int>{2, 5, 9}, triple);
     add_log_likelihood(pair, std::span<const double>(all).subspan(9 * 64, 64), grown);
     EXPECT_EQ(grown, triple);
-    EXPECT_EQ(most_likely_point(grown), std::max_element(grown.begin(), grown.end()) - grown.begin());
+    EXPECT_EQ(likeliest_point(grown), std::max_element(grown.begin(), grown.end()) - grown.begin());
 }
 
 TEST(CurveLikelihood, OfEquallyLikelyPointsTheFirstIsTaken) {
     std::vector<double> flat(16, -1.0);
-    EXPECT_EQ(most_likely_point(flat), 0);
+    EXPECT_EQ(likeliest_point(flat), 0);
     flat[9] = flat[13] = 2.0;
-    EXPECT_EQ(most_likely_point(flat), 9);
+    EXPECT_EQ(likeliest_point(flat), 9);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ Tally tally(const QuasiStaticStep& model, Trial trial, int repetitions) {
 }
 
 const QuasiStaticStep& paper_model() {
-    static const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
+    static const QuasiStaticStep model(test::paper_cable(10), ModelRules::consistent());
     return model;
 }
 

@@ -17,7 +17,7 @@ double proximal_m(const Cable& cable, int step) {
 
 // Mean error over the first quarter cycle and all nodes, distal end blocked, readings without noise.
 double mean_error_N(const FusionMethod& method, const std::vector<int>& sensors, double factor) {
-    const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
+    const QuasiStaticStep model(test::paper_cable(10), ModelRules::consistent());
     CableState truth = pretensioned(model.cable());
     RecursiveFusion fusion(model, truth, method, DistalSide::excluded);
     double sum_N = 0.0;
@@ -48,7 +48,7 @@ TEST(RecursiveFusion, ErrorsOfReadingsComeBackInTheEstimate) {
 }
 
 TEST(RecursiveFusion, WhereNoPatternVerifiesTheWholeStateStays) {
-    const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
+    const QuasiStaticStep model(test::paper_cable(10), ModelRules::consistent());
     const CableState start = pretensioned(model.cable());
     RecursiveFusion fusion(model, start, mean_method, DistalSide::excluded);
     const NodeReading pushes[] = {{0, -50.0}, {10, -50.0}};
@@ -59,7 +59,7 @@ TEST(RecursiveFusion, WhereNoPatternVerifiesTheWholeStateStays) {
 }
 
 TEST(RecursiveFusion, RefusesWeightsNoReadingsAndNodesBeyondTheCable) {
-    const QuasiStaticStep model(test::paper_cable(10), ModelRules::cured());
+    const QuasiStaticStep model(test::paper_cable(10), ModelRules::consistent());
     const CableState start = pretensioned(model.cable());
     EXPECT_THROW(RecursiveFusion(model, start, weighted_mean_method, DistalSide::excluded), InvalidInput);
     EXPECT_THROW(RecursiveFusion(model, start, posterior_mean_method, DistalSide::excluded), InvalidInput);
@@ -70,14 +70,14 @@ TEST(RecursiveFusion, RefusesWeightsNoReadingsAndNodesBeyondTheCable) {
 }
 
 TEST(RecursiveFusion, RefusesMorePatternsThanItCanTry) {
-    const QuasiStaticStep model(test::paper_cable(most_estimated_segments + 1), ModelRules::cured());
+    const QuasiStaticStep model(test::paper_cable(max_estimated_segments + 1), ModelRules::consistent());
     const CableState start = pretensioned(model.cable());
     EXPECT_THROW(RecursiveFusion(model, start, mean_method, DistalSide::admitted), InvalidInput);
 }
 
 // To and fro with a spring at the far end: rest, motion from the near end, all of the cable, and back.
 TEST(RecursiveFusion, StaysFiniteThroughEveryKindOfMotionOfTheTruth) {
-    const QuasiStaticStep model(test::paper_cable(6), ModelRules::cured());
+    const QuasiStaticStep model(test::paper_cable(6), ModelRules::consistent());
     CableState truth = pretensioned(model.cable());
     RecursiveFusion fusion(model, truth, mean_r_method, DistalSide::admitted);
     std::set<MotionKind> seen;

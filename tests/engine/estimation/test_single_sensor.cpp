@@ -97,7 +97,7 @@ TEST(SingleSensorEstimator, RefusesMoreSegmentsThanAWordHolds) {
 struct SensorSpread {
     double mean_N = 0.0;
     double standard_error_N = 0.0;
-    double unverified_share = 0.0;
+    double unverified_fraction = 0.0;
 };
 
 SensorSpread errors_of(int sensor, int sample) {
@@ -135,9 +135,9 @@ TEST(SingleSensorEstimator, ErrsAsThePrototypeOfThePapersExperiment) {
     expect_mean(10, 0.415);
 }
 
-// 0.49 of the prototype's draws; a share of 2000 draws spreads by 0.011, two of them by 0.016.
+// 0.49 of the prototype's draws; a fraction of 2000 draws spreads by 0.011, two of them by 0.016.
 TEST(SingleSensorEstimator, HalfOfTheDistalReadingsVerifyNowhereWhileTheCableIsPulledBack) {
-    EXPECT_NEAR(errors_of(10, 142).unverified_share, 0.49, 3.0 * 0.016);
+    EXPECT_NEAR(errors_of(10, 142).unverified_fraction, 0.49, 3.0 * 0.016);
 }
 
 }  // namespace

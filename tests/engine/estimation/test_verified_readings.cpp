@@ -153,7 +153,7 @@ TEST(VerifiedReadings, EndWhereTheChecksFailUnderThePapersRules) {
 }
 
 TEST(VerifiedReadings, EndWhereTheChecksFailUnderTheCuredRules) {
-    const QuasiStaticStep step(test::paper_cable(10), ModelRules::cured());
+    const QuasiStaticStep step(test::paper_cable(10), ModelRules::consistent());
     for (const int sample : {112, 142, 6, 104}) {
         SCOPED_TRACE("sample " + std::to_string(sample));
         expect_intervals_to_end_where_checks_fail(test::instant_of(step, sample), DistalSide::admitted);

@@ -36,7 +36,7 @@ class Agreement : public testing::TestWithParam<Case> {
     // Every step from the same state: calls check(before, ends, after).
     template <typename Check>
     void along_the_path(const Check& check) const {
-        const QuasiStaticStep step(cable(), ModelRules::cured());
+        const QuasiStaticStep step(cable(), ModelRules::consistent());
         CableState state = pretensioned(step.cable());
         for (const EndConditions& ends : motion().path) {
             const CableState before = state;
@@ -70,14 +70,14 @@ TEST_P(Agreement, WithTheGenericSolverWhereverItConverges) {
 class EverySegmentCount : public testing::TestWithParam<test::Motion> {};
 
 TEST_P(EverySegmentCount, AgreesWithTheGenericSolverWhereverItConverges) {
-    constexpr int most_segments = 60;
+    constexpr int max_segments = 60;
     constexpr int steps_between = 41;
     int steps = 0;
     int converged = 0;
     double largest_N = 0.0;
-    for (int segments = 1; segments <= most_segments; ++segments) {
+    for (int segments = 1; segments <= max_segments; ++segments) {
         const Cable cable = test::preloaded_cable(segments, GetParam().static_friction);
-        const QuasiStaticStep step(cable, ModelRules::cured());
+        const QuasiStaticStep step(cable, ModelRules::consistent());
         const reference::GenericSolver generic(cable);
         CableState state = pretensioned(cable);
         for (std::size_t n = 0; n < GetParam().path.size(); ++n) {
@@ -162,7 +162,8 @@ TEST_P(Agreement, OfDenseAndBandedLinearAssumedSolver) {
 TEST(Motions, CoverEveryKindOfMotionAndEveryPairOfEnds) {
     std::set<MotionKind> kinds;
     for (const test::Motion& motion : test::all_motions(250)) {
-        const QuasiStaticStep step(test::preloaded_cable(10, motion.static_friction), ModelRules::cured());
+        const QuasiStaticStep step(test::preloaded_cable(10, motion.static_friction),
+                                   ModelRules::consistent());
         CableState state = pretensioned(step.cable());
         for (const EndConditions& ends : motion.path) kinds.insert(step.advance(state, ends).pattern.kind);
     }

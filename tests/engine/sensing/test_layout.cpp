@@ -10,13 +10,13 @@
 namespace capstan {
 namespace {
 
-constexpr int most_nodes = 30;
+constexpr int max_nodes = 30;
 
 // Calls check(family, count, nodes, layouts) for the whole catalogue.
 template <typename Check>
 void for_each_family_count_and_cable(const Check& check) {
     for (const LayoutFamily& family : layout_families()) {
-        for (int nodes = 2; nodes <= most_nodes; ++nodes) {
+        for (int nodes = 2; nodes <= max_nodes; ++nodes) {
             for (int count = 1; count <= nodes; ++count) {
                 SCOPED_TRACE(std::string(family.name) + ": " + std::to_string(count) + " sensors on " +
                              std::to_string(nodes) + " nodes");
@@ -86,7 +86,7 @@ TEST(LayoutFamilies, EverySensorOfEvenIsAsFarFromTheNextAsFits) {
 }
 
 TEST(LayoutFamilies, ALabelNamesOneLayoutOfACable) {
-    for (int nodes = 2; nodes <= most_nodes; ++nodes) {
+    for (int nodes = 2; nodes <= max_nodes; ++nodes) {
         std::set<std::string> labels;
         for (const LayoutFamily& family : layout_families()) {
             for (int count = 1; count <= nodes; ++count) {

@@ -7,18 +7,18 @@ namespace capstan::test {
 namespace {
 
 constexpr double spring_N_per_m = 500.0;
-constexpr double least_prescribed_tension_N = 0.5;
-constexpr double drift_share = 0.6;   // of a step; the rest is new in every step
-constexpr double longest_way = 20.0;  // steps
+constexpr double min_prescribed_tension_N = 0.5;
+constexpr double drift_fraction = 0.6;  // of a step; the rest is new in every step
+constexpr double longest_way = 20.0;    // steps
 
 }  // namespace
 
 EndTarget RandomWalk::moved(EndTarget target, EndKind kind, Way& way) {
     if (way.steps_left-- <= 0) way = {draw(), static_cast<int>(longest_way * (1.0 + draw()))};
-    const auto share = [&] { return drift_share * way.drift + (1.0 - drift_share) * draw(); };
-    target.displacement_m += step_m_ * share();
-    if (kind != EndKind::position) target.tension_N += step_m_ * stiffness_N_per_m_ * share();
-    if (kind == EndKind::tension) target.tension_N = std::max(target.tension_N, least_prescribed_tension_N);
+    const auto fraction = [&] { return drift_fraction * way.drift + (1.0 - drift_fraction) * draw(); };
+    target.displacement_m += step_m_ * fraction();
+    if (kind != EndKind::position) target.tension_N += step_m_ * stiffness_N_per_m_ * fraction();
+    if (kind == EndKind::tension) target.tension_N = std::max(target.tension_N, min_prescribed_tension_N);
     return target;
 }
 

@@ -28,7 +28,7 @@ EndMotion both_ends_cycle(double time) {
 }
 
 std::vector<CableState> SampledPath::states(const Cable& cable, int steps_per_instant) const {
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     const double rest_m = state.displacement_m.front();
     const int steps = instants * steps_per_instant;

@@ -143,17 +143,17 @@ TEST(LoadBacklash, AHandleThatCrossesItsGapFeelsWhatTheCablesPull) {
     BenchEffects effects;
     effects.load_backlash.half_gap_rad = 0.01;
     BenchSimulation bench = pair_with(effects);
-    int most_iterations = 0;
+    int max_iterations = 0;
     for (int step = 1; step <= 200; ++step) {
         const BenchReport report =
             bench.advance({MotorAngle{0.0}, LoadAngle{0.3 * swing(step)}, time_step_s, 0.0});
         ASSERT_TRUE(report.converged) << step;
-        most_iterations = std::max(most_iterations, report.iterations);
+        max_iterations = std::max(max_iterations, report.iterations);
         const double pulled_Nm = pulleys.load_radius_m * (bench.load_tension_N(0) - bench.load_tension_N(1));
         // Of 13 N m; the pulley's own inertia takes the rest.
         ASSERT_NEAR(pulled_Nm, bench.load_torque_Nm(), 5e-3) << step;
     }
-    EXPECT_GT(most_iterations, 60) << "no step was hard";
+    EXPECT_GT(max_iterations, 60) << "no step was hard";
 }
 
 // The hand moves a third of a radian in a step: some steps are not met and say so, the others are balanced.
@@ -231,13 +231,13 @@ TEST(SlidingShare, IsNoneAtRestAndAllButTheHeldEndsInMassMotion) {
     const std::vector<BenchDescription> bench = {{cable_with(30), true, pulleys, {}}};
     const std::vector<BenchEffects> effects(1);
     BenchSimulations simulation(bench, effects);
-    EXPECT_EQ(simulation.cables().sliding_share(0), 0.0);
+    EXPECT_EQ(simulation.cables().sliding_fraction(0), 0.0);
     double before = 0.0;
     for (int step = 1; step <= 100; ++step) {
         simulation.advance({MotorAngle{0.02 * step}, LoadAngle{0.0}, time_step_s, 0.0});
-        const double share = simulation.cables().sliding_share(0);
-        ASSERT_GE(share, before) << "a front that goes on one way does not come back";
-        before = share;
+        const double fraction = simulation.cables().sliding_fraction(0);
+        ASSERT_GE(fraction, before) << "a front that goes on one way does not come back";
+        before = fraction;
     }
     EXPECT_DOUBLE_EQ(before, 60.0 / 62.0);
 }

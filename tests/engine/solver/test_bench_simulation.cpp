@@ -88,7 +88,7 @@ TEST(BenchSimulation, WithoutEffectsItIsThePullPullPair) {
 
 TEST(BenchSimulation, WithoutEffectsASingleCableIsTheClosedFormStep) {
     const Cable cable = cable_with(100);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     const double rest_m = state.displacement_m.front();
     BenchSimulation bench({cable, false, pulleys, {}}, {});

@@ -45,7 +45,7 @@ TEST_F(UniquenessProof, DoesNotHold_TwoPatternsPassThePapersChecks) {
 }
 
 TEST_F(UniquenessProof, TestingEveryNodeRefusesTheSecondPattern) {
-    const ModelRules rules = ModelRules::cured();
+    const ModelRules rules = ModelRules::consistent();
     const PrefixTables tables(cable, rules);
     const StepView view{tables, rules, state};
     EXPECT_TRUE(verifies(view, with_moving_nodes(tables, rules, 1)));
@@ -76,7 +76,7 @@ TEST(ElongationRules, WhereTheirGapLeavesNoAnswerTheCableStillDoesNotPush) {
 TEST(ZeroVelocityPoint, LiesInsideASegmentWhereNoNodeRests) {
     // Both ends are pulled apart until no node rests: without E7 and E8 nothing verifies.
     const Cable cable = test::paper_cable(5);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     int no_node_rests = 0;
     for (int k = 1; k <= 60; ++k) {

@@ -10,7 +10,7 @@ namespace {
 
 TEST(Energy, FrictionOfASlidingSegmentNeverCreatesEnergy) {
     const Cable cable(test::routed_specification(12));
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     const double rest_m = state.displacement_m.front();
     for (const auto& [proximal_m, distal_m] : test::both_ends_wander(3000, 2e-4, 9)) {
@@ -25,7 +25,7 @@ class ClosedCycle : public testing::TestWithParam<double> {};  // amplitude [m]
 
 TEST_P(ClosedCycle, LosesEnergyAndReturnsToItself) {
     const Cable cable = test::paper_cable(20);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     const auto cycle = test::sine_against_locked_end(cable, GetParam(), 400, 400);
     for (const EndConditions& ends : cycle) step.advance(state, ends);  // settle

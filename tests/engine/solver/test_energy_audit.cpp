@@ -48,7 +48,7 @@ void audit_end(const EndCondition& before, const EndCondition& after, const test
 }
 
 Audit audit_of(const Cable& cable, const test::DrivenCycle& cycle, int cycles) {
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     EndConditions ends = cycle.ends_at(cable, 0);
     Audit audit;

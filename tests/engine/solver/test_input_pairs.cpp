@@ -40,7 +40,7 @@ TEST_P(InputPair, GoesTheWayThatPositionsDescribe) {
     CableSpecification specification = test::routed_specification(12);
     specification.static_friction = specification.dynamic_friction;
     const Cable cable(specification);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState by_position = pretensioned(cable);
     const double rest_m = by_position.displacement_m.front();
     int mass_steps = 0;

@@ -11,7 +11,7 @@ namespace {
 
 TEST(MassMotion, TensionGrowsByTheCapstanRatioTowardsWhereTheCableGoes) {
     const Cable cable(test::routed_specification(12));
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     for (const double way : {1.0, -1.0}) {
         CableState state = pretensioned(cable);
         // Both ends go the same way far enough to drag everything along.
@@ -28,7 +28,7 @@ TEST(MassMotion, TensionGrowsByTheCapstanRatioTowardsWhereTheCableGoes) {
 
 TEST(MassMotion, AgainstASpringTheClosedFormOfTheWholeCableHolds) {
     const Cable cable = test::paper_cable(10);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     const double stiffness_N_per_m = 40.0;
     const double pulled_m = state.displacement_m.front() - 0.06;
@@ -65,7 +65,7 @@ class IdealCable : public testing::TestWithParam<CableSpecification> {};
 
 TEST_P(IdealCable, CarriesTheSameTensionEverywhere) {
     const Cable cable(GetParam());
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     for (const EndConditions& ends : test::sine_against_locked_end(cable, 0.009, 100, 150)) {
         step.advance(state, ends);
@@ -95,7 +95,7 @@ TEST(PartialMotion, ReachesTheFarEndWhereMassMotionBegins) {
     CableSpecification specification = test::paper_specification(10);
     specification.static_friction = specification.dynamic_friction;
     const Cable cable(specification);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     const auto pulled_by = [&](double displacement_m) {
         CableState state = pretensioned(cable);
         step.advance(state, {EndCondition::position_m(state.displacement_m.front() - displacement_m),
@@ -120,7 +120,7 @@ TEST(PartialMotion, ReachesTheFarEndWhereMassMotionBegins) {
 
 TEST(BadInput, IsRefusedByNameAndLeavesTheStateAlone) {
     const Cable cable = test::paper_cable(5);
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     const CableState before = state;
     const auto refusal = [&](const EndConditions& ends) -> std::string {

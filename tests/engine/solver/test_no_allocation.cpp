@@ -52,7 +52,7 @@ TEST(NoAllocation, InAStepOfAnyMotion) {
     KindCounts kinds{};
     for (const double step_m : {1e-4, 1e-3}) {
         for (const double slack_m : {0.0, 0.012}) {
-            for (const ModelRules& rules : {ModelRules::cured(), ModelRules::paper()}) {
+            for (const ModelRules& rules : {ModelRules::consistent(), ModelRules::paper()}) {
                 const Walked walked = walk(step_m, slack_m, rules);
                 EXPECT_EQ(walked.allocations, 0);
                 for (std::size_t kind = 0; kind < kinds.size(); ++kind) kinds[kind] += walked.kinds[kind];
@@ -67,7 +67,7 @@ TEST(NoAllocation, InAStepOfAnyMotion) {
 
 TEST(NoAllocation, InAStepOfReplicates) {
     const Cable cable = test::paper_cable(10);
-    const ReplicateStep step(cable, ModelRules::cured());
+    const ReplicateStep step(cable, ModelRules::consistent());
     const int replicates = 11;
     ReplicateStates states(pretensioned(cable), replicates);
     ReplicateEnds ends(replicates);

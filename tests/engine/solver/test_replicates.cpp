@@ -97,7 +97,8 @@ class Replicates : public testing::TestWithParam<std::tuple<int, Inputs, double>
 // 19: two whole groups and a part of one.
 TEST_P(Replicates, AreWhereTheSingleStepTakesThemToTheBit) {
     const auto [segments, inputs, step_m] = GetParam();
-    const Tally tally = walk_beside_the_single_step({segments, inputs, step_m}, ModelRules::cured(), 19, 400);
+    const Tally tally =
+        walk_beside_the_single_step({segments, inputs, step_m}, ModelRules::consistent(), 19, 400);
     EXPECT_EQ(tally.differing, 0);
     EXPECT_GT(tally.kinds[static_cast<std::size_t>(MotionKind::partial)], 0);
 }
@@ -119,14 +120,14 @@ INSTANTIATE_TEST_SUITE_P(Replicates, Replicates,
                          name_of_walk);
 
 TEST(ReplicateStep, EveryMotionOccursInTheseWalks) {
-    const Tally tally =
-        walk_beside_the_single_step({10, Inputs::position_position, 4e-3}, ModelRules::cured(), 16, 1000);
+    const Tally tally = walk_beside_the_single_step({10, Inputs::position_position, 4e-3},
+                                                    ModelRules::consistent(), 16, 1000);
     for (const int steps : tally.kinds) EXPECT_GT(steps, 10);
 }
 
 TEST(ReplicateStep, LeavesToTheSingleStepOnlyWhatIsNeitherRestPartialNorMassMotion) {
     const Tally tally =
-        walk_beside_the_single_step({10, Inputs::position_spring, 2e-4}, ModelRules::cured(), 16, 1000);
+        walk_beside_the_single_step({10, Inputs::position_spring, 2e-4}, ModelRules::consistent(), 16, 1000);
     EXPECT_GT(tally.kinds[static_cast<std::size_t>(MotionKind::partial)], 1000);
     EXPECT_LT(tally.one_by_one, tally.steps / 100);
 }
@@ -139,7 +140,7 @@ TEST(ReplicateStep, ThePapersRulesGoOneByOneToTheSameAnswer) {
 }
 
 TEST(ReplicateStep, FrictionWithoutMemoryGoesTogetherToTheSameAnswerToo) {
-    ModelRules memoryless = ModelRules::cured();
+    ModelRules memoryless = ModelRules::consistent();
     memoryless.stiction = StictionRule::memoryless;
     const Tally tally = walk_beside_the_single_step({10, Inputs::position_spring, 2e-4}, memoryless, 16, 400);
     EXPECT_EQ(tally.differing, 0);
@@ -148,7 +149,7 @@ TEST(ReplicateStep, FrictionWithoutMemoryGoesTogetherToTheSameAnswerToo) {
 
 TEST(ReplicateStep, WrongInputIsRefusedAndNothingMoves) {
     const Cable cable = test::paper_cable(4);
-    const ReplicateStep step(cable, ModelRules::cured());
+    const ReplicateStep step(cable, ModelRules::consistent());
     EXPECT_THROW(ReplicateStates(pretensioned(cable), 0), InvalidInput);
     EXPECT_THROW(ReplicateEnds(0), InvalidInput);
     ReplicateStates states(pretensioned(cable), 3);

@@ -16,7 +16,7 @@ class Slack : public testing::Test {
     }
 
     Cable cable = test::paper_cable(10);
-    QuasiStaticStep step{cable, ModelRules::cured()};
+    QuasiStaticStep step{cable, ModelRules::consistent()};
     CableState state = pretensioned(cable);
     StepReport report;
 };

@@ -80,7 +80,7 @@ void compare_with_all(const Cable& cable, const CableState& before, const EndCon
 constexpr int steps_from_one_state = 25;
 
 Tally walk_and_compare(const Cable& cable, const InputPair& pair, double step_m, int steps, unsigned seed) {
-    const QuasiStaticStep step(cable, ModelRules::cured());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
     test::RandomWalk walk(cable, pair, step_m, seed);
     CableState state = pretensioned(cable);
     Tally tally;

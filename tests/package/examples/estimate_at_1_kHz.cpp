@@ -15,7 +15,7 @@ int main() {
         .static_friction = 0.2,
         .pretension_N = 20.0,
     });
-    const capstan::QuasiStaticStep model(cable, capstan::ModelRules::cured());
+    const capstan::QuasiStaticStep model(cable, capstan::ModelRules::consistent());
     capstan::CableState truth = capstan::pretensioned(cable);
     const double start_m = truth.displacement_m.front();
     capstan::RecursiveEstimator estimator(model, truth, {.wander = {.distal_m = 1e-4}});

@@ -13,7 +13,7 @@ int main() {
         .static_friction = 0.2,
         .pretension_N = 20.0,
     });
-    const capstan::QuasiStaticStep model(cable, capstan::ModelRules::cured());
+    const capstan::QuasiStaticStep model(cable, capstan::ModelRules::consistent());
     capstan::CableState state = capstan::pretensioned(cable);
     const double start_m = state.displacement_m.front();
     const auto wall = capstan::distal_spring({.stiffness_N_per_m = 400.0, .tension_N = 20.0});

@@ -132,7 +132,7 @@ TEST(ConfigReader, PieceWithoutRadiusIsStraight) {
 
 TEST(ConfigReader, ProblemsOfTheStudyAreShownAtTheLineTheySpeakOf) {
     const ReadConfig config =
-        parse_config("[[regime]]\nname = \"mass\"\nsamples = [1]\nduty_share = 1\n", "x.toml");
+        parse_config("[[regime]]\nname = \"mass\"\nsamples = [1]\nduty_fraction = 1\n", "x.toml");
     try {
         require_runnable(config);
         FAIL() << "accepted";

@@ -65,13 +65,13 @@ TEST(DutyCycle, TheTimesOfARunSumToItsLength) {
 // Without friction tension is the same all along, and any motion reaches the far end.
 TEST(DutyCycle, ACableWithoutFrictionOnlyKnowsMassMotion) {
     const DutyCycle duty = measure_duty(single_cable(rest_then_sine(0.2), 0.0), {});
-    EXPECT_EQ(duty.share(Regime::mass), 1.0);
+    EXPECT_EQ(duty.fraction(Regime::mass), 1.0);
 }
 
 // A motion too small to overcome friction to the end stays a partial one at the motor.
 TEST(DutyCycle, ASmallMotionStaysAtTheProximalEnd) {
     const DutyCycle duty = measure_duty(single_cable(rest_then_sine(0.02), 0.3), still_below(1e-6));
-    EXPECT_EQ(duty.share(Regime::partial_proximal), 1.0);
+    EXPECT_EQ(duty.fraction(Regime::partial_proximal), 1.0);
 }
 
 // After a reversal the front has to creep along the cable before all of it slides: the wider the more
@@ -79,14 +79,14 @@ TEST(DutyCycle, ASmallMotionStaysAtTheProximalEnd) {
 TEST(DutyCycle, MoreFrictionMeansMorePartialMotion) {
     const DutyCycle slippery = measure_duty(single_cable(rest_then_sine(0.4), 0.05), {});
     const DutyCycle rough = measure_duty(single_cable(rest_then_sine(0.4), 0.2), {});
-    EXPECT_GT(rough.share(Regime::partial_proximal), slippery.share(Regime::partial_proximal));
-    EXPECT_GT(rough.share(Regime::mass), 0.0);
+    EXPECT_GT(rough.fraction(Regime::partial_proximal), slippery.fraction(Regime::partial_proximal));
+    EXPECT_GT(rough.fraction(Regime::mass), 0.0);
 }
 
 TEST(DutyCycle, ADriveThatNeverMovedHasNone) {
     const DutyCycle duty = measure_duty(single_cable(rest_then_sine(0.2), 0.2), still_below(10.0));
     EXPECT_NEAR(duty.all.still_s, 5.0, 1e-9);
-    EXPECT_THROW(duty.share(Regime::mass), InvalidInput);
+    EXPECT_THROW(duty.fraction(Regime::mass), InvalidInput);
 }
 
 TEST(DutyCycle, APlanTakesTheSharesOfItsRegimes) {
@@ -95,8 +95,8 @@ TEST(DutyCycle, APlanTakesTheSharesOfItsRegimes) {
     StudyPlan plan;
     plan.regimes = {{Regime::partial_proximal, {1}, 0.5}, {Regime::mass, {2}, 0.5}};
     EXPECT_NEAR(use_duty(duty, plan), 0.2, 1e-15);
-    EXPECT_DOUBLE_EQ(plan.regimes[0].duty_share, 0.25);
-    EXPECT_DOUBLE_EQ(plan.regimes[1].duty_share, 0.75);
+    EXPECT_DOUBLE_EQ(plan.regimes[0].duty_fraction, 0.25);
+    EXPECT_DOUBLE_EQ(plan.regimes[1].duty_fraction, 0.75);
     plan.regimes = {{Regime::partial_distal, {1}, 1.0}};
     EXPECT_THROW(use_duty(duty, plan), InvalidInput);
 }
@@ -113,12 +113,12 @@ TEST(DutyCycle, OfARecordedSessionTellsRampsFromAHandle) {
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
     const DutyCycle duty = measure_duty(gap::read_recording(path), {});
     ASSERT_EQ(duty.runs.size(), 4u);
-    const auto proximal_share = [&](std::size_t run) {
+    const auto proximal_fraction = [&](std::size_t run) {
         return duty.runs[run].regime_s[static_cast<std::size_t>(Regime::partial_proximal)] /
                duty.runs[run].moving_s();
     };
-    EXPECT_GT(proximal_share(0), 0.4);                              // ramp_locked
-    EXPECT_LT(proximal_share(1), 0.1);                              // tunnel, by a handle
+    EXPECT_GT(proximal_fraction(0), 0.4);                           // ramp_locked
+    EXPECT_LT(proximal_fraction(1), 0.1);                           // tunnel, by a handle
     EXPECT_GT(duty.runs[3].still_s, 0.9 * duty.runs[3].total_s());  // steps_dwell
 }
 

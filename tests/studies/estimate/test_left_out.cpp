@@ -23,7 +23,7 @@ SensedCable simulated_cable(double true_wander_m, double noise_N, int samples) {
         run.pretension_N = 25.0;
         CableSpecification specification = cable.specification;
         specification.pretension_N = run.pretension_N;
-        const QuasiStaticStep model(Cable(specification), ModelRules::cured());
+        const QuasiStaticStep model(Cable(specification), ModelRules::consistent());
         CableState state = pretensioned(model.cable());
         const double rest_m = state.displacement_m.front();
         run.reading_N.resize(cable.channels.size());

@@ -72,8 +72,8 @@ TEST(Evidence, OfTwoAlikeGoesToTheOneWithUsualNumbers) {
     odd.fit.causes = {&known.drag};
     odd.misfit = 1.0;
     odd.visibility = {4.0};
-    odd.shape_price = 10.0;  // a number e^4.5 times what is usual
-    EXPECT_NEAR(usual.evidence - evidence.of(odd), odd.shape_price, 1e-12);
+    odd.shape_penalty = 10.0;  // a number e^4.5 times what is usual
+    EXPECT_NEAR(usual.evidence - evidence.of(odd), odd.shape_penalty, 1e-12);
 }
 
 TEST(Evidence, OfStructureThatNobodyExplainsIsForUnknown) {

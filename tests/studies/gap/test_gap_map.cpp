@@ -26,21 +26,21 @@ std::vector<RunResiduals> larger_in(const Recording& recording, std::size_t loud
     return runs;
 }
 
-const GapShare* part(const std::vector<GapShare>& map, const std::string& by, const std::string& name) {
-    for (const GapShare& share : map) {
-        if (share.by == by && share.name == name) return &share;
+const GapFraction* part(const std::vector<GapFraction>& map, const std::string& by, const std::string& name) {
+    for (const GapFraction& fraction : map) {
+        if (fraction.by == by && fraction.name == name) return &fraction;
     }
     return nullptr;
 }
 
 TEST(GapMap, FindsTheRunThatHoldsTheGap) {
     const Recording recording = measured_session(nominal_values(*make_twin(driven_session())));
-    const std::vector<GapShare> map = gap_map(recording, larger_in(recording, 1));
-    const GapShare* loud = part(map, "run", "2");
+    const std::vector<GapFraction> map = gap_map(recording, larger_in(recording, 1));
+    const GapFraction* loud = part(map, "run", "2");
     ASSERT_NE(loud, nullptr);
-    EXPECT_GT(loud->share, 0.95);
-    EXPECT_LE(loud->low, loud->share);
-    EXPECT_GE(loud->high, loud->share);
+    EXPECT_GT(loud->fraction, 0.95);
+    EXPECT_LE(loud->low, loud->fraction);
+    EXPECT_GE(loud->high, loud->fraction);
     EXPECT_NEAR(loud->of_samples, 0.5, 0.01);
     EXPECT_NE(gap_sentence(map).find("run 2"), std::string::npos);
 }
@@ -48,8 +48,8 @@ TEST(GapMap, FindsTheRunThatHoldsTheGap) {
 TEST(GapMap, SharesOfAKindSumToOne) {
     const Recording recording = measured_session(nominal_values(*make_twin(driven_session())));
     double direction = 0.0;
-    for (const GapShare& share : gap_map(recording, larger_in(recording, 0))) {
-        if (share.by == "direction") direction += share.share;
+    for (const GapFraction& fraction : gap_map(recording, larger_in(recording, 0))) {
+        if (fraction.by == "direction") direction += fraction.fraction;
     }
     EXPECT_NEAR(direction, 1.0, 1e-12);
 }

@@ -53,10 +53,10 @@ class BendOrFriction : public testing::Test {
         throw std::out_of_range(effect);
     }
 
-    double told_apart(const Indistinct& result, const std::string& start_of_name) const {
+    double discrimination_probability(const NonIdentifiable& result, const std::string& start_of_name) const {
         double most = 0.0;
         for (const ExperimentScore& each : result.experiments) {
-            if (each.name.starts_with(start_of_name)) most = std::max(most, each.told_apart);
+            if (each.name.starts_with(start_of_name)) most = std::max(most, each.discrimination_probability);
         }
         return most;
     }
@@ -67,20 +67,20 @@ TEST_F(BendOrFriction, IsToldApartByASensorBeyondTheBendSoonerThanByOneBeforeIt)
     const ScoredFit friction = fitted("param_mu", "", {});
     const std::vector<WeighedHypothesis> group = {{{"local_bend"}, 0.5, 0.0, &bend},
                                                   {{"param_mu"}, 0.5, 0.0, &friction}};
-    const Indistinct result = told_apart_by(recording, fitter, group, 2);
+    const NonIdentifiable result = discriminating_experiments(recording, fitter, group, 2);
     ASSERT_FALSE(result.experiments.empty());
-    EXPECT_GT(told_apart(result, "tension sensor on cable A at 1.00 m"),
-              told_apart(result, "tension sensor on cable A at 0.10 m") + 0.02);
-    EXPECT_GT(told_apart(result, "tension sensor on cable A at 1.00 m"),
-              told_apart(result, "steps with dwells"));
+    EXPECT_GT(discrimination_probability(result, "tension sensor on cable A at 1.00 m"),
+              discrimination_probability(result, "tension sensor on cable A at 0.10 m") + 0.02);
+    EXPECT_GT(discrimination_probability(result, "tension sensor on cable A at 1.00 m"),
+              discrimination_probability(result, "steps with dwells"));
 }
 
 TEST_F(BendOrFriction, NothingTellsAnExplanationFromItself) {
     const ScoredFit friction = fitted("param_mu", "", {});
     const std::vector<WeighedHypothesis> group = {{{"param_mu"}, 0.5, 0.0, &friction},
                                                   {{"param_mu"}, 0.5, 0.0, &friction}};
-    for (const ExperimentScore& each : told_apart_by(recording, fitter, group, 1).experiments)
-        EXPECT_NEAR(each.told_apart, 0.5, 0.01) << each.name;
+    for (const ExperimentScore& each : discriminating_experiments(recording, fitter, group, 1).experiments)
+        EXPECT_NEAR(each.discrimination_probability, 0.5, 0.01) << each.name;
 }
 
 TEST_F(BendOrFriction, GivesTheSameAnswerForAnyNumberOfThreads) {
@@ -88,29 +88,30 @@ TEST_F(BendOrFriction, GivesTheSameAnswerForAnyNumberOfThreads) {
     const ScoredFit friction = fitted("param_mu", "", {});
     const std::vector<WeighedHypothesis> group = {{{"local_bend"}, 0.5, 0.0, &bend},
                                                   {{"param_mu"}, 0.5, 0.0, &friction}};
-    const Indistinct one = told_apart_by(recording, fitter, group, 1);
-    const Indistinct seven = told_apart_by(recording, fitter, group, 7);
+    const NonIdentifiable one = discriminating_experiments(recording, fitter, group, 1);
+    const NonIdentifiable seven = discriminating_experiments(recording, fitter, group, 7);
     ASSERT_EQ(one.experiments.size(), seven.experiments.size());
     for (std::size_t k = 0; k < one.experiments.size(); ++k) {
         EXPECT_EQ(one.experiments[k].name, seven.experiments[k].name);
-        EXPECT_EQ(one.experiments[k].told_apart, seven.experiments[k].told_apart);
+        EXPECT_EQ(one.experiments[k].discrimination_probability,
+                  seven.experiments[k].discrimination_probability);
     }
 }
 
-TEST(Indistinct, IsNothingWhereTheFirstIsSure) {
+TEST(NonIdentifiable, IsNothingWhereTheFirstIsSure) {
     const ScoredFit any;
-    EXPECT_TRUE(indistinct(std::vector<WeighedHypothesis>{{{"creep"}, 0.96, 0.0, &any},
-                                                          {{"backlash"}, 0.04, -3.0, &any}})
+    EXPECT_TRUE(non_identifiable(std::vector<WeighedHypothesis>{{{"creep"}, 0.96, 0.0, &any},
+                                                                {{"backlash"}, 0.04, -3.0, &any}})
                     .empty());
 }
 
-TEST(Indistinct, LeavesOutWhatCannotBeSimulated) {
+TEST(NonIdentifiable, LeavesOutWhatCannotBeSimulated) {
     const ScoredFit any;
     const std::vector<WeighedHypothesis> weighed = {{{"unknown"}, 0.4, 0.0, nullptr},
                                                     {{"creep"}, 0.3, -0.3, &any},
                                                     {{"backlash"}, 0.26, -0.4, &any},
                                                     {{"inertia"}, 0.04, -3.0, &any}};
-    const auto group = indistinct(weighed);
+    const auto group = non_identifiable(weighed);
     ASSERT_EQ(group.size(), 2u);
     EXPECT_EQ(group[0].effects.front(), "creep");
     EXPECT_EQ(group[1].effects.front(), "backlash");

@@ -131,7 +131,7 @@ TEST_F(HandMadeTrial, CalibrationErrorWeighsBinsByCases) {
     EXPECT_NEAR(score_.calibration.ece, gaps / 7.0, 1e-12);
     ASSERT_EQ(score_.calibration.bins.size(), 5U);
     EXPECT_EQ(score_.calibration.bins.back().cases, 3);
-    EXPECT_EQ(score_.calibration.bins.back().share_right, 1.0);
+    EXPECT_EQ(score_.calibration.bins.back().fraction_right, 1.0);
 }
 
 TEST_F(HandMadeTrial, PlacesCountWhereTheCauseIsNamedRightly) {
@@ -159,14 +159,14 @@ TEST_F(HandMadeTrial, ACaseWithoutAnAnswerIsListedNotScored) {
 }
 
 // Wilson 1927; 8 of 10 as in Newcombe 1998: 0.490 to 0.943.
-TEST(Share, HasWilsonsInterval) {
-    const Share share{8, 10};
-    EXPECT_NEAR(share.low(), 0.4902, 1e-4);
-    EXPECT_NEAR(share.high(), 0.9433, 1e-4);
-    const Share all{20, 20};
+TEST(Fraction, HasWilsonsInterval) {
+    const Fraction fraction{8, 10};
+    EXPECT_NEAR(fraction.low(), 0.4902, 1e-4);
+    EXPECT_NEAR(fraction.high(), 0.9433, 1e-4);
+    const Fraction all{20, 20};
     EXPECT_NEAR(all.low(), 0.8389, 1e-4);
     EXPECT_NEAR(all.high(), 1.0, 1e-12);
-    const Share nothing;
+    const Fraction nothing;
     EXPECT_EQ(nothing.low(), 0.0);
     EXPECT_EQ(nothing.high(), 1.0);
 }

@@ -4,15 +4,15 @@
 #include <numbers>
 #include <random>
 
-#include "capstan/placement/cell_statistics.h"
 #include "capstan/parallel/parallel_for.h"
+#include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/repetition_blocks.h"
 
 namespace capstan {
 namespace {
 
-double quantile_of(std::vector<double> values, double share) {
-    return quantile(values, share);
+double quantile_of(std::vector<double> values, double fraction) {
+    return quantile(values, fraction);
 }
 
 // Type 7: the share runs from the smallest value at 0 to the largest at 1, linearly between their places.
@@ -36,7 +36,7 @@ TEST(MeanAndError, FollowTheirDefinition) {
 TEST(RepetitionBlocks, HoldEveryRepetitionOnce) {
     for (int repetitions = 1; repetitions <= 500; ++repetitions) {
         const RepetitionBlocks blocks{repetitions};
-        ASSERT_LE(blocks.count(), RepetitionBlocks::most_blocks);
+        ASSERT_LE(blocks.count(), RepetitionBlocks::max_blocks);
         int next = 0;
         for (int b = 0; b < blocks.count(); ++b) {
             ASSERT_EQ(blocks.first(b), next) << repetitions << " repetitions";
@@ -95,7 +95,7 @@ TEST(SummariseCell, FollowsItsDefinitions) {
     EXPECT_DOUBLE_EQ(cell.nodes[0].bias_N, 0.5);
     EXPECT_DOUBLE_EQ(cell.nodes[1].bias_N, -0.5);
     EXPECT_DOUBLE_EQ(cell.error_q50_N, 2.0);
-    EXPECT_DOUBLE_EQ(cell.unverified_share, 0.5);
+    EXPECT_DOUBLE_EQ(cell.unverified_fraction, 0.5);
     EXPECT_EQ(cell.block_mean_abs_error_N, (std::vector<double>{2, 3, 1, 2}));
 }
 

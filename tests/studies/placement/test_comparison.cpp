@@ -59,8 +59,8 @@ TEST(WeightedScores, SpreadAsMuchAsScenariosThatAreOffTogether) {
 }
 
 std::vector<Score> regrets_from_the_best(const std::vector<PlacementCandidate>& candidates,
-                                         const std::vector<std::vector<double>>& shares) {
-    return regret_scores(candidates, shares, best_of_regimes(candidates, shares));
+                                         const std::vector<std::vector<double>>& fractions) {
+    return regret_scores(candidates, fractions, best_of_regimes(candidates, fractions));
 }
 
 TEST(RegretScores, TheBestOfTheOnlyRegimeRegretsNothing) {
@@ -76,12 +76,12 @@ TEST(RegretScores, AreTheWorstOverRegimesAndNeverNegative) {
     std::mt19937_64 random(3);
     for (int trial = 0; trial < 50; ++trial) {
         const auto candidates = random_candidates(6, random);
-        const std::vector<std::vector<double>> shares = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        const auto all = regrets_from_the_best(candidates, shares);
+        const std::vector<std::vector<double>> fractions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        const auto all = regrets_from_the_best(candidates, fractions);
         for (std::size_t c = 0; c < candidates.size(); ++c) {
             double worst_N = 0.0;
-            for (const auto& share : shares) {
-                worst_N = std::max(worst_N, regrets_from_the_best(candidates, {share})[c].objective_N);
+            for (const auto& fraction : fractions) {
+                worst_N = std::max(worst_N, regrets_from_the_best(candidates, {fraction})[c].objective_N);
             }
             EXPECT_DOUBLE_EQ(all[c].objective_N, worst_N);
             EXPECT_GE(all[c].objective_N, 0.0);

@@ -46,8 +46,8 @@ TEST(LongCableSearch, SixtySegmentsAreSearchedUnderConstraints) {
     plan.placement.required_nodes = {0};
     plan.placement.forbidden_nodes = {60};
     plan.placement.minimum_spacing = 5;
-    plan.placement.most_in_distal_half = 2;
-    plan.placement.most_sensors = 4;
+    plan.placement.max_in_distal_half = 2;
+    plan.placement.max_sensors = 4;
     const PlacementAnswer answer = place_sensors(plan, alone());
     EXPECT_EQ(answer.search, SearchKind::greedy);
     const PlacementConstraints constraints(plan.placement, 61);
@@ -61,7 +61,7 @@ TEST(LongCableSearch, AFewSensorsOnALongCableAreSearchedExactly) {
     StudyPlan plan = test::short_cable_plan(10);
     plan.transmission.cable.segments = 60;
     plan.fusion_methods = {"maximum_likelihood"};
-    plan.placement.most_sensors = 2;
+    plan.placement.max_sensors = 2;
     const PlacementAnswer answer = place_sensors(plan, alone());
     EXPECT_EQ(answer.search, SearchKind::exhaustive);
     EXPECT_EQ(answer.layouts, 61 + 61 * 60 / 2);

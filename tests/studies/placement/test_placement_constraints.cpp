@@ -21,9 +21,9 @@ TEST(PlacementConstraints, EachForbidsWhatItSays) {
         {"forbidden_nodes", {.forbidden_nodes = {3}}, {2, 4}, {2, 3}},
         {"required_nodes", {.required_nodes = {10, 0}}, {0, 5, 10}, {0, 5}},
         {"minimum_spacing", {.minimum_spacing = 3}, {0, 3, 6}, {0, 3, 5}},
-        {"most_sensors", {.most_sensors = 2}, {1, 2}, {1, 2, 3}},
+        {"max_sensors", {.max_sensors = 2}, {1, 2}, {1, 2, 3}},
         // Node 5 (the sixth) is the middle and in neither half.
-        {"most_in_distal_half", {.most_in_distal_half = 1}, {0, 5, 9}, {6, 9}},
+        {"max_in_distal_half", {.max_in_distal_half = 1}, {0, 5, 9}, {6, 9}},
         {"budget", costs, {0, 1, 8}, {8, 9}},
     };
     for (const Case& each : cases) {
@@ -35,7 +35,7 @@ TEST(PlacementConstraints, EachForbidsWhatItSays) {
 
 TEST(PlacementConstraints, AClashNamesASmallestGroup) {
     // Spacing and the distal half have no part in it.
-    PlacementPlan plan{.required_nodes = {0, 8, 10}, .minimum_spacing = 2, .most_in_distal_half = 2};
+    PlacementPlan plan{.required_nodes = {0, 8, 10}, .minimum_spacing = 2, .max_in_distal_half = 2};
     plan.node_costs.assign(nodes, 2.0);
     plan.budget = 5.0;
     EXPECT_EQ(PlacementConstraints(plan, nodes).clash(),
@@ -64,14 +64,14 @@ TEST(PlacementConstraints, NodesOutsideTheCableAndCostsThatDoNotFitAreRefused) {
     EXPECT_EQ(problems_of(PlacementPlan{.node_costs = {1.0, 2.0}}, nodes).size(), 1u);
 }
 
-// No layout that is allowed has more sensors than most_sensors() says; here the bound is reached.
+// No layout that is allowed has more sensors than max_sensors() says; here the bound is reached.
 TEST(PlacementConstraints, MostSensorsIsABoundThatSpacingAndBudgetReach) {
     const PlacementPlan apart{.minimum_spacing = 4};
     const PlacementConstraints spaced(apart, nodes);
-    EXPECT_EQ(spaced.most_sensors(), 3);
+    EXPECT_EQ(spaced.max_sensors(), 3);
     EXPECT_TRUE(spaced.allow({0, 4, 8}));
     const PlacementPlan cheap{.budget = 4.0};
-    EXPECT_EQ(PlacementConstraints(cheap, nodes).most_sensors(), 4);
+    EXPECT_EQ(PlacementConstraints(cheap, nodes).max_sensors(), 4);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // 400 independent small studies against the errors that 40,000 repetitions give: what "95%" means has to be
-// true. The seeds are fixed, and so are the counts; a share of 95% of 400 has a standard deviation of 1.1%.
+// true. The seeds are fixed, and so are the counts; a fraction of 95% of 400 has a standard deviation
+// of 1.1%.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,7 +78,7 @@ std::vector<PlacementAnswer>* Coverage::answers = nullptr;
 struct Tally {
     int covered = 0;
     int all = 0;
-    double share() const { return static_cast<double>(covered) / all; }
+    double fraction() const { return static_cast<double>(covered) / all; }
 };
 
 // Also of the optimum, though it was picked for looking good: its interval is that of the fresh draws.
@@ -95,10 +96,10 @@ TEST_F(Coverage, IntervalsCoverTheTruth93To97Percent) {
         for (const JudgedLayout& layout : count.beside) look(layout);
     });
     for (const auto& [how, tally] : tallies) {
-        EXPECT_GE(tally.share(), 0.93) << how;
-        EXPECT_LE(tally.share(), 0.97) << how;
+        EXPECT_GE(tally.fraction(), 0.93) << how;
+        EXPECT_LE(tally.fraction(), 0.97) << how;
         EXPECT_GE(tally.all, 10 * studies) << how;
-        RecordProperty(how, std::to_string(tally.share()));
+        RecordProperty(how, std::to_string(tally.fraction()));
     }
 }
 
@@ -113,8 +114,8 @@ TEST_F(Coverage, PairedDifferencesToTheOptimumCoverTheTruth93To97Percent) {
             ++tally.all;
         }
     });
-    EXPECT_GE(tally.share(), 0.93);
-    EXPECT_LE(tally.share(), 0.97);
+    EXPECT_GE(tally.fraction(), 0.93);
+    EXPECT_LE(tally.fraction(), 0.97);
 }
 
 TEST_F(Coverage, TheTrulyBestIsTheOptimumOrInItsIndifferentSetAtLeast95PercentOfTheTime) {
@@ -146,7 +147,7 @@ TEST_F(Coverage, TheTrulyBestIsTheOptimumOrInItsIndifferentSetAtLeast95PercentOf
     });
     EXPECT_EQ(tallies.size(), 15u);  // two regimes and the duty cycle, 1 to 5 sensors
     for (const auto& [question, tally] : tallies) {
-        EXPECT_GE(tally.share(), 0.95) << question;
+        EXPECT_GE(tally.fraction(), 0.95) << question;
         EXPECT_EQ(tally.all, studies);
     }
 }
@@ -159,7 +160,7 @@ TEST_F(Coverage, TheIndifferentSetLeavesOutWhatIsClearlyWorse) {
         left_out.covered += static_cast<int>(count.indifferent.size());
         left_out.all += 4 * count.allowed_layouts - 1;
     });
-    EXPECT_LT(left_out.share(), 0.75);
+    EXPECT_LT(left_out.fraction(), 0.75);
 }
 
 }  // namespace

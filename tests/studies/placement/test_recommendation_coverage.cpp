@@ -85,7 +85,7 @@ std::vector<Recommended>* RecommendationCoverage::answers = nullptr;
 struct Tally {
     int covered = 0;
     int all = 0;
-    double share() const { return static_cast<double>(covered) / all; }
+    double fraction() const { return static_cast<double>(covered) / all; }
 };
 
 // Of one question in 400 studies the share has a standard deviation of 1.1%, so three questions are put
@@ -102,11 +102,11 @@ TEST_F(RecommendationCoverage, IntervalsOfTheChosenCoverTheTruth93To97Percent) {
         }
     });
     EXPECT_EQ(tallies.size(), 3u);  // two regimes and the duty cycle
-    EXPECT_GE(together.share(), 0.93);
-    EXPECT_LE(together.share(), 0.97);
+    EXPECT_GE(together.fraction(), 0.93);
+    EXPECT_LE(together.fraction(), 0.97);
     for (const auto& [question, tally] : tallies) {
-        EXPECT_GE(tally.share(), 0.915) << question;
-        EXPECT_LE(tally.share(), 0.985) << question;
+        EXPECT_GE(tally.fraction(), 0.915) << question;
+        EXPECT_LE(tally.fraction(), 0.985) << question;
         EXPECT_EQ(tally.all, studies);
     }
 }
@@ -122,7 +122,7 @@ TEST_F(RecommendationCoverage, IntervalsOfTheBestAtEachCountCoverTheTruthAtLeast
             ++tally.all;
         }
     });
-    for (const auto& [question, tally] : tallies) EXPECT_GE(tally.share(), 0.95) << question;
+    for (const auto& [question, tally] : tallies) EXPECT_GE(tally.fraction(), 0.95) << question;
 }
 
 TEST_F(RecommendationCoverage, TheDrawsThatChoseFlatterTheChoice) {

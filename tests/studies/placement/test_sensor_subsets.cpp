@@ -45,7 +45,7 @@ TEST(SensorSubsets, EverySetIsASmallerOnePlusItsLastSensor) {
 
 TEST(SensorSubsets, DepthFirstASetComesAfterTheOneItBeginsWithAndNoOtherOfThatSizeBetween) {
     const SensorSubsets subsets(first_nodes(7), 5);
-    std::vector<int> on_stack(subsets.most_sensors() + 1, 0);
+    std::vector<int> on_stack(subsets.max_sensors() + 1, 0);
     for (const int s : subsets.depth_first()) {
         EXPECT_EQ(on_stack[subsets.sensors(s) - 1], subsets.without_last(s));
         on_stack[subsets.sensors(s)] = s;

@@ -106,7 +106,7 @@ TEST(UntilResolved, SaysWhatIsOpenWhereTheMostRepetitionsStopIt) {
     const StudyToExtend study = begun_with(file.database(), 40);
     Resolution resolution;
     resolution.tolerance_N = 1e-6;
-    resolution.most_repetitions = 100;
+    resolution.max_repetitions = 100;
     const auto outcome = extend_until_resolved(file.database(), study, resolution, "test", {});
     EXPECT_EQ(outcome.repetitions, 80);
     EXPECT_GT(*outcome.unresolved_N, resolution.tolerance_N);

@@ -46,8 +46,8 @@ const std::vector<BadPlan> bad_plans = {
      }},
     {"an empty layout", [](StudyPlan& p) { p.explicit_layouts = {{}}; }},
     {"there is no layout", [](StudyPlan& p) { p.layout_families.clear(); }},
-    {"duty_share values sum to 0.9", [](StudyPlan& p) { p.regimes[0].duty_share = 0.4; }},
-    {"duty_share is -0.5", [](StudyPlan& p) { p.regimes[0].duty_share = -0.5; }},
+    {"duty_fraction values sum to 0.9", [](StudyPlan& p) { p.regimes[0].duty_fraction = 0.4; }},
+    {"duty_fraction is -0.5", [](StudyPlan& p) { p.regimes[0].duty_fraction = -0.5; }},
     {"regime mass is given twice", [](StudyPlan& p) { p.regimes[1].regime = Regime::mass; }},
     {"no instant is named", [](StudyPlan& p) { p.regimes.clear(); }},
     {"sample 201 is outside the motion", [](StudyPlan& p) { p.regimes[0].samples = {201}; }},
@@ -89,7 +89,7 @@ TEST(StudyPlan, AllMistakesAreListedAtOnce) {
     plan.layout_families = {"random"};
     plan.sensor_counts = {12};
     plan.curve_points = 7;
-    plan.regimes[0].duty_share = 0.6;
+    plan.regimes[0].duty_fraction = 0.6;
     const auto problems = problems_of(plan);
     EXPECT_EQ(problems.size(), 5u) << all_in_one(problems);
     try {

@@ -21,9 +21,9 @@ Trajectory truth_of(const StudyPlan& plan) {
 }
 
 // One friction coefficient: stiction is not among what effects are simulated with.
-StudyPlan cured_plan() {
+StudyPlan consistent_plan() {
     StudyPlan plan = test::paper_plan(10);
-    plan.transmission.rules = ModelRules::cured();
+    plan.transmission.rules = ModelRules::consistent();
     plan.transmission.cable.static_friction = plan.transmission.cable.dynamic_friction;
     return plan;
 }
@@ -52,9 +52,9 @@ TEST(TrueCable, ThatIsTheModelMovesAsTheModelBitForBit) {
 }
 
 TEST(TrueCable, WithMoreFrictionIsTheCableWithThatFriction) {
-    StudyPlan rough = cured_plan();
+    StudyPlan rough = consistent_plan();
     rough.truth.friction_ratio = 1.25;
-    StudyPlan other = cured_plan();
+    StudyPlan other = consistent_plan();
     other.transmission.cable.dynamic_friction *= 1.25;
     other.transmission.cable.static_friction *= 1.25;
     const Trajectory a = truth_of(rough);
@@ -64,7 +64,7 @@ TEST(TrueCable, WithMoreFrictionIsTheCableWithThatFriction) {
 
 // The grid with effects and the closed form agree but for the discretisation.
 TEST(TrueCable, WithHardlyAnyEffectMovesAsTheModel) {
-    StudyPlan plan = cured_plan();
+    StudyPlan plan = consistent_plan();
     const Trajectory model = truth_of(plan);
     number_of(plan, "viscous_friction", "", "drag") = 1e-9;
     ASSERT_TRUE(plan.truth.has_effects());
@@ -89,7 +89,7 @@ TEST(TrueCable, WithHardlyAnyEffectMovesAsTheModel) {
 // In mass motion towards the motor tension falls over the bend by e^(mu angle) more than without it (E1).
 TEST(TrueCable, WithABendLosesTensionThere) {
     constexpr double angle_rad = 1.0;
-    StudyPlan plan = cured_plan();
+    StudyPlan plan = consistent_plan();
     const Trajectory model = truth_of(plan);
     number_of(plan, "local_bend", "cable A", "middle") = 1.1;  // between nodes 5 and 6
     number_of(plan, "local_bend", "cable A", "length") = 0.1;
@@ -106,7 +106,7 @@ TEST(TrueCable, WithABendLosesTensionThere) {
 }
 
 TEST(TrueCable, WithEffectsNeedsEndsWhosePositionsAreGiven) {
-    StudyPlan plan = cured_plan();
+    StudyPlan plan = consistent_plan();
     number_of(plan, "creep", "", "ratio") = 0.1;
     EXPECT_TRUE(problems_of_truth(plan).empty());
     plan.motion.distal.kind = EndKind::spring;

@@ -58,9 +58,9 @@ TEST(UncertainParameters, InstantsFollowTheirRegime) {
 TEST(UncertainParameters, ARegimeThatNeverOccursGivesItsShareAway) {
     const auto scaled = plan_with(plan_for(2), 0, {1e-9, 1, 1, 1, 1});
     ASSERT_TRUE(scaled);
-    double share = 0.0;
-    for (const RegimeInstants& regime : scaled->regimes) share += regime.duty_share;
-    EXPECT_NEAR(share, 1.0, 1e-12);
+    double fraction = 0.0;
+    for (const RegimeInstants& regime : scaled->regimes) fraction += regime.duty_fraction;
+    EXPECT_NEAR(fraction, 1.0, 1e-12);
 }
 
 TEST(AdviceQuestion, TheBestRegretsNothing) {
