@@ -30,41 +30,22 @@ std::string number(double value) {
     return text;
 }
 
-std::vector<std::string> problems_of_pieces(const std::vector<CurvaturePiece>& pieces) {
-    std::vector<std::string> problems;
-    if (pieces.empty()) problems.push_back("curvature: no piece given; a cable needs at least one");
+std::vector<KeyProblem> problems_of_pieces(const std::vector<CurvaturePiece>& pieces) {
+    std::vector<KeyProblem> problems;
+    if (pieces.empty()) problems.push_back({"curvature", "no piece is given; a cable needs at least one"});
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const std::string where = "curvature piece " + std::to_string(k + 1) + ": ";
+        const std::string piece = "curvature[" + std::to_string(k + 1) + "]";
         const double radius = pieces[k].bend_radius_m;
         if (!positive(pieces[k].length_m)) {
-            problems.push_back(where + "length_m is " + number(pieces[k].length_m) + ", but must be above 0");
+            problems.push_back(
+                {piece + ".length_m", "is " + number(pieces[k].length_m) + ", but must be above 0"});
         }
         if (std::isnan(radius) || radius <= 0.0) {
-            problems.push_back(where + "bend_radius_m is " + number(radius) +
-                               ", but must be above 0 (leave it out for a straight piece)");
+            problems.push_back(
+                {piece + ".bend_radius_m",
+                 "is " + number(radius) + ", but must be above 0 (leave it out for a straight piece)"});
         }
     }
-    return problems;
-}
-
-std::vector<std::string> problems_of(const CableSpecification& s) {
-    std::vector<std::string> problems = problems_of_pieces(s.curvature);
-    const auto demand = [&](bool holds, const char* name, double value, const char* rule) {
-        if (!holds) problems.push_back(std::string(name) + " is " + number(value) + ", but " + rule);
-    };
-    demand(s.segments >= 1, "segments", s.segments, "must be at least 1");
-    demand(positive(s.axial_stiffness_N), "axial_stiffness_N", s.axial_stiffness_N, "must be above 0");
-    demand(not_negative(s.dynamic_friction), "dynamic_friction", s.dynamic_friction, "must be 0 or more");
-    demand(not_negative(s.static_friction) && !(s.static_friction < s.dynamic_friction), "static_friction",
-           s.static_friction, "must be finite and at least dynamic_friction");
-    demand(not_negative(s.pretension_N), "pretension_N", s.pretension_N, "must be 0 or more");
-    if (!problems.empty()) return problems;
-
-    double wrap_angle_rad = 0.0;
-    for (const CurvaturePiece& piece : s.curvature) wrap_angle_rad += piece.length_m / piece.bend_radius_m;
-    demand(s.static_friction * wrap_angle_rad <= largest_friction_exponent,
-           "static_friction times wrap angle", s.static_friction * wrap_angle_rad,
-           "must be at most 300: beyond, the far end feels nothing; check bend_radius_m");
     return problems;
 }
 
@@ -82,6 +63,34 @@ double wrap_between_rad(const std::vector<CurvaturePiece>& pieces, double from_m
 }
 
 }  // namespace
+
+std::vector<KeyProblem> problems_of(const CableSpecification& s) {
+    std::vector<KeyProblem> problems = problems_of_pieces(s.curvature);
+    const auto demand = [&](bool holds, const char* name, double value, const std::string& rule) {
+        if (!holds) problems.push_back({name, "is " + number(value) + rule});
+    };
+    demand(s.segments >= 1, "segments", s.segments, ", but must be at least 1");
+    demand(positive(s.axial_stiffness_N), "axial_stiffness_N", s.axial_stiffness_N, ", but must be above 0");
+    demand(not_negative(s.dynamic_friction), "dynamic_friction", s.dynamic_friction,
+           ", but must be 0 or more");
+    demand(not_negative(s.static_friction) && !(s.static_friction < s.dynamic_friction), "static_friction",
+           s.static_friction,
+           ", below dynamic_friction " + number(s.dynamic_friction) +
+               "; a segment at rest holds at least as much as one that slides");
+    demand(not_negative(s.pretension_N), "pretension_N", s.pretension_N, ", but must be 0 or more");
+    if (!problems.empty()) return problems;
+
+    double wrap_angle_rad = 0.0;
+    for (const CurvaturePiece& piece : s.curvature) wrap_angle_rad += piece.length_m / piece.bend_radius_m;
+    const double exponent = s.static_friction * wrap_angle_rad;
+    if (!(exponent <= largest_friction_exponent)) {
+        problems.push_back(
+            {"curvature", "static_friction times the wrap angle is " + number(exponent) +
+                              ", but must be at most 300: beyond, the far end feels nothing; check "
+                              "bend_radius_m"});
+    }
+    return problems;
+}
 
 Cable::Cable(const CableSpecification& specification)
     : length_m_(total_length_m(specification.curvature)),

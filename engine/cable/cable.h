@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "capstan/cable/invalid_input.h"
+
 namespace capstan {
 
 inline constexpr double straight = std::numeric_limits<double>::infinity();
@@ -27,6 +29,9 @@ struct CableSpecification {
 /// The largest friction exponent (mu times total wrap angle) taken: beyond it a tension ratio leaves the
 /// range of double precision, and the far end of a real cable feels nothing long before.
 inline constexpr double largest_friction_exponent = 300.0;
+
+/// Everything wrong with a specification, by the name of its field; empty if a cable can be made of it.
+std::vector<KeyProblem> problems_of(const CableSpecification& specification);
 
 /// A cable cut into segments of equal length; segment i joins nodes i and i + 1, all counted from 0 here
 /// (people count from 1), node 0 proximal. A segment's wrap angle is that of the pieces it covers, so the

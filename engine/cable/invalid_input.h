@@ -6,11 +6,22 @@
 
 namespace capstan {
 
+/// One thing wrong with an input: the key it belongs to, as in a configuration ("regime[2].samples"), and
+/// what is wrong with it and what to try.
+struct KeyProblem {
+    std::string key;
+    std::string message;
+
+    std::string text() const { return key + ": " + message; }
+    bool operator==(const KeyProblem&) const = default;
+};
+
 /// Input that no model can be built from. Lists every problem found, one a line: what is wrong, why it
 /// matters, what to try.
 class InvalidInput : public std::runtime_error {
   public:
     explicit InvalidInput(std::vector<std::string> problems);
+    explicit InvalidInput(const std::vector<KeyProblem>& problems);
 
     const std::vector<std::string>& problems() const { return problems_; }
 

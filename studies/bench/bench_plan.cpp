@@ -4,6 +4,46 @@
 
 namespace capstan::bench {
 
+namespace {
+
+using Problems = std::vector<KeyProblem>;
+
+// More are a page and a CSV that nobody reads, and a typing error.
+constexpr double max_samples = 1e7;
+
+void check_sines(const std::string& section, const Waveform& wave, Problems& problems) {
+    if (wave.kind != WaveformKind::sines) return;
+    const auto same_count = [&](const char* name, std::size_t count) {
+        if (count == wave.amplitudes.size()) return;
+        problems.push_back({section + "." + name, "has " + std::to_string(count) + " numbers for " +
+                                                      std::to_string(wave.amplitudes.size()) +
+                                                      " amplitudes; give one for each sine"});
+    };
+    same_count("frequencies_Hz", wave.frequency_Hz.size());
+    same_count("phases_rad", wave.phase_rad.size());
+}
+
+}  // namespace
+
+Problems problems_of(const BenchPlan& plan) {
+    Problems problems;
+    for (const KeyProblem& problem : capstan::problems_of(plan.cable))
+        problems.push_back({"cable." + problem.key, problem.message});
+    if (plan.motor_drive == MotorDrive::torque && plan.load_kind == LoadKind::torque) {
+        problems.push_back(
+            {"load.input",
+             "is \"torque\" and so is the motor's; nothing determines where the pulleys are: drive "
+             "the motor by its angle, or let the load be a spring"});
+    }
+    if (plan.duration_s * plan.sample_rate_Hz > max_samples) {
+        problems.push_back(
+            {"duration_s", "makes more than ten million samples; shorten it or lower sample_rate_Hz"});
+    }
+    check_sines("motor", plan.motor, problems);
+    if (plan.load_kind != LoadKind::locked) check_sines("load", plan.load, problems);
+    return problems;
+}
+
 int BenchPlan::samples() const {
     return static_cast<int>(std::lround(duration_s * sample_rate_Hz));
 }

@@ -19,7 +19,6 @@ enum class LoadKind {
     spring,  ///< a spring to a wall that may move
 };
 
-
 /// A pull-pull bench and what is done with it.
 struct BenchPlan {
     std::string name;
@@ -34,11 +33,12 @@ struct BenchPlan {
     double duration_s = 0.0;
     /// effect catalogue x parameters; as the catalogue's `absent` where an effect is not there.
     EffectValues effects = absent_effects();
-    std::string config_toml;
 
     int samples() const;  ///< beyond the first, which is at rest
     PullPullInputs inputs_at(double time_s) const;
 };
 
+/// Everything wrong with the plan, each with the key it belongs to; empty when it can run.
+std::vector<KeyProblem> problems_of(const BenchPlan& plan);
 
 }  // namespace capstan::bench

@@ -5,9 +5,9 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/wrapped_text.h"
+#include "capstan/config/wrapped_text.h"
 #include "capstan/gap/calibration.h"
-#include "capstan/gap/recording_reader.h"
+#include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
 
@@ -49,7 +49,7 @@ std::string channel_rows(const Calibration& calibration) {
     return text;
 }
 
-std::string in_words(const gap::Recording& recording, const Calibration& calibration) {
+std::string in_words(const Recording& recording, const Calibration& calibration) {
     std::string text = fmt::format("{}: {} runs, {} samples at {:g} Hz{}\n\n", recording.name,
                                    recording.runs.size(), recording.samples(), recording.sample_rate_Hz,
                                    calibration.converged ? "" : "; the fit did NOT converge");
@@ -60,14 +60,14 @@ std::string in_words(const gap::Recording& recording, const Calibration& calibra
             ? "There is one run only, so nothing could be held out."
             : "Held out: each run predicted with parameters fitted to all the others.";
     return text +
-           wrapped(held_out +
-                       " Intervals take residuals as hanging together within a second, and as wide "
-                       "as the runs disagree.",
-                   100, "", "") +
+           config::wrapped(held_out +
+                               " Intervals take residuals as hanging together within a second, and as wide "
+                               "as the runs disagree.",
+                           100, "", "") +
            "\n";
 }
 
-ordered_json in_json(const gap::Recording& recording, const Calibration& calibration) {
+ordered_json in_json(const Recording& recording, const Calibration& calibration) {
     ordered_json json = {{"case", recording.name},
                          {"converged", calibration.converged},
                          {"unsolved_steps", calibration.unsolved_steps},
@@ -106,7 +106,7 @@ std::vector<std::string> split_at_commas(const std::string& text) {
 }
 
 ExitCode run(const Invocation& invocation) {
-    const gap::Recording recording = gap::read_recording(invocation.argument("LOG"));
+    const Recording recording = read_recording(invocation.argument("LOG"));
     gap::CalibrationOptions options;
     options.threads = static_cast<int>(invocation.whole("jobs"));
     options.segments = static_cast<int>(invocation.whole("segments"));

@@ -5,12 +5,12 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_file.h"
-#include "capstan/cli/config_problem.h"
-#include "capstan/cli/config_reader.h"
-#include "capstan/cli/config_studies.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
+#include "capstan/config/config_file.h"
+#include "capstan/config/config_problem.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/config/config_studies.h"
 
 namespace capstan::cli {
 
@@ -106,14 +106,14 @@ nlohmann::ordered_json bench_in_json(const bench::BenchPlan& plan) {
 
 // Builds the cable, which refuses what no key alone shows.
 void check_bench(const Invocation& invocation, const std::string& file) {
-    const bench::BenchPlan plan = read_bench(file).plan;
+    const bench::BenchPlan plan = config::read_bench(file).plan;
     const Cable cable(plan.cable);
     deliver(invocation, invocation.has("json") ? json_text(bench_in_json(plan)) : bench_in_words(file, plan));
 }
 
-nlohmann::ordered_json problems_json(const ConfigError& error) {
+nlohmann::ordered_json problems_json(const config::ConfigError& error) {
     nlohmann::ordered_json json = {{"ok", false}, {"problems", nlohmann::ordered_json::array()}};
-    for (const ConfigProblem& problem : error.problems()) {
+    for (const config::ConfigProblem& problem : error.at_lines()) {
         json["problems"].push_back({{"line", problem.line},
                                     {"column", problem.column},
                                     {"key", problem.key},
@@ -125,16 +125,16 @@ nlohmann::ordered_json problems_json(const ConfigError& error) {
 ExitCode run(const Invocation& invocation) {
     const std::string& file = invocation.argument("CONFIG");
     try {
-        if (content_of_config(file) == ConfigContent::bench) {
+        if (config::content_of_config(file) == config::ConfigContent::bench) {
             check_bench(invocation, file);
             return ExitCode::success;
         }
-        const ReadConfig config = read_config(file);
-        const std::vector<StudyPlan> studies = runnable_studies(config);
+        const config::ReadConfig config = config::read_config(file);
+        const std::vector<StudyPlan> studies = config::runnable_studies(config);
         deliver(invocation, invocation.has("json") ? json_text(in_json(config.plan, studies))
                                                    : in_words(file, config.plan, studies));
         return ExitCode::success;
-    } catch (const ConfigError& error) {
+    } catch (const config::ConfigError& error) {
         if (!invocation.has("json")) throw;
         deliver(invocation, json_text(problems_json(error)));
         return ExitCode::wrong_input;

@@ -1,15 +1,16 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_writer.h"
 #include "capstan/cli/output.h"
+#include "capstan/config/config_writer.h"
 
 namespace capstan::cli {
 
 namespace {
 
 ExitCode run(const Invocation& invocation) {
-    deliver(invocation, invocation.has("bench") ? config_text(default_bench(), Comments::every_key)
-                                                : config_text(default_plan(), Comments::every_key));
+    deliver(invocation, invocation.has("bench")
+                            ? config::config_text(config::default_bench(), config::Comments::every_key)
+                            : config::config_text(config::default_plan(), config::Comments::every_key));
     return ExitCode::success;
 }
 

@@ -9,7 +9,6 @@
 #include "capstan/cli/answer_format.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_truth.h"
 #include "capstan/cli/corrected_model.h"
 #include "capstan/cli/diagnosis_words.h"
 #include "capstan/cli/json_text.h"
@@ -18,10 +17,11 @@
 #include "capstan/cli/page_diagnosis.h"
 #include "capstan/cli/stored_diagnosis.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/config/config_truth.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/equivalent_bench.h"
-#include "capstan/gap/estimated_noise.h"
-#include "capstan/gap/recording_reader.h"
+#include "capstan/recording/estimated_noise.h"
+#include "capstan/recording/recording_reader.h"
 #include "capstan/reports/diagnosis_report.h"
 #include "capstan/storage/diagnosis_store.h"
 
@@ -46,11 +46,11 @@ std::vector<int> run_numbers(const std::string& listed) {
 }
 
 // Its runs with these numbers, in a list as of the command line.
-gap::Recording only_runs(gap::Recording recording, const std::string& listed) {
-    std::vector<gap::RecordedRun> runs;
+Recording only_runs(Recording recording, const std::string& listed) {
+    std::vector<RecordedRun> runs;
     for (const int number : run_numbers(listed)) {
         const auto run = std::find_if(recording.runs.begin(), recording.runs.end(),
-                                      [&](const gap::RecordedRun& each) { return each.number == number; });
+                                      [&](const RecordedRun& each) { return each.number == number; });
         if (run == recording.runs.end())
             throw UsageError(fmt::format("{}: there is no run {}", recording.name, number));
         runs.push_back(*run);
@@ -60,16 +60,15 @@ gap::Recording only_runs(gap::Recording recording, const std::string& listed) {
 }
 
 // A bench of known geometry, or what moves as the recorded one does.
-gap::Recording recorded_bench(const Invocation& invocation) {
-    const gap::Recording whole = gap::with_estimated_noise(gap::read_recording(invocation.argument("LOG")));
-    const gap::Recording diagnosed =
-        invocation.has("runs") ? only_runs(whole, invocation.text("runs")) : whole;
-    const gap::Recording fitted_to =
+Recording recorded_bench(const Invocation& invocation) {
+    const Recording whole = with_estimated_noise(read_recording(invocation.argument("LOG")));
+    const Recording diagnosed = invocation.has("runs") ? only_runs(whole, invocation.text("runs")) : whole;
+    const Recording fitted_to =
         invocation.has("calibrate-on") ? only_runs(whole, invocation.text("calibrate-on")) : diagnosed;
     return gap::equivalent_bench(diagnosed, fitted_to);
 }
 
-void store(const Invocation& invocation, const gap::Recording& recording, const Diagnosis& diagnosis) {
+void store(const Invocation& invocation, const Recording& recording, const Diagnosis& diagnosis) {
     storage::DiagnosisRecord record = diagnosis_record(recording, diagnosis);
     name_log(record, invocation.argument("LOG"));
     storage::Database database = storage::Database::open_or_create(invocation.text("db"));
@@ -78,8 +77,7 @@ void store(const Invocation& invocation, const gap::Recording& recording, const 
         fmt::print(stderr, "Stored as diagnosis {} in {}.\n", id, invocation.text("db"));
 }
 
-std::string answer_in(const std::string& format, const gap::Recording& recording,
-                      const Diagnosis& diagnosis) {
+std::string answer_in(const std::string& format, const Recording& recording, const Diagnosis& diagnosis) {
     if (format == "json") return json_text(in_json(recording, diagnosis));
     if (format == "md") return reports::diagnosis_markdown(diagnosis_record(recording, diagnosis));
     if (format == "csv") return reports::diagnosis_csv(diagnosis_record(recording, diagnosis));
@@ -87,7 +85,7 @@ std::string answer_in(const std::string& format, const gap::Recording& recording
 }
 
 ExitCode run(const Invocation& invocation) {
-    const gap::Recording recording = recorded_bench(invocation);
+    const Recording recording = recorded_bench(invocation);
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.whole("jobs"));
     const bool on_a_terminal = isatty(STDERR_FILENO) != 0;

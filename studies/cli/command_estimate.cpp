@@ -11,7 +11,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/page_estimate.h"
 #include "capstan/cli/usage_error.h"
-#include "capstan/gap/recording_reader.h"
+#include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
 
@@ -73,7 +73,7 @@ void append_cable(std::string& text, const SensedCable& cable, const estimate::W
 
 ExitCode run(const Invocation& invocation) {
     if (!names_a_recording(invocation.argument("LOG"))) return estimate_cycles(invocation);
-    const gap::Recording recording = gap::read_recording(invocation.argument("LOG"));
+    const Recording recording = read_recording(invocation.argument("LOG"));
     std::vector<SensedCable> cables =
         estimate::sensed_cables(recording, static_cast<int>(invocation.whole("segments")));
     estimate::TrackingOptions options;

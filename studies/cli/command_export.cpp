@@ -9,10 +9,10 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/nearest_name.h"
 #include "capstan/cli/row_text.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/cli/whole_file.h"
+#include "capstan/config/nearest_name.h"
 #include "capstan/reports/parquet_file.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/schema_documentation.h"
@@ -37,7 +37,7 @@ std::vector<DocumentedTable> chosen_tables(const Invocation& invocation) {
         const auto found = std::find(names.begin(), names.end(), word);
         if (found == names.end())
             throw UsageError(fmt::format("capstan export: there is no table or view '{}'{}", word,
-                                         suggestion(word, names)));
+                                         config::suggestion(word, names)));
         chosen.push_back(all[static_cast<std::size_t>(found - names.begin())]);
     }
     return chosen;

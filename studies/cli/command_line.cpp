@@ -6,9 +6,9 @@
 #include <boost/program_options.hpp>
 #include <charconv>
 
-#include "capstan/cli/nearest_name.h"
 #include "capstan/cli/second_reading.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/config/nearest_name.h"
 
 namespace capstan::cli {
 
@@ -42,7 +42,7 @@ std::string nearest_option(const Command& command, std::string given) {
     const std::string bare = given.substr(std::min(given.find_first_not_of('-'), given.size()));
     std::vector<std::string> known;
     for (const Option& option : command.options) known.emplace_back(option.name);
-    const auto nearest = nearest_name(bare, known);
+    const auto nearest = config::nearest_name(bare, known);
     return fmt::format("unknown option '{}'{}", given, nearest ? "; did you mean '--" + *nearest + "'?" : "");
 }
 

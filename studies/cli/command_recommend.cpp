@@ -5,8 +5,8 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/recommendation_words.h"
-#include "capstan/cli/stored_study.h"
 #include "capstan/placement/recommendation.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {

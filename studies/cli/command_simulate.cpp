@@ -5,14 +5,14 @@
 #include "capstan/cable/motion_name.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_file.h"
-#include "capstan/cli/config_reader.h"
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/simulated_bench.h"
 #include "capstan/cli/simulated_recording.h"
 #include "capstan/cli/usage_error.h"
-#include "capstan/placement/true_motion.h"
+#include "capstan/config/config_file.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/plan/true_motion.h"
 
 namespace capstan::cli {
 
@@ -42,14 +42,14 @@ void append_line(std::string& text, const TrueSample& sample, double sample_rate
 
 ExitCode run(const Invocation& invocation) {
     if (names_a_recording(invocation.argument("CONFIG"))) return simulate_recording(invocation);
-    if (content_of_config(invocation.argument("CONFIG")) == ConfigContent::bench)
+    if (config::content_of_config(invocation.argument("CONFIG")) == config::ConfigContent::bench)
         return simulate_bench_file(invocation);
     if (invocation.has("html")) {
         throw UsageError(
             "capstan simulate: a study's motion has no page; --html is for benches and recordings. `capstan study run` "
             "and `capstan report` make the page of a study");
     }
-    const StudyPlan plan = read_config(invocation.argument("CONFIG")).plan;
+    const StudyPlan plan = config::read_config(invocation.argument("CONFIG")).plan;
     const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
     const CableState start = pretensioned(step.cable());
     std::string text = head_line(step.cable().nodes());

@@ -4,12 +4,12 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_writer.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/shard_option.h"
-#include "capstan/cli/stored_study.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/cli/watched_run.h"
+#include "capstan/config/config_writer.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/placement/study_extension.h"
 #include "capstan/storage/study_store.h"
 
@@ -17,28 +17,19 @@ namespace capstan::cli {
 
 namespace {
 
-StudyPlan with_repetitions(StudyPlan plan, int repetitions) {
-    plan.repetitions = repetitions;
-    plan.config_toml = config_text(plan, Comments::none);
-    return plan;
-}
-
-StudyToExtend complete_study(std::int64_t id, const StudyPlan& plan) {
-    return {id, plan, [plan](int n) { return with_repetitions(plan, n); }};
-}
-
 // A name, or `latest`, finds an extension that was killed; what is to be extended is the study before it.
 StudyToExtend study_to_extend(const Invocation& invocation, storage::Database& database) {
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     const StoredStudy stored = load_stored_study(database, id);
     const storage::StudyRecord& study = stored.description.study;
-    if (study.status == "complete") return complete_study(id, stored.plan);
+    if (study.status == "complete") return {id, stored.plan};
     const auto studies = storage::list_studies(database);
     for (auto before = studies.rbegin(); before != studies.rend(); ++before) {
         if (before->study_id >= id || before->name != study.name || before->status != "complete") continue;
-        const StudyPlan plan = load_stored_study(database, before->study_id).plan;
-        if (with_repetitions(plan, study.repetitions).config_toml == study.config_toml)
-            return complete_study(before->study_id, plan);
+        const StudyToExtend smaller{before->study_id, load_stored_study(database, before->study_id).plan};
+        if (config::config_text(smaller.with_repetitions(study.repetitions), config::Comments::none) ==
+            study.config_toml)
+            return smaller;
     }
     throw UsageError(fmt::format(
         "study {} ({}) is not complete, so there is nothing to extend yet. `capstan study resume {} --db {}` "

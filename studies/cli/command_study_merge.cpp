@@ -2,7 +2,6 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_reader.h"
 #include "capstan/cli/watched_run.h"
 #include "capstan/placement/study_merge.h"
 
@@ -15,11 +14,7 @@ ExitCode run(const Invocation& invocation) {
     const auto& names = invocation.repeated_argument();
     const std::vector<std::filesystem::path> shards(names.begin(), names.end());
     return watch(invocation, "merge", [&](const RunOptions& options) -> WatchedEnd {
-        MergeOptions merge{options, {}};
-        merge.plan_of = [&](const std::string& config_toml) {
-            return parse_config(config_toml, "the stored configuration of " + names.front()).plan;
-        };
-        const RunEnd end = merge_shards(file, shards, merge);
+        const RunEnd end = merge_shards(file, shards, options);
         const std::string words =
             end == RunEnd::complete
                 ? fmt::format("Merged {} into {}; `capstan recommend --db {}` says what follows.",

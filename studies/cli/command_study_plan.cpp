@@ -4,9 +4,9 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_studies.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
+#include "capstan/config/config_studies.h"
 #include "capstan/placement/study_cost.h"
 #include "capstan/placement/study_shard.h"
 
@@ -70,8 +70,8 @@ nlohmann::ordered_json in_json(const std::string& name, const StudyCost& cost,
 }
 
 ExitCode run(const Invocation& invocation) {
-    const ReadConfig config = read_config_of(invocation);
-    const std::vector<StudyPlan> plans = runnable_studies(config);
+    const config::ReadConfig config = read_config_of(invocation);
+    const std::vector<StudyPlan> plans = config::runnable_studies(config);
     if (invocation.has("shards")) require_useful(plans, {1, static_cast<int>(invocation.whole("shards"))});
     const StudyCost cost = predict_cost(plans, {invocation.real("seconds")});
     const int shards =

@@ -6,10 +6,10 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/stored_study.h"
 #include "capstan/cli/text_table.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/placement/replay.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {

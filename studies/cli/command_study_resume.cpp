@@ -5,8 +5,8 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/shard_option.h"
-#include "capstan/cli/stored_study.h"
 #include "capstan/cli/watched_run.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {

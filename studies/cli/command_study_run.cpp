@@ -2,14 +2,14 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_studies.h"
-#include "capstan/cli/config_writer.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/shard_option.h"
 #include "capstan/cli/truth_comparison.h"
 #include "capstan/cli/watched_run.h"
+#include "capstan/config/config_studies.h"
+#include "capstan/config/config_writer.h"
 
 namespace capstan::cli {
 
@@ -72,7 +72,6 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
     model.truth = {};
     StudyPlan truth = with_truth;
     truth.name += ", truth " + std::filesystem::path(invocation.text("truth")).stem().string();
-    for (StudyPlan* plan : {&model, &truth}) plan->config_toml = config_text(*plan, Comments::none);
     const std::string& file = invocation.text("db");
     storage::Database database = storage::Database::open_or_create(file);
     refuse_shard_file(database);
@@ -102,8 +101,8 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
 }
 
 ExitCode run(const Invocation& invocation) {
-    const ReadConfig config = read_config_of(invocation);
-    const std::vector<StudyPlan> plans = runnable_studies(config);
+    const config::ReadConfig config = read_config_of(invocation);
+    const std::vector<StudyPlan> plans = config::runnable_studies(config);
     if (invocation.has("truth") && !invocation.has("shard") && plans.size() == 1)
         return run_both_truths(invocation, plans.front());
     if (invocation.has("shard")) return run_part(invocation, config.plan.name, plans);

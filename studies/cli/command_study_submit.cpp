@@ -6,11 +6,12 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_studies.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/cluster/slurm_queue.h"
 #include "capstan/cluster/slurm_scripts.h"
+#include "capstan/config/config_studies.h"
+#include "capstan/config/config_writer.h"
 
 namespace capstan::cli {
 
@@ -30,7 +31,7 @@ fs::path absolute_directory(const std::string& named) {
     return path;
 }
 
-std::string content_of(const fs::path& path) {
+std::string text_in(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -49,7 +50,7 @@ void require_own_folder(const StudyDirectory& directory, const std::string& conf
                         "name a new folder",
                         name, before.shards, directory.shards));
     }
-    if (content_of(directory.config_file()) != config_toml) {
+    if (text_in(directory.config_file()) != config_toml) {
         throw UsageError(
             name +
             " holds a study with another configuration; name a new folder (in it, config.toml is "
@@ -71,8 +72,8 @@ void say_dry_run(const StudyDirectory& directory) {
     write_standard_output(fmt::format(
         "# {}\n{}\n# {}\n{}\n# Not submitted. Without --dry-run:\nsbatch --array={} {}\nsbatch "
         "--dependency=afterok:JOB --kill-on-invalid-dep=yes {}\n",
-        directory.shards_script().string(), content_of(directory.shards_script()),
-        directory.merge_script().string(), content_of(directory.merge_script()), cluster::as_array(numbers),
+        directory.shards_script().string(), text_in(directory.shards_script()),
+        directory.merge_script().string(), text_in(directory.merge_script()), cluster::as_array(numbers),
         directory.shards_script().string(), directory.merge_script().string()));
 }
 
@@ -100,8 +101,8 @@ ExitCode run(const Invocation& invocation) {
             "capstan study submit: say --slurm; Slurm is the one scheduler that it knows. Elsewhere run "
             "`capstan study run CONFIG --shard I/N` for each shard, then `capstan study merge`.");
     }
-    const ReadConfig config = read_config_of(invocation);
-    const std::vector<StudyPlan> plans = runnable_studies(config);
+    const config::ReadConfig config = read_config_of(invocation);
+    const std::vector<StudyPlan> plans = config::runnable_studies(config);
     StudyDirectory directory;
     directory.path = absolute_directory(invocation.text("directory"));
     directory.name = config.plan.name;
@@ -115,14 +116,14 @@ ExitCode run(const Invocation& invocation) {
             "capstan study submit: sbatch and squeue are not on PATH, so there is no Slurm here. Run this "
             "on a machine of the cluster, or see with --dry-run what would be submitted.");
     }
-    require_own_folder(directory, config.plan.config_toml);
+    require_own_folder(directory, config::config_text(config.plan, config::Comments::none));
     if (fs::exists(directory.merged_file())) {
         write_standard_output(
             fmt::format("{} is complete; nothing to submit. `capstan recommend --db {}` says what follows.\n",
                         directory.name, directory.merged_file().string()));
         return ExitCode::success;
     }
-    write_folder(directory, config.plan.config_toml);
+    write_folder(directory, config::config_text(config.plan, config::Comments::none));
     if (dry_run) {
         say_dry_run(directory);
     } else {

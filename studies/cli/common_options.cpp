@@ -1,5 +1,7 @@
 #include "capstan/cli/common_options.h"
 
+#include "capstan/config/config_truth.h"
+
 namespace capstan::cli {
 
 const Option help_option{"help", 'h', OptionKind::flag, "", "Explain this command."};
@@ -67,5 +69,14 @@ const Argument config_argument{
     "CONFIG", "The study's configuration (TOML); `capstan config default` explains every key."};
 const Argument study_argument{"STUDY", "Its number, its name (the last one begun under it), or latest.",
                               ArgumentNeed::optional, "latest"};
+
+config::ReadConfig read_config_of(const Invocation& invocation) {
+    config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
+    StudyPlan& plan = config.plan;
+    if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
+    if (invocation.has("repetitions")) plan.repetitions = static_cast<int>(invocation.whole("repetitions"));
+    if (invocation.has("truth")) plan.truth = config::read_truth(invocation.text("truth"));
+    return config;
+}
 
 }  // namespace capstan::cli

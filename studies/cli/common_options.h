@@ -2,6 +2,7 @@
 // Options that mean the same wherever they appear.
 
 #include "capstan/cli/command.h"
+#include "capstan/config/config_reader.h"
 
 namespace capstan::cli {
 
@@ -19,5 +20,9 @@ extern const Option page_option;
 
 extern const Argument config_argument;
 extern const Argument study_argument;  ///< latest where left out
+
+/// The configuration that the argument CONFIG names, with --seed, --repetitions and --truth in place of its
+/// own.
+config::ReadConfig read_config_of(const Invocation& invocation);
 
 }  // namespace capstan::cli

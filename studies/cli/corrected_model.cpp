@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "capstan/cli/config_truth.h"
+#include "capstan/config/config_truth.h"
 
 namespace capstan::cli {
 
@@ -31,7 +31,7 @@ std::vector<double> values_of(const Effect& effect, const gap::FittedCause& caus
 
 }  // namespace
 
-std::string corrected_model_text(const gap::Recording& recording, const gap::Diagnosis& diagnosis,
+std::string corrected_model_text(const Recording& recording, const gap::Diagnosis& diagnosis,
                                  const std::string& verdict) {
     std::vector<std::string> comments = {
         fmt::format("The model of {} as `capstan diagnose` corrects it.", recording.name), verdict,
@@ -47,7 +47,7 @@ std::string corrected_model_text(const gap::Recording& recording, const gap::Dia
                                            cause.variant.empty() ? "" : ", ", cause.variant));
         }
     }
-    return truth_text(truth, comments);
+    return config::truth_text(truth, comments);
 }
 
 }  // namespace capstan::cli

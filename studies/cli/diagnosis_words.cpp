@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "capstan/cli/stored_diagnosis.h"
-#include "capstan/cli/wrapped_text.h"
+#include "capstan/config/wrapped_text.h"
 #include "capstan/reports/diagnosis_report.h"
 
 namespace capstan::cli {
@@ -73,7 +73,7 @@ std::string next_experiment_in_words(const gap::NonIdentifiable& non_identifiabl
                               best.description, best.discrimination_probability);
 }
 
-std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis) {
+std::string in_words(const Recording& recording, const Diagnosis& diagnosis) {
     std::string text = fmt::format("{}: {}\n", recording.name, verdict_sentence(diagnosis));
     if (!diagnosis.component.empty() && diagnosis.component != "none")
         text += fmt::format("  where     {}\n", where_in_words(diagnosis));
@@ -97,12 +97,12 @@ std::string in_words(const gap::Recording& recording, const Diagnosis& diagnosis
             fmt::format("  {:<14} {:>5} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3g}  {}\n", channel.channel,
                         channel.unit, channel.noise, channel.before_rms, channel.after_rms,
                         channel.held_out_rms, channel.runner_up_rms, closed_in_words(channel));
-    text += "\n" + wrapped(gap::gap_sentence(diagnosis.gap.map), 100, "  ", "  ") + "\n";
+    text += "\n" + config::wrapped(gap::gap_sentence(diagnosis.gap.map), 100, "  ", "  ") + "\n";
     const std::string next = next_experiment_in_words(diagnosis.non_identifiable);
-    return next.empty() ? text : text + "\n" + wrapped(next, 100, "  ", "  ") + "\n";
+    return next.empty() ? text : text + "\n" + config::wrapped(next, 100, "  ", "  ") + "\n";
 }
 
-ordered_json in_json(const gap::Recording& recording, const Diagnosis& diagnosis) {
+ordered_json in_json(const Recording& recording, const Diagnosis& diagnosis) {
     ordered_json json = reports::diagnosis_json(diagnosis_record(recording, diagnosis));
     json["non_identifiable"] = {{"group", diagnosis.non_identifiable.group},
                                 {"experiments", ordered_json::array()}};

@@ -6,7 +6,7 @@
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
 #include "capstan/duty/duty_cycle.h"
-#include "capstan/gap/recording_reader.h"
+#include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
 
@@ -27,13 +27,13 @@ std::string time_row(const std::string& name, const MotionTimes& times) {
     return row + "\n";
 }
 
-std::string in_words(const gap::Recording& recording, const DutyCycle& duty) {
+std::string in_words(const Recording& recording, const DutyCycle& duty) {
     std::string text =
         fmt::format("{}: what its cables do\n\n  {:<10} {:>8}", recording.name, "run", "time [s]");
     for (const Regime regime : all_regimes) text += fmt::format("  {:>16}", name_of(regime));
     text += fmt::format("  {:>16}  {:>16}\n", "slack", "still");
     for (std::size_t k = 0; k < duty.runs.size(); ++k) {
-        const gap::RecordedRun& run = recording.runs[k];
+        const RecordedRun& run = recording.runs[k];
         text += time_row(fmt::format("{}", run.number), duty.runs[k]);
     }
     text += time_row("all", duty.all);
@@ -58,7 +58,7 @@ ordered_json times_json(const MotionTimes& times) {
     return json;
 }
 
-ordered_json in_json(const gap::Recording& recording, const DutyCycle& duty) {
+ordered_json in_json(const Recording& recording, const DutyCycle& duty) {
     ordered_json json = {{"case", recording.name}, {"unsolved_steps", duty.unsolved_steps}};
     for (const Regime regime : all_regimes)
         json["duty_fraction"][std::string(name_of(regime))] = duty.fraction(regime);
@@ -73,7 +73,7 @@ ordered_json in_json(const gap::Recording& recording, const DutyCycle& duty) {
 }
 
 ExitCode run(const Invocation& invocation) {
-    const gap::Recording recording = gap::read_recording(invocation.argument("LOG"));
+    const Recording recording = read_recording(invocation.argument("LOG"));
     duty::DutyOptions options;
     options.jobs = static_cast<int>(invocation.whole("jobs"));
     options.segments = static_cast<int>(invocation.whole("segments"));

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "capstan/cli/json_text.h"
-#include "capstan/cli/wrapped_text.h"
+#include "capstan/config/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -42,7 +42,7 @@ ordered_json channel_json(const SensedCable& cable, const LeftOutChannel& result
 
 }  // namespace
 
-std::string left_out_words(const gap::Recording& recording, const std::vector<LeftOutCable>& results) {
+std::string left_out_words(const Recording& recording, const std::vector<LeftOutCable>& results) {
     std::string text = fmt::format("{}: {} samples at {:g} Hz; each channel predicted without itself\n\n",
                                    recording.name, recording.samples(), recording.sample_rate_Hz);
     text +=
@@ -70,10 +70,10 @@ std::string left_out_words(const gap::Recording& recording, const std::vector<Le
             " Some bands are NOT widened: it takes three channels on a cable to see the model's error without the channel "
             "that is left out.";
     }
-    return text + "\n" + wrapped(explained, 100, "", "") + "\n";
+    return text + "\n" + config::wrapped(explained, 100, "", "") + "\n";
 }
 
-std::string left_out_json(const gap::Recording& recording, const std::vector<LeftOutCable>& results) {
+std::string left_out_json(const Recording& recording, const std::vector<LeftOutCable>& results) {
     ordered_json json = {{"case", recording.name}, {"channels", ordered_json::array()}};
     for (const LeftOutCable& cable : results) {
         for (const LeftOutChannel& result : cable.channels)
@@ -82,7 +82,7 @@ std::string left_out_json(const gap::Recording& recording, const std::vector<Lef
     return json_text(json);
 }
 
-std::string whole_json(const gap::Recording& recording, const std::vector<SensedCable>& cables,
+std::string whole_json(const Recording& recording, const std::vector<SensedCable>& cables,
                        const std::vector<estimate::WholeEstimate>& wholes) {
     ordered_json json = {{"case", recording.name}, {"cables", ordered_json::array()}};
     for (std::size_t c = 0; c < cables.size(); ++c) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "capstan/estimate/left_out.h"
-#include "capstan/gap/recording.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::cli {
 
@@ -13,11 +13,11 @@ struct LeftOutCable {
     std::vector<estimate::LeftOutChannel> channels;
 };
 
-std::string left_out_words(const gap::Recording& recording, const std::vector<LeftOutCable>& results);
-std::string left_out_json(const gap::Recording& recording, const std::vector<LeftOutCable>& results);
+std::string left_out_words(const Recording& recording, const std::vector<LeftOutCable>& results);
+std::string left_out_json(const Recording& recording, const std::vector<LeftOutCable>& results);
 
 /// How an estimate was made, without its samples, which are CSV.
-std::string whole_json(const gap::Recording& recording, const std::vector<estimate::SensedCable>& cables,
+std::string whole_json(const Recording& recording, const std::vector<estimate::SensedCable>& cables,
                        const std::vector<estimate::WholeEstimate>& wholes);
 
 }  // namespace capstan::cli

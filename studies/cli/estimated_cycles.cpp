@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "capstan/cli/config_reader.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
-#include "capstan/cli/wrapped_text.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/config/wrapped_text.h"
 #include "capstan/estimate/cycle_trial.h"
 
 namespace capstan::cli {
@@ -31,7 +31,7 @@ std::string in_words(const StudyPlan& plan, const std::vector<CycleScore>& score
         "In newtons. error: mean size of the recursive estimator's error over samples, nodes and repetitions. in band: "
         "fraction of tensions within its 95% band, whose mean half width is band. Mean, Mean-R: the paper's methods, each "
         "step from their own last estimate.";
-    return text + "\n" + wrapped(explained, 100, "", "") + "\n";
+    return text + "\n" + config::wrapped(explained, 100, "", "") + "\n";
 }
 
 std::string in_json(const StudyPlan& plan, const std::vector<CycleScore>& scores, int repetitions) {
@@ -64,7 +64,7 @@ ExitCode estimate_cycles(const Invocation& invocation) {
                             "scored as a table or with --json",
                             option));
     }
-    StudyPlan plan = read_config(invocation.argument("LOG")).plan;
+    StudyPlan plan = config::read_config(invocation.argument("LOG")).plan;
     if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
     estimate::CycleOptions options;
     options.members = static_cast<int>(invocation.whole("members"));

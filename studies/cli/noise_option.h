@@ -1,7 +1,7 @@
 #pragma once
 
 #include "capstan/cli/command.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan::cli {
 

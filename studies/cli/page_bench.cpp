@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "capstan/cli/program.h"
+#include "capstan/config/config_writer.h"
 
 namespace capstan::cli {
 
@@ -161,7 +162,7 @@ reports::ExperimentPage BenchPage::finished() const {
          {},
          ""}};
     page.tables = {angle_, torque_, transfer_, profile_, snapshot_};
-    page.config_text = plan_.config_toml;
+    page.config_text = config::config_text(plan_, config::Comments::none);
     page.program_version = program_version();
     return page;
 }

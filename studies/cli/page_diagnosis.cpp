@@ -13,7 +13,6 @@ namespace capstan::cli {
 namespace {
 
 using gap::Diagnosis;
-using gap::Recording;
 using reports::NumberTable;
 using reports::Table;
 
@@ -38,7 +37,7 @@ struct Curves {
 
 void add_channel(Curves& curves, const Recording& recording, const Diagnosis& diagnosis, std::size_t run,
                  std::size_t channel, std::size_t limit) {
-    const gap::RecordedRun& recorded = recording.runs[run];
+    const RecordedRun& recorded = recording.runs[run];
     const std::vector<double>& measured = recorded.values[channel];
     const std::vector<double>& nominal = diagnosis.gap.nominal[run].values[channel];
     const std::vector<double>& corrected = diagnosis.gap.leading[run].values[channel];
@@ -61,7 +60,7 @@ void add_loop(Curves& curves, const Recording& recording, const Diagnosis& diagn
               std::size_t limit) {
     const auto motor = recording.channel("motor_torque");
     const auto load = recording.channel("load_torque");
-    const gap::RecordedRun& recorded = recording.runs[run];
+    const RecordedRun& recorded = recording.runs[run];
     if (!motor || !load || recorded.drives("load_torque")) return;
     const auto number = std::int64_t{recorded.number};
     const std::size_t every = reports::drawn_every(recorded.time_s.size(), limit);

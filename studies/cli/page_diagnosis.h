@@ -1,13 +1,13 @@
 #pragma once
 
 #include "capstan/gap/diagnosis.h"
-#include "capstan/gap/recording.h"
+#include "capstan/recording/recording.h"
 #include "capstan/reports/experiment_page.h"
 
 namespace capstan::cli {
 
 /// A diagnosis as a page: the verdict and its probabilities, where the gap is, measured, nominal and
 /// corrected channels, residuals before and after, loops.
-reports::ExperimentPage diagnosis_page(const gap::Recording& recording, const gap::Diagnosis& diagnosis);
+reports::ExperimentPage diagnosis_page(const Recording& recording, const gap::Diagnosis& diagnosis);
 
 }  // namespace capstan::cli

@@ -32,9 +32,9 @@ struct Drawing {
                    {}};
 };
 
-Drawing drawing_of(const gap::Recording& recording) {
+Drawing drawing_of(const Recording& recording) {
     Drawing drawing;
-    for (const gap::RecordedRun& run : recording.runs)
+    for (const RecordedRun& run : recording.runs)
         drawing.run.rows.push_back({std::int64_t{run.number}, run.protocol, std::int64_t{run.samples()}});
     return drawing;
 }
@@ -62,7 +62,7 @@ void draw(Drawing& drawing, const SensedCable& cable, const ChannelSet& used, co
     });
 }
 
-reports::ExperimentPage page_of(const gap::Recording& recording, Drawing drawing) {
+reports::ExperimentPage page_of(const Recording& recording, Drawing drawing) {
     reports::ExperimentPage page;
     page.id = "estimate";
     page.kind = "The tension estimated from a recording";
@@ -74,8 +74,7 @@ reports::ExperimentPage page_of(const gap::Recording& recording, Drawing drawing
 
 }  // namespace
 
-reports::ExperimentPage left_out_page(const gap::Recording& recording,
-                                      const std::vector<LeftOutCable>& results,
+reports::ExperimentPage left_out_page(const Recording& recording, const std::vector<LeftOutCable>& results,
                                       const estimate::TrackingOptions& options) {
     Drawing drawing = drawing_of(recording);
     NumberTable numbers{"Each channel predicted without itself, in newtons",
@@ -115,7 +114,7 @@ reports::ExperimentPage left_out_page(const gap::Recording& recording,
     return page;
 }
 
-reports::ExperimentPage whole_page(const gap::Recording& recording, const std::vector<SensedCable>& cables,
+reports::ExperimentPage whole_page(const Recording& recording, const std::vector<SensedCable>& cables,
                                    const std::vector<estimate::WholeEstimate>& wholes,
                                    const estimate::TrackingOptions& options) {
     Drawing drawing = drawing_of(recording);

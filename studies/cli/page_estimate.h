@@ -6,12 +6,11 @@
 namespace capstan::cli {
 
 /// Channels that the estimator was not shown: readings over prediction and band.
-reports::ExperimentPage left_out_page(const gap::Recording& recording,
-                                      const std::vector<LeftOutCable>& results,
+reports::ExperimentPage left_out_page(const Recording& recording, const std::vector<LeftOutCable>& results,
                                       const estimate::TrackingOptions& options);
 
 /// All channels used: readings over the estimate and its band at each sensor.
-reports::ExperimentPage whole_page(const gap::Recording& recording,
+reports::ExperimentPage whole_page(const Recording& recording,
                                    const std::vector<estimate::SensedCable>& cables,
                                    const std::vector<estimate::WholeEstimate>& wholes,
                                    const estimate::TrackingOptions& options);

@@ -7,6 +7,7 @@
 
 #include "capstan/cli/place_words.h"
 #include "capstan/cli/program.h"
+#include "capstan/config/config_writer.h"
 #include "capstan/estimation/fusion_method.h"
 #include "capstan/sensing/layout.h"
 
@@ -147,7 +148,7 @@ reports::ExperimentPage place_page(const StudyPlan& plan, const PlacementAnswer&
     for (const ScopeAnswer& scope : answer.scopes) numbers.numbers.push_back(numbers_of(scope));
     page.sections.push_back(std::move(numbers));
     page.tables = {error_table(answer), node_table(answer)};
-    page.config_text = plan.config_toml;
+    page.config_text = config::config_text(plan, config::Comments::none);
     page.program_version = program_version();
     return page;
 }

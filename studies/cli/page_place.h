@@ -1,7 +1,7 @@
 #pragma once
 
 #include "capstan/placement/placement_answer.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 #include "capstan/reports/experiment_page.h"
 
 namespace capstan::cli {

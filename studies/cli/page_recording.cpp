@@ -11,7 +11,6 @@ namespace capstan::cli {
 
 namespace {
 
-using gap::Recording;
 using gap::TwinRun;
 using reports::NumberTable;
 using reports::Table;
@@ -50,7 +49,7 @@ struct Overlay {
                         {}};
 };
 
-void add_channel(Overlay& overlay, const gap::RecordedRun& run, const gap::Channel& channel,
+void add_channel(Overlay& overlay, const RecordedRun& run, const Channel& channel,
                  const std::vector<double>& measured, const std::vector<double>& model, std::size_t limit) {
     const auto number = std::int64_t{run.number};
     const std::string name = fmt::format("{} [{}]", channel.name, channel.unit);
@@ -72,7 +71,7 @@ Overlay overlay_of(const Recording& recording, const std::vector<TwinRun>& model
     Overlay overlay;
     const std::size_t limit = drawn_samples / std::max<std::size_t>(1, modelled_channels(modelled));
     for (std::size_t r = 0; r < recording.runs.size(); ++r) {
-        const gap::RecordedRun& run = recording.runs[r];
+        const RecordedRun& run = recording.runs[r];
         overlay.run.rows.push_back({std::int64_t{run.number}, run.protocol, std::int64_t{run.samples()},
                                     std::int64_t{modelled[r].unsolved_steps}});
         for (std::size_t c = 0; c < recording.channels.size(); ++c) {

@@ -4,16 +4,16 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_reader.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/noise_option.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/page_place.h"
 #include "capstan/cli/place_words.h"
-#include "capstan/cli/runnable_config.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/config/plan_checks.h"
 #include "capstan/duty/duty_cycle.h"
-#include "capstan/gap/recording_reader.h"
 #include "capstan/placement/sensor_placement.h"
+#include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
 
@@ -23,7 +23,7 @@ namespace {
 void take_duty(const Invocation& invocation, StudyPlan& plan) {
     duty::DutyOptions options;
     options.jobs = static_cast<int>(invocation.whole("jobs"));
-    const duty::DutyCycle duty = duty::measure_duty(gap::read_recording(invocation.text("duty")), options);
+    const duty::DutyCycle duty = duty::measure_duty(read_recording(invocation.text("duty")), options);
     const double elsewhere = duty::use_duty(duty, plan);
     std::string fractions;
     for (const RegimeInstants& regime : plan.regimes) {
@@ -38,12 +38,12 @@ void take_duty(const Invocation& invocation, StudyPlan& plan) {
 }
 
 ExitCode run(const Invocation& invocation) {
-    ReadConfig config = read_config(invocation.argument("CONFIG"));
+    config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
     if (invocation.has("repetitions"))
         config.plan.repetitions = static_cast<int>(invocation.whole("repetitions"));
     if (invocation.has("duty")) take_duty(invocation, config.plan);
-    require_runnable(config);
+    config::require_runnable(config);
     PlacementOptions options;
     options.jobs = static_cast<int>(invocation.whole("jobs"));
     options.noise_index = noise_index_of(config.plan, invocation);

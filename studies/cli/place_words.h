@@ -4,7 +4,7 @@
 #include <string>
 
 #include "capstan/placement/placement_answer.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan::cli {
 

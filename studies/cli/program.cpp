@@ -10,12 +10,12 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/command_line.h"
 #include "capstan/cli/commands.h"
-#include "capstan/cli/config_problem.h"
 #include "capstan/cli/help_text.h"
-#include "capstan/cli/nearest_name.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/simd_choice.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/config/config_problem.h"
+#include "capstan/config/nearest_name.h"
 #include "capstan/storage/error.h"
 
 namespace capstan::cli {
@@ -53,7 +53,7 @@ FoundCommand find_command_in(const std::vector<std::string>& words) {
         if (!second && name.find(' ') != std::string::npos) known.push_back(name.substr(0, name.find(' ')));
     }
     if (!second) known.insert(known.end(), {"help", "--help", "--version"});
-    const auto nearest = nearest_name(given, known);
+    const auto nearest = config::nearest_name(given, known);
     const bool is_option = given.starts_with("-");
     throw UsageError(fmt::format("capstan: unknown {} '{}'{}\nTry `capstan --help`.",
                                  is_option ? "option" : "command", given,

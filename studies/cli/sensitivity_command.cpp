@@ -2,24 +2,24 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/config_studies.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/noise_option.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
-#include "capstan/cli/runnable_config.h"
 #include "capstan/cli/sensitivity_words.h"
+#include "capstan/config/config_studies.h"
+#include "capstan/config/plan_checks.h"
 
 namespace capstan::cli {
 
 namespace {
 
 ExitCode run(const Invocation& invocation) {
-    ReadConfig config = read_config(invocation.argument("CONFIG"));
+    config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
     if (invocation.has("sensors"))
         config.plan.sensitivity.sensors = static_cast<int>(invocation.whole("sensors"));
-    require_runnable(config);
+    config::require_runnable(config);
     sensitivity::SensitivityOptions options;
     options.jobs = static_cast<int>(invocation.whole("jobs"));
     options.noise_index = noise_index_of(config.plan, invocation);

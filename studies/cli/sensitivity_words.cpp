@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "capstan/cli/place_words.h"
-#include "capstan/cli/wrapped_text.h"
+#include "capstan/config/config_writer.h"
+#include "capstan/config/wrapped_text.h"
 #include "capstan/estimation/fusion_method.h"
 #include "capstan/sensing/layout.h"
 
@@ -123,8 +124,8 @@ std::string screening_sentence(const StudyPlan& plan, const sensitivity::Sensiti
 
 std::string in_words(const StudyPlan& plan, const sensitivity::SensitivityAnswer& answer) {
     std::string text = fmt::format("{}: what would change the advice\n\n", plan.name);
-    text += wrapped(advice_sentence(plan, answer), words_width, "", "") + "\n\n";
-    text += wrapped(screening_sentence(plan, answer), words_width, "", "") + "\n\n";
+    text += config::wrapped(advice_sentence(plan, answer), words_width, "", "") + "\n\n";
+    text += config::wrapped(screening_sentence(plan, answer), words_width, "", "") + "\n\n";
     text += fmt::format("  {:<24} {:>9}  {:>20}  {:>15}  {:>15}\n", "parameter", "value", "range",
                         "regret mu* (s)", "error mu* (s)");
     for (const ParameterSensitivity& parameter : answer.parameters) {
@@ -137,18 +138,20 @@ std::string in_words(const StudyPlan& plan, const sensitivity::SensitivityAnswer
     }
     text += "\nOne parameter alone, the others as configured; the advice flips\n";
     for (const ParameterSensitivity& parameter : answer.parameters) {
-        text += wrapped(parameter.title + ": " + flips_words(parameter) + ".", words_width, "  * ", "    ") +
+        text += config::wrapped(parameter.title + ": " + flips_words(parameter) + ".", words_width, "  * ",
+                                "    ") +
                 "\n";
     }
-    text += "\n" +
-            wrapped(fmt::format(
-                        "regret: how much worse the advice is than the best layout there, in newtons, on "
+    text +=
+        "\n" +
+        config::wrapped(
+            fmt::format("regret: how much worse the advice is than the best layout there, in newtons, on "
                         "draws that did not choose it. mu*: mean size of what moving through the whole range "
                         "does (Morris), from {} walks; s: its spread, large where it depends on the other "
                         "parameters. The advice flips where the regret exceeds {:g} N.",
                         plan.sensitivity.trajectories, plan.sensitivity.tolerance_N),
-                    words_width, "", "") +
-            "\n";
+            words_width, "", "") +
+        "\n";
     return text;
 }
 
@@ -207,7 +210,7 @@ reports::ExperimentPage sensitivity_page(const StudyPlan& plan,
     page.sections = {{"scan", "One parameter alone", screening_sentence(plan, answer), {}, ""},
                      {"numbers", "In numbers", "", {numbers}, ""}};
     page.tables = {scan};
-    page.config_text = plan.config_toml;
+    page.config_text = config::config_text(plan, config::Comments::none);
     return page;
 }
 

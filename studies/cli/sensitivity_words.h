@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 #include "capstan/reports/experiment_page.h"
 #include "capstan/sensitivity/advice_sensitivity.h"
 

@@ -1,15 +1,15 @@
 #include "capstan/cli/service_answers.h"
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/cli/config_reader.h"
-#include "capstan/cli/config_studies.h"
-#include "capstan/cli/config_writer.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/recommendation_words.h"
-#include "capstan/cli/stored_study.h"
 #include "capstan/cli/study_words.h"
 #include "capstan/cli/text_table.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/config/config_studies.h"
+#include "capstan/config/config_writer.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/service/bad_request.h"
 #include "capstan/storage/error.h"
 
@@ -19,9 +19,8 @@ namespace {
 
 std::vector<StudyPlan> studies_of(const std::string& toml, const std::string& name) {
     try {
-        ReadConfig config = parse_config(toml, name);
-        config.plan.config_toml = config_text(config.plan, Comments::none);
-        return runnable_studies(config);
+        config::ReadConfig config = config::parse_config(toml, name);
+        return config::runnable_studies(config);
     } catch (const UsageError& error) {  // with it the problems of a configuration
         throw service::BadRequest(error.what());
     } catch (const InvalidInput& error) {

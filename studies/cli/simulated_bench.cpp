@@ -6,9 +6,9 @@
 #include <iterator>
 
 #include "capstan/bench/bench_run.h"
-#include "capstan/cli/config_reader.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/page_bench.h"
+#include "capstan/config/config_reader.h"
 
 namespace capstan::cli {
 
@@ -46,7 +46,7 @@ void append_line(std::string& text, const BenchInstant& now, bool with_tensions)
 }  // namespace
 
 ExitCode simulate_bench_file(const Invocation& invocation) {
-    const bench::BenchPlan plan = read_bench(invocation.argument("CONFIG")).plan;
+    const bench::BenchPlan plan = config::read_bench(invocation.argument("CONFIG")).plan;
     const bool with_tensions = invocation.has("tensions");
     std::string text = head_line(plan.cable.segments + 1, with_tensions);
     BenchPage page(plan);

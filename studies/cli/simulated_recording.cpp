@@ -7,22 +7,21 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/page_recording.h"
-#include "capstan/gap/driven_inputs.h"
 #include "capstan/gap/parameter_file.h"
-#include "capstan/gap/recording_reader.h"
 #include "capstan/gap/twin.h"
+#include "capstan/recording/driven_inputs.h"
+#include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
 
 namespace {
 
-using gap::Recording;
 using gap::TwinRun;
 
 // What a run was driven by and what the model says to it, channel by channel.
 std::vector<std::vector<double>> fed_and_predicted(const Recording& recording, std::size_t run,
                                                    const TwinRun& twin) {
-    gap::DrivenInputs inputs = gap::driven_inputs(recording, recording.runs[run]);
+    DrivenInputs inputs = driven_inputs(recording, recording.runs[run]);
     std::vector<std::vector<double>> values = twin.values;
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         if (!inputs.values[channel].empty()) values[channel] = std::move(inputs.values[channel]);
@@ -32,12 +31,11 @@ std::vector<std::vector<double>> fed_and_predicted(const Recording& recording, s
 
 std::string head_line(const Recording& recording) {
     std::string line = "run,t";
-    for (const gap::Channel& channel : recording.channels) line += "," + channel.name;
+    for (const Channel& channel : recording.channels) line += "," + channel.name;
     return line + "\n";
 }
 
-void append_run(std::string& text, const gap::RecordedRun& run,
-                const std::vector<std::vector<double>>& values) {
+void append_run(std::string& text, const RecordedRun& run, const std::vector<std::vector<double>>& values) {
     auto out = std::back_inserter(text);
     for (std::size_t sample = 0; sample < run.time_s.size(); ++sample) {
         fmt::format_to(out, "{},{}", run.number, run.time_s[sample]);
@@ -55,7 +53,7 @@ void append_run(std::string& text, const gap::RecordedRun& run,
 }  // namespace
 
 ExitCode simulate_recording(const Invocation& invocation) {
-    const Recording recording = gap::read_recording(invocation.argument("CONFIG"));
+    const Recording recording = read_recording(invocation.argument("CONFIG"));
     const auto twin = gap::make_twin(recording, static_cast<int>(invocation.whole("segments")));
     std::vector<double> values = gap::nominal_values(*twin);
     if (invocation.has("parameters"))

@@ -63,12 +63,12 @@ std::string verdict_name(const gap::Diagnosis& diagnosis) {
     return diagnosis.causes[0].effect + " + " + diagnosis.causes[1].effect;
 }
 
-storage::DiagnosisRecord diagnosis_record(const gap::Recording& recording, const gap::Diagnosis& diagnosis) {
+storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap::Diagnosis& diagnosis) {
     storage::DiagnosisRecord record;
     record.recording = recording.name;
     record.program_version = program_version();
     std::vector<int> runs;
-    for (const gap::RecordedRun& run : recording.runs) runs.push_back(run.number);
+    for (const RecordedRun& run : recording.runs) runs.push_back(run.number);
     record.runs = list_text(runs);
     record.verdict = verdict_name(diagnosis);
     record.confidence_fraction = diagnosis.ranked.front().probability;

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/driven_inputs.h"
 #include "capstan/gap/parameter_file.h"
 #include "capstan/gap/twin.h"
 #include "capstan/parallel/parallel_for.h"
-#include "capstan/placement/true_motion.h"
+#include "capstan/plan/true_motion.h"
+#include "capstan/recording/driven_inputs.h"
 #include "capstan/solver/pull_pull.h"
 
 namespace capstan::duty {
@@ -32,17 +32,17 @@ struct RunMotion {
 
 class RunClassifier {
   public:
-    RunClassifier(const gap::Recording& recording, const DutyOptions& options, const BenchNumbers& numbers)
+    RunClassifier(const Recording& recording, const DutyOptions& options, const BenchNumbers& numbers)
         : recording_(recording), options_(options), numbers_(numbers) {}
 
-    RunMotion classify(const gap::RecordedRun& run) const {
+    RunMotion classify(const RecordedRun& run) const {
         switch (recording_.mode) {
-            case gap::BenchMode::pull_pull:
+            case BenchMode::pull_pull:
                 return pull_pull(run);
-            case gap::BenchMode::single_cable:
+            case BenchMode::single_cable:
                 return single_cable(run);
-            case gap::BenchMode::lumped_drive:
-            case gap::BenchMode::capstan_band:
+            case BenchMode::lumped_drive:
+            case BenchMode::capstan_band:
                 break;
         }
         return {};
@@ -51,7 +51,7 @@ class RunClassifier {
   private:
     double sample_s() const { return 1.0 / recording_.sample_rate_Hz; }
 
-    Cable cable(const gap::RecordedRun& run) const {
+    Cable cable(const RecordedRun& run) const {
         CableSpecification specification;
         specification.curvature = recording_.nominal->curvature;
         specification.segments = options_.segments;
@@ -81,14 +81,14 @@ class RunClassifier {
         }
     }
 
-    const std::vector<double>& channel(const gap::DrivenInputs& inputs, std::string_view name) const {
+    const std::vector<double>& channel(const DrivenInputs& inputs, std::string_view name) const {
         return inputs.values[static_cast<std::size_t>(*recording_.channel(name))];
     }
 
-    RunMotion pull_pull(const gap::RecordedRun& run) const {
-        const gap::NominalBench& bench = *recording_.nominal;
+    RunMotion pull_pull(const RecordedRun& run) const {
+        const NominalBench& bench = *recording_.nominal;
         const PullPull pair(cable(run), cable(run), {bench.motor_radius_m, bench.load_radius_m});
-        const gap::DrivenInputs inputs = gap::driven_inputs(recording_, run);
+        const DrivenInputs inputs = driven_inputs(recording_, run);
         RunMotion motion;
         PullPullState state = pair.at_rest();
         for (int sample = 0; sample < run.samples(); ++sample) {
@@ -115,9 +115,9 @@ class RunClassifier {
         return motion;
     }
 
-    RunMotion single_cable(const gap::RecordedRun& run) const {
+    RunMotion single_cable(const RecordedRun& run) const {
         const QuasiStaticStep step(cable(run), ModelRules::consistent());
-        const gap::DrivenInputs inputs = gap::driven_inputs(recording_, run);
+        const DrivenInputs inputs = driven_inputs(recording_, run);
         const std::vector<double>& motor_angle_rad = channel(inputs, "motor_angle");
         RunMotion motion;
         CableState state = pretensioned(step.cable());
@@ -134,7 +134,7 @@ class RunClassifier {
         return motion;
     }
 
-    const gap::Recording& recording_;
+    const Recording& recording_;
     const DutyOptions& options_;
     BenchNumbers numbers_;
 };
@@ -158,11 +158,10 @@ double DutyCycle::fraction(Regime regime) const {
     return all.regime_s[static_cast<std::size_t>(regime)] / moving_s;
 }
 
-DutyCycle measure_duty(const gap::Recording& recording, const DutyOptions& options) {
+DutyCycle measure_duty(const Recording& recording, const DutyOptions& options) {
     // The twin's constructor refuses a recording whose driven channels determine no motion.
     const std::unique_ptr<gap::Twin> twin = gap::make_twin(recording, options.segments);
-    const bool known =
-        recording.mode == gap::BenchMode::pull_pull || recording.mode == gap::BenchMode::single_cable;
+    const bool known = recording.mode == BenchMode::pull_pull || recording.mode == BenchMode::single_cable;
     if (!known || !recording.nominal) {
         throw InvalidInput(
             {fmt::format("{}: which nodes of a cable move follows from its length, bends and stiffness, "

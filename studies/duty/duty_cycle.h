@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "capstan/gap/recording.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::duty {
 
@@ -39,7 +39,7 @@ struct DutyCycle {
 
 /// Moves the recording's model with its driven channels and looks at which nodes slide in each sample. Throws
 /// InvalidInput where the bench's geometry is not known: which nodes move follows from it.
-DutyCycle measure_duty(const gap::Recording& recording, const DutyOptions& options);
+DutyCycle measure_duty(const Recording& recording, const DutyOptions& options);
 
 /// The plan with duty shares as measured: those of its regimes, made to sum to 1. Returns the fraction of the
 /// moving time that was spent in regimes which the plan does not have. Throws InvalidInput if that is all.

@@ -7,7 +7,7 @@
 #include "capstan/estimation/recursive_estimator.h"
 #include "capstan/estimation/recursive_fusion.h"
 #include "capstan/parallel/parallel_for.h"
-#include "capstan/placement/true_motion.h"
+#include "capstan/plan/true_motion.h"
 
 namespace capstan::estimate {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 #include "capstan/sensing/layout.h"
 
 namespace capstan::estimate {

@@ -6,19 +6,14 @@
 
 #include "capstan/cable/cable_state.h"
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/driven_inputs.h"
-#include "capstan/gap/estimated_noise.h"
+#include "capstan/recording/driven_inputs.h"
+#include "capstan/recording/estimated_noise.h"
 
 namespace capstan::estimate {
 
 namespace {
 
-using gap::BenchMode;
-using gap::CableName;
-using gap::RecordedRun;
-using gap::Recording;
-
-double length_of(const gap::NominalBench& bench) {
+double length_of(const NominalBench& bench) {
     double length_m = 0.0;
     for (const CurvaturePiece& piece : bench.curvature) length_m += piece.length_m;
     return length_m;
@@ -64,14 +59,14 @@ std::vector<Source> sources_of(const Recording& recording, CableName cable) {
     std::vector<Source> sources;
     const auto add = [&](const std::string& name, double position_m, double newtons_per_unit) {
         const auto index = static_cast<std::size_t>(*recording.channel(name));
-        const double noise_N = newtons_per_unit * gap::sample_noise(recording.channels[index]);
+        const double noise_N = newtons_per_unit * sample_noise(recording.channels[index]);
         sources.push_back({{name, position_m, noise_N}, index, newtons_per_unit});
     };
-    for (const gap::TensionSensor& sensor : recording.tension_sensors) {
+    for (const TensionSensor& sensor : recording.tension_sensors) {
         if (sensor.cable == cable) add(sensor.channel, sensor.position_m, 1.0);
     }
     if (recording.mode != BenchMode::single_cable || sources.empty()) return sources;
-    const gap::NominalBench& bench = *recording.nominal;
+    const NominalBench& bench = *recording.nominal;
     const auto free_everywhere = [&](const char* name) {
         return recording.channel(name) && std::none_of(recording.runs.begin(), recording.runs.end(),
                                                        [&](const auto& run) { return run.drives(name); });
@@ -86,13 +81,13 @@ std::vector<double> angle_of(const Recording& recording, const RecordedRun& run,
     const auto index = recording.channel(name);
     if (!index) return std::vector<double>(run.time_s.size(), 0.0);
     const auto channel = static_cast<std::size_t>(*index);
-    if (run.drives(name)) return gap::driven_inputs(recording, run).values[channel];
-    return gap::smoothed(run.values[channel], gap::sample_noise(recording.channels[channel]));
+    if (run.drives(name)) return driven_inputs(recording, run).values[channel];
+    return smoothed(run.values[channel], sample_noise(recording.channels[channel]));
 }
 
 std::vector<KnownEnds> ends_of(const Recording& recording, const RecordedRun& run, CableName name,
                                const Cable& cable) {
-    const gap::NominalBench& bench = *recording.nominal;
+    const NominalBench& bench = *recording.nominal;
     const double side = name == CableName::a ? 1.0 : -1.0;  // E15
     const CableState rest = pretensioned(cable);
     const std::vector<double> motor_rad = angle_of(recording, run, "motor_angle");
@@ -124,8 +119,8 @@ SensedRun sensed_run(const Recording& recording, const RecordedRun& run, CableNa
 
 std::vector<SensedCable> sensed_cables(const Recording& as_recorded, int segments) {
     demand_what_it_takes(as_recorded);
-    const Recording recording = gap::with_estimated_noise(as_recorded);
-    const gap::NominalBench& bench = *recording.nominal;
+    const Recording recording = with_estimated_noise(as_recorded);
+    const NominalBench& bench = *recording.nominal;
     std::vector<SensedCable> cables;
     for (const CableName name : {CableName::a, CableName::b}) {
         const std::vector<Source> sources = sources_of(recording, name);

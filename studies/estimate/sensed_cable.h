@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "capstan/estimation/recursive_estimator.h"
-#include "capstan/gap/recording.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::estimate {
 
@@ -37,6 +37,6 @@ struct SensedCable {
 /// channels that drive nothing are tensions at its ends too; those of a pair tell of both cables together
 /// and are not used. Noise that the sidecar does not state is estimated. Throws InvalidInput if there is no
 /// tension sensor, no geometry, or an end whose motion nobody measured.
-std::vector<SensedCable> sensed_cables(const gap::Recording& recording, int segments);
+std::vector<SensedCable> sensed_cables(const Recording& recording, int segments);
 
 }  // namespace capstan::estimate

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "capstan/gap/recording.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap {
 

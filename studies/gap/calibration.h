@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "capstan/gap/recording.h"
 #include "capstan/gap/twin.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap {
 

@@ -7,7 +7,7 @@
 #include "capstan/gap/cause_search.h"
 #include "capstan/gap/gap_measure.h"
 #include "capstan/gap/next_experiment.h"
-#include "capstan/gap/recording.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap {
 

@@ -8,9 +8,9 @@
 
 #include "capstan/effects/bench_effects.h"
 #include "capstan/effects/sensor_faults.h"
-#include "capstan/gap/driven_inputs.h"
-#include "capstan/gap/recording.h"
 #include "capstan/gap/twin.h"
+#include "capstan/recording/driven_inputs.h"
+#include "capstan/recording/recording.h"
 #include "capstan/solver/bench_simulation.h"
 
 namespace capstan::gap {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "capstan/gap/recording.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "capstan/gap/json_file.h"
-#include "capstan/gap/json_object.h"
+#include "capstan/recording/json_file.h"
+#include "capstan/recording/json_object.h"
 
 namespace capstan::gap {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string_view>
 
-#include "capstan/gap/driven_inputs.h"
-#include "capstan/gap/recording.h"
 #include "capstan/gap/twin.h"
+#include "capstan/recording/driven_inputs.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap {
 

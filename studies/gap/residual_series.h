@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "capstan/gap/effects_twin.h"
-#include "capstan/gap/recording.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capstan/gap/driven_inputs.h"
 #include "capstan/parallel/parallel_for.h"
+#include "capstan/recording/driven_inputs.h"
 
 namespace capstan::gap {
 

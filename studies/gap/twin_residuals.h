@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "capstan/gap/recording.h"
 #include "capstan/gap/twin.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap {
 

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/estimated_noise.h"
-#include "capstan/gap/json_file.h"
-#include "capstan/gap/recording_reader.h"
 #include "capstan/gap_trial/recording_files.h"
 #include "capstan/gap_trial/reference_fit.h"
 #include "capstan/parallel/parallel_for.h"
+#include "capstan/recording/estimated_noise.h"
+#include "capstan/recording/json_file.h"
+#include "capstan/recording/recording_reader.h"
 
 namespace capstan::gap_trial {
 
@@ -49,7 +49,7 @@ void write_reference(const std::filesystem::path& path,
 }
 
 Reference read_reference(const std::filesystem::path& path, const std::string& name) {
-    const json text = gap::read_json_file(path);
+    const json text = read_json_file(path);
     Reference reference{name, std::nullopt};
     try {
         if (text.is_null()) return reference;
@@ -84,8 +84,8 @@ void answer_trial(const TrialFolder& folder, const TrialOptions& options, const 
         [&](const std::string& name) {
             gap::DiagnosisOptions one_thread;
             one_thread.threads = 1;
-            const gap::Recording recording =
-                gap::with_estimated_noise(gap::read_recording(folder.recording(name)));  // as the command does
+            const Recording recording =
+                with_estimated_noise(read_recording(folder.recording(name)));  // as the command does
             write_answer(folder.answer(name), answer_of(name, gap::diagnose(recording, one_thread)), seal);
         });
 }
@@ -107,7 +107,7 @@ TrialScore unseal_and_score(const TrialFolder& folder, const std::string& seal, 
         [&](const std::string& name) { return std::filesystem::exists(folder.reference(name)); },
         [&](const std::string& name) {
             write_reference(folder.reference(name),
-                            reference_fit(gap::read_recording(folder.recording(name)), label_of(name)));
+                            reference_fit(read_recording(folder.recording(name)), label_of(name)));
         });
     std::vector<CaseAnswer> answers;
     std::vector<Reference> references;

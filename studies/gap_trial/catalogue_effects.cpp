@@ -209,7 +209,7 @@ WithheldEffect environment_coupling(const EffectSetting&, TrialStream& draws) {
 std::string draw_channel(const EffectSetting& setting, TrialStream& draws) {
     if (draws.uniform(0.0, 1.0) < 0.6) return "load_torque";
     std::vector<std::string> others = {setting.bench.is_pair() ? "motor_angle" : "motor_torque"};
-    for (const gap::TensionSensor& sensor : setting.bench.tension_sensors) others.push_back(sensor.channel);
+    for (const TensionSensor& sensor : setting.bench.tension_sensors) others.push_back(sensor.channel);
     return others[static_cast<std::size_t>(draws.whole(static_cast<int>(others.size())))];
 }
 

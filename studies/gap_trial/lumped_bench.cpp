@@ -58,8 +58,8 @@ class FineSample {
         sums_[2] = load_rad;
         sums_[3] += load_torque_Nm;
         for (std::size_t k = 0; k < bench_.tension_sensors.size(); ++k) {
-            const gap::TensionSensor& sensor = bench_.tension_sensors[k];
-            const LumpedCable& cable = sensor.cable == gap::CableName::b && b != nullptr ? *b : a;
+            const TensionSensor& sensor = bench_.tension_sensors[k];
+            const LumpedCable& cable = sensor.cable == CableName::b && b != nullptr ? *b : a;
             sums_[4 + k] += cable.tension_N(sensor.position_m);
         }
     }

@@ -25,7 +25,7 @@ int digits_of(const std::string& channel) {
 }
 
 ordered_json nominal_json(const TrialBench& bench) {
-    const gap::NominalBench& nominal = bench.nominal;
+    const NominalBench& nominal = bench.nominal;
     ordered_json profile = ordered_json::array();
     double reached_m = 0.0;
     for (const CurvaturePiece& piece : nominal.curvature) {
@@ -60,9 +60,9 @@ ordered_json sidecar(const std::string& name, const TrialBench& bench, const std
                          {"noise_std", bench.noise_std},
                          {"encoder_step", bench.encoder_step}};
     json["tension_sensors"] = ordered_json::array();
-    for (const gap::TensionSensor& sensor : bench.tension_sensors)
+    for (const TensionSensor& sensor : bench.tension_sensors)
         json["tension_sensors"].push_back({{"channel", sensor.channel},
-                                           {"cable", sensor.cable == gap::CableName::b ? "B" : "A"},
+                                           {"cable", sensor.cable == CableName::b ? "B" : "A"},
                                            {"s", sensor.position_m}});
     json["runs"] = ordered_json::array();
     for (const TrialRun& run : runs)
@@ -71,7 +71,7 @@ ordered_json sidecar(const std::string& name, const TrialBench& bench, const std
                                 {"t_session_start", run.session_start_s},
                                 {"duration", run.duration_s()},
                                 {"T0", run.pretension_N},
-                                {"output", run.output == gap::OutputKind::locked ? "locked" : "handle"},
+                                {"output", run.output == OutputKind::locked ? "locked" : "handle"},
                                 {"driven", run.driven}});
     return json;
 }

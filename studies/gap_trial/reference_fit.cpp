@@ -42,7 +42,7 @@ std::optional<gap::CauseFit> with_one_more(const gap::CauseFitter& fitter, const
     return best;
 }
 
-std::vector<ChannelRms> measured_gap(const gap::Recording& recording, const gap::BenchNumbers& numbers) {
+std::vector<ChannelRms> measured_gap(const Recording& recording, const gap::BenchNumbers& numbers) {
     const gap::EffectsTwin twin(recording, measuring);
     std::vector<ChannelRms> sums(recording.channels.size());
     std::vector<double> samples(recording.channels.size(), 0.0);
@@ -70,8 +70,7 @@ std::vector<ChannelRms> measured_gap(const gap::Recording& recording, const gap:
 
 }  // namespace
 
-std::optional<std::vector<ChannelRms>> reference_fit(const gap::Recording& recording,
-                                                     const CaseLabel& label) {
+std::optional<std::vector<ChannelRms>> reference_fit(const Recording& recording, const CaseLabel& label) {
     if (label.group == TruthGroup::none || label.group == TruthGroup::foreign) return std::nullopt;
     // The clearest first: the other one is sought in what it leaves.
     std::vector<TrueCause> truths = label.causes;

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/json_file.h"
 #include "capstan/gap_trial/recording_files.h"
+#include "capstan/recording/json_file.h"
 
 namespace capstan::gap_trial {
 
@@ -51,7 +51,7 @@ void write_answer(const std::filesystem::path& path, const CaseAnswer& answer, c
 }
 
 CaseAnswer read_answer(const std::filesystem::path& path, const std::string& seal) {
-    const json text = gap::read_json_file(path);
+    const json text = read_json_file(path);
     try {
         const std::string given_under = text.at("labels_sha256");
         if (given_under != seal)

@@ -28,13 +28,13 @@ std::vector<CurvaturePiece> routing(BenchKind kind) {
 }
 
 // One near each end, the others spread between.
-std::vector<gap::TensionSensor> draw_sensors(int count, TrialStream& draws) {
-    std::vector<gap::TensionSensor> sensors;
+std::vector<TensionSensor> draw_sensors(int count, TrialStream& draws) {
+    std::vector<TensionSensor> sensors;
     for (int k = 0; k < count; ++k) {
         const double middle_m = length_m * (k + 0.5) / count;
         const double reach_m = 0.25 * length_m / count;
         const double position_m = std::round(1e3 * draws.uniform(middle_m - reach_m, middle_m + reach_m));
-        sensors.push_back({fmt::format("tension_{}", k + 1), gap::CableName::a, 1e-3 * position_m});
+        sensors.push_back({fmt::format("tension_{}", k + 1), CableName::a, 1e-3 * position_m});
     }
     return sensors;
 }
@@ -63,7 +63,7 @@ double TrialBench::length_m() const {
 
 std::vector<std::string> TrialBench::channels() const {
     std::vector<std::string> names = {"motor_torque", "motor_angle", "load_angle", "load_torque"};
-    for (const gap::TensionSensor& sensor : tension_sensors) names.push_back(sensor.channel);
+    for (const TensionSensor& sensor : tension_sensors) names.push_back(sensor.channel);
     return names;
 }
 
@@ -89,7 +89,7 @@ TrialBench make_trial_bench(BenchKind kind, double noise_factor, TrialStream& dr
     }
     const bool has_sensors = draws.whole(3) == 0 || !bench.is_pair();
     if (has_sensors) bench.tension_sensors = draw_sensors(bench.is_pair() ? 3 : 5, draws);
-    for (const gap::TensionSensor& sensor : bench.tension_sensors) bench.noise_std[sensor.channel] = 0.25;
+    for (const TensionSensor& sensor : bench.tension_sensors) bench.noise_std[sensor.channel] = 0.25;
     for (auto& [channel, noise] : bench.noise_std) noise *= noise_factor;
     return bench;
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "capstan/gap/recording.h"
 #include "capstan/gap_trial/trial_stream.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap_trial {
 
@@ -21,11 +21,11 @@ std::string bench_kind_name(BenchKind kind);
 /// What is on a bench, and what a lab writes down about it.
 struct TrialBench {
     BenchKind kind = BenchKind::uniform_wide;
-    gap::NominalBench nominal;
+    NominalBench nominal;
     double cable_mass_kg_per_m = 0.006;
     std::map<std::string, double> noise_std;     // by channel, as the lab states it
     std::map<std::string, double> encoder_step;  // by channel
-    std::vector<gap::TensionSensor> tension_sensors;
+    std::vector<TensionSensor> tension_sensors;
 
     bool is_pair() const { return kind != BenchKind::single_cable; }
     double length_m() const;

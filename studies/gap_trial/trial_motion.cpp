@@ -146,7 +146,7 @@ TrialRun tunnel_run(double duration_s, double pretension_N, TrialStream& draws) 
     TrialRun run;
     run.protocol = "tunnel";
     run.pretension_N = pretension_N;
-    run.output = gap::OutputKind::handle;
+    run.output = OutputKind::handle;
     run.driven = driven_pair;
     run.load_angle_rad = hand_motion(duration_s, draws);
     for (const double angle_rad : run.load_angle_rad)
@@ -158,7 +158,7 @@ TrialRun sines_run(double pretension_N, TrialStream& draws) {
     TrialRun run;
     run.protocol = "sines";
     run.pretension_N = pretension_N;
-    run.output = gap::OutputKind::handle;
+    run.output = OutputKind::handle;
     run.driven = driven_pair;
     run.load_angle_rad = tones({{0.25, 4.0}, {0.5, 3.0}, {1.0, 2.5}, {2.0, 2.5}}, draws.uniform(0.11, 0.14));
     const double torque_Nm = draws.sign() * draws.uniform(0.02, 0.045);
@@ -234,7 +234,7 @@ std::vector<TrialRun> draw_session(const TrialBench& bench, RecordingLength leng
         while (std::ssize(runs) > keep) runs.erase(runs.begin() + draws.whole(static_cast<int>(runs.size())));
         // A locked bench whose load feels nothing says too little alone.
         const bool only_locked_tight = bench.kind == BenchKind::uniform_tight && runs.size() == 1 &&
-                                       runs.front().output == gap::OutputKind::locked;
+                                       runs.front().output == OutputKind::locked;
         if (only_locked_tight) runs = {tunnel_run(16.0, runs.front().pretension_N, draws)};
     }
     double start_s = 0.0;

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "capstan/gap/recording.h"
 #include "capstan/gap_trial/trial_bench.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::gap_trial {
 
@@ -18,7 +18,7 @@ struct TrialRun {
     std::string protocol;
     double session_start_s = 0.0;
     double pretension_N = 0.0;  ///< as the lab sets it
-    gap::OutputKind output = gap::OutputKind::locked;
+    OutputKind output = OutputKind::locked;
     std::vector<std::string> driven;
     // Fine samples: motor_torque [N m] and load_angle [rad] of a pair; motor_angle [rad] of a single cable.
     std::vector<double> motor_torque_Nm;

@@ -12,7 +12,7 @@ namespace capstan::gap_trial {
 namespace {
 
 double floor_of(const TrialBench& bench, const TrialRun& run, const std::string& channel) {
-    const bool locked = run.output == gap::OutputKind::locked;
+    const bool locked = run.output == OutputKind::locked;
     if (channel == "motor_angle") return locked ? 3e-4 : 1.5e-3;
     if (channel == "motor_torque") return 1e-3;
     if (channel != "load_torque") return 0.15;

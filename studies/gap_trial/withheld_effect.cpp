@@ -8,7 +8,7 @@ bool fits(const EffectMaker& maker, const TrialBench& bench, const std::vector<T
     if (maker.needs_pair && !bench.is_pair()) return false;
     if (!maker.needs_motion) return true;
     return std::any_of(runs.begin(), runs.end(),
-                       [](const TrialRun& run) { return run.output == gap::OutputKind::handle; });
+                       [](const TrialRun& run) { return run.output == OutputKind::handle; });
 }
 
 std::string effect_family(const std::string& effect) {

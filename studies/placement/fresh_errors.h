@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "capstan/placement/candidate_scores.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 #include "capstan/storage/database.h"
 
 namespace capstan {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "capstan/placement/information_choice.h"
-#include "capstan/placement/placement_constraints.h"
+#include "capstan/plan/placement_constraints.h"
 
 namespace capstan {
 

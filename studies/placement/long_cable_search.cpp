@@ -7,9 +7,9 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/fusion_stage.h"
 #include "capstan/placement/information_search.h"
-#include "capstan/placement/placement_constraints.h"
 #include "capstan/placement/repetition_blocks.h"
 #include "capstan/placement/sensor_weights.h"
+#include "capstan/plan/placement_constraints.h"
 
 namespace capstan {
 

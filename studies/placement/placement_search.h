@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "capstan/placement/placement_answer.h"
-#include "capstan/placement/placement_constraints.h"
 #include "capstan/placement/scored_draws.h"
+#include "capstan/plan/placement_constraints.h"
 
 namespace capstan {
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/placement/true_motion.h"
+#include "capstan/plan/true_motion.h"
 
 namespace capstan {
 

@@ -6,7 +6,7 @@
 #include "capstan/estimation/feasible_curve.h"
 #include "capstan/estimation/fusion_method.h"
 #include "capstan/estimation/single_sensor.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan {
 

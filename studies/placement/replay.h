@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan {
 

@@ -1,5 +1,7 @@
 #include "capstan/placement/study_description.h"
 
+#include "capstan/config/config_writer.h"
+
 namespace capstan {
 
 namespace {
@@ -46,7 +48,7 @@ storage::StudyDescription describe(const PreparedStudy& study, const std::string
     const StudyPlan& plan = study.plan;
     storage::StudyDescription description;
     description.study.name = plan.name;
-    description.study.config_toml = plan.config_toml;
+    description.study.config_toml = config::config_text(plan, config::Comments::none);
     description.study.program_version = program_version;
     description.study.seed = plan.seed;
     description.study.repetitions = plan.repetitions;

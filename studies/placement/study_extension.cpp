@@ -4,6 +4,7 @@
 #include <map>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/config/config_writer.h"
 #include "capstan/placement/paired_comparison.h"
 #include "capstan/placement/placement_questions.h"
 #include "capstan/storage/study_store.h"
@@ -33,10 +34,10 @@ double unresolved_at_each_count_N(const std::vector<PlacementCandidate>& candida
 
 // The study with the same configuration but for its repetitions, if it is there.
 std::optional<std::int64_t> find_same(storage::Database& database, const StudyPlan& plan) {
+    const std::string toml = config::config_text(plan, config::Comments::none);
     for (const storage::StudySummary& study : storage::list_studies(database)) {
         if (study.name != plan.name) continue;
-        if (storage::load_study(database, study.study_id).study.config_toml == plan.config_toml)
-            return study.study_id;
+        if (storage::load_study(database, study.study_id).study.config_toml == toml) return study.study_id;
     }
     return std::nullopt;
 }
@@ -110,6 +111,12 @@ class Doubling {
 };
 
 }  // namespace
+
+StudyPlan StudyToExtend::with_repetitions(int repetitions) const {
+    StudyPlan larger = plan;
+    larger.repetitions = repetitions;
+    return larger;
+}
 
 double unresolved_N(storage::Database& database, std::int64_t study_id, double alpha) {
     const storage::StudyDescription study = storage::load_study(database, study_id);

@@ -17,8 +17,8 @@ double unresolved_N(storage::Database& database, std::int64_t study_id, double a
 struct StudyToExtend {
     std::int64_t study_id = 0;
     StudyPlan plan;
-    /// The same plan and configuration text with another number of repetitions.
-    std::function<StudyPlan(int repetitions)> with_repetitions;
+
+    StudyPlan with_repetitions(int repetitions) const;
 };
 
 struct ExtensionOutcome {

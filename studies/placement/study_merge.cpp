@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 
+#include "capstan/config/config_reader.h"
 #include "capstan/placement/same_study.h"
 #include "capstan/placement/study_conclusion.h"
 #include "capstan/storage/error.h"
@@ -143,7 +144,7 @@ void copy_unit(Database& from, Database& to, std::int64_t from_id, std::int64_t 
     }
 }
 
-RunEnd write_merged(ShardSet& shards, Database& merged, const MergeOptions& options) {
+RunEnd write_merged(ShardSet& shards, Database& merged, const RunOptions& options) {
     StudyProgress progress;
     for (const StudyDescription& study : shards.studies()) {
         progress.units += static_cast<int>(study.work_units.size());
@@ -155,15 +156,18 @@ RunEnd write_merged(ShardSet& shards, Database& merged, const MergeOptions& opti
     for (std::size_t k = 0; k < ids.size(); ++k) {
         const StudyDescription& study = shards.studies()[k];
         for (std::size_t unit = 0; unit < study.work_units.size(); ++unit) {
-            if (options.run.stop != nullptr && options.run.stop->load()) return RunEnd::stopped;
+            if (options.stop != nullptr && options.stop->load()) return RunEnd::stopped;
             const storage::WorkUnitRecord& record = study.work_units[unit];
             const int owner = deal.owner(k, record.noise_index, record.scenario_index);
             copy_unit(shards.file_of(owner), merged, study.study.study_id, ids[k], static_cast<int>(unit),
                       record);
             ++progress.units_done;
-            if (options.run.on_progress) options.run.on_progress(progress);
+            if (options.on_progress) options.on_progress(progress);
         }
-        conclude_study(merged, ids[k], options.plan_of(study.study.config_toml), options.run, times);
+        conclude_study(
+            merged, ids[k],
+            config::parse_config(study.study.config_toml, "the stored configuration of the shards").plan,
+            options, times);
     }
     return RunEnd::complete;
 }
@@ -194,7 +198,7 @@ std::optional<ShardState> read_shard_state(Database& database) {
     return state;
 }
 
-RunEnd merge_shards(const fs::path& merged, const std::vector<fs::path>& paths, const MergeOptions& options) {
+RunEnd merge_shards(const fs::path& merged, const std::vector<fs::path>& paths, const RunOptions& options) {
     if (fs::exists(merged)) {
         throw storage::Error(
             merged.string() +

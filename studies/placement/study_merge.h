@@ -24,16 +24,10 @@ struct ShardState {
 /// cannot be read.
 std::optional<ShardState> read_shard_state(storage::Database& database);
 
-struct MergeOptions {
-    RunOptions run;  ///< progress, stop, the paper's comparison
-    /// The plan that a stored configuration describes.
-    std::function<StudyPlan(const std::string& config_toml)> plan_of;
-};
-
 /// Joins the files of all shards into a new database with the same bits in every table as one run would have
 /// given. Under another name (`merged` + ".unfinished") until it is whole. Throws storage::Error that names
 /// every missing, doubled, foreign or unfinished shard, or says that `merged` exists already.
 RunEnd merge_shards(const std::filesystem::path& merged, const std::vector<std::filesystem::path>& shards,
-                    const MergeOptions& options);
+                    const RunOptions& options);
 
 }  // namespace capstan

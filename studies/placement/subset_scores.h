@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "capstan/placement/placement_plan.h"
 #include "capstan/placement/prepared_study.h"
 #include "capstan/placement/sensor_subsets.h"
 #include "capstan/placement/single_sensor_stage.h"
+#include "capstan/plan/placement_plan.h"
 
 namespace capstan {
 

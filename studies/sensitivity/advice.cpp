@@ -4,9 +4,9 @@
 #include <cstdio>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/placement/placement_constraints.h"
 #include "capstan/placement/repetition_blocks.h"
 #include "capstan/placement/scored_draws.h"
+#include "capstan/plan/placement_constraints.h"
 #include "capstan/sensitivity/uncertain_parameter.h"
 
 namespace capstan::sensitivity {
@@ -66,29 +66,31 @@ Advice advice_of(const CandidateList& candidates, int candidate) {
             std::string(candidates.methods[candidates.method(candidate)]->name)};
 }
 
-std::vector<std::string> problems_of_question(const StudyPlan& plan) {
-    std::vector<std::string> problems = problems_of(plan.sensitivity, plan.transmission.cable.segments + 1);
+std::vector<KeyProblem> problems_of_question(const StudyPlan& plan) {
+    std::vector<KeyProblem> problems = problems_of(plan.sensitivity, plan.transmission.cable.segments + 1);
     const SensitivityPlan& asked = plan.sensitivity;
     const FusionMethod* method = find_fusion_method(asked.method);
     const bool named = std::find(plan.fusion_methods.begin(), plan.fusion_methods.end(), asked.method) !=
                        plan.fusion_methods.end();
     if (asked.method != "any" && (!named || method->knowledge == Knowledge::direction_known)) {
         problems.push_back(
-            "sensitivity.method: \"" + asked.method +
-            "\" is none of estimation.methods that need not be told the direction; name one of "
-            "them, or \"any\"");
+            {"sensitivity.method",
+             "\"" + asked.method +
+                 "\" is not one of estimation.methods that need not be told the direction; name "
+                 "one of them, or \"any\""});
     }
     if (!has_regime(plan)) {
-        problems.push_back("sensitivity.regime: no [[regime]] is named \"" + asked.regime +
-                           "\"; name one that is, or \"duty_cycle\"");
+        problems.push_back({"sensitivity.regime", "no [[regime]] is named \"" + asked.regime +
+                                                      "\"; name one that is, or \"duty_cycle\""});
     }
     const int nodes = static_cast<int>(
         PlacementConstraints(plan.placement, plan.transmission.cable.segments + 1).usable_nodes().size());
     if (nodes > 63 || SensorSubsets::how_many(nodes, asked.sensors) * nodes > max_scored_nodes) {
         problems.push_back(
-            "sensitivity.sensors: so many nodes have too many layouts of " + std::to_string(asked.sensors) +
-            " sensors to score under many sets of parameters; ask about fewer sensors, or forbid "
-            "nodes in placement.forbidden_nodes");
+            {"sensitivity.sensors",
+             "so many nodes have too many layouts of " + std::to_string(asked.sensors) +
+                 " sensors to score under many sets of parameters; ask about fewer sensors, or "
+                 "forbid nodes in placement.forbidden_nodes"});
     }
     return problems;
 }
@@ -97,7 +99,7 @@ std::vector<std::string> problems_of_question(const StudyPlan& plan) {
 
 AdviceQuestion::AdviceQuestion(const StudyPlan& plan, int noise_index)
     : plan_(plan), noise_index_(noise_index) {
-    std::vector<std::string> problems = problems_of(plan);
+    std::vector<KeyProblem> problems = problems_of(plan);
     if (problems.empty()) problems = problems_of_question(plan);
     if (!problems.empty()) throw InvalidInput(problems);
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "capstan/placement/placement_scope.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan::sensitivity {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 #include "capstan/storage/database.h"
 #include "capstan/storage/read_only_query.h"
 

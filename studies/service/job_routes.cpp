@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "capstan/config/config_writer.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/job_json.h"
 #include "capstan/service/routes.h"
@@ -40,7 +41,8 @@ ordered_json start(RouteContext& context, const nlohmann::json& body) {
         by_name ? config_named(context.options, name) : member<std::string>(body, "config_toml");
     ordered_json started = ordered_json::array();
     for (const StudyPlan& plan : context.options.answers.read_config(toml, name))
-        started.push_back(job_json(context.queue.add_study(plan.name, plan.config_toml)));
+        started.push_back(
+            job_json(context.queue.add_study(plan.name, config::config_text(plan, config::Comments::none))));
     return started;
 }
 

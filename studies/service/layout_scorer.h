@@ -9,7 +9,7 @@
 
 #include "capstan/placement/prepared_study.h"
 #include "capstan/placement/single_sensor_stage.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan::service {
 

@@ -1,8 +1,8 @@
 #include "recording_trial.h"
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/recording_reader.h"
 #include "capstan/gap/twin.h"
+#include "capstan/recording/recording_reader.h"
 #include "target.h"
 
 namespace capstan::fuzz {
@@ -16,7 +16,7 @@ constexpr int max_samples = 200;  // longer runs only take longer
 
 void try_recording(const std::filesystem::path& samples) {
     try {
-        const gap::Recording recording = gap::read_recording(samples);
+        const Recording recording = read_recording(samples);
         const auto twin = gap::make_twin(recording, segments);
         if (recording.runs.front().samples() > max_samples) return;
         const gap::TwinRun run = twin->run(0, gap::nominal_values(*twin));

@@ -4,9 +4,9 @@
 
 #include "capstan/bench/bench_run.h"
 #include "capstan/cable/invalid_input.h"
-#include "capstan/cli/config_problem.h"
-#include "capstan/cli/config_reader.h"
-#include "capstan/cli/config_writer.h"
+#include "capstan/config/config_problem.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/config/config_writer.h"
 #include "target.h"
 
 namespace {
@@ -30,13 +30,13 @@ void simulate_a_little(bench::BenchPlan plan) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
         const cli::ReadBench config =
-            cli::parse_plan<bench::BenchPlan>(fuzz::text_of(data, size), "fuzzed.toml");
-        const std::string text = cli::config_text(config.plan, cli::Comments::none);
-        const std::string again =
-            cli::config_text(cli::parse_plan<bench::BenchPlan>(text, "again").plan, cli::Comments::none);
+            config::parse_plan<bench::BenchPlan>(fuzz::text_of(data, size), "fuzzed.toml");
+        const std::string text = config::config_text(config.plan, config::Comments::none);
+        const std::string again = config::config_text(
+            config::parse_plan<bench::BenchPlan>(text, "again").plan, config::Comments::none);
         fuzz::demand(text == again, "a plan's text gives the same plan:\n" + text + "\n" + again);
         simulate_a_little(config.plan);
-    } catch (const cli::ConfigError& refusal) {
+    } catch (const config::ConfigError& refusal) {
         fuzz::demand(!refusal.problems().empty(), "a refusal names a problem");
         fuzz::demand(std::string(refusal.what()).starts_with("fuzzed.toml"), refusal.what());
     }

@@ -5,8 +5,8 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/recommendation_words.h"
-#include "capstan/cli/stored_study.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/error.h"

@@ -1,10 +1,10 @@
 // A study's configuration: refused with problems, or a plan whose text gives the same plan again, and which
 // either cannot run and says so, or can be prepared.
 #include "capstan/cable/invalid_input.h"
-#include "capstan/cli/config_problem.h"
-#include "capstan/cli/config_reader.h"
-#include "capstan/cli/config_studies.h"
-#include "capstan/cli/config_writer.h"
+#include "capstan/config/config_problem.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/config/config_studies.h"
+#include "capstan/config/config_writer.h"
 #include "capstan/placement/prepared_study.h"
 #include "target.h"
 
@@ -31,16 +31,16 @@ std::size_t studies_of(const Sweep& sweep) {
     return studies * std::max<std::size_t>(1, sweep.segments.size());
 }
 
-void prepare_all(const cli::ReadConfig& config) {
+void prepare_all(const config::ReadConfig& config) {
     if (!soon_done(config.plan) || studies_of(config.plan.sweep) > max_studies) return;
     for (const int segments : config.plan.sweep.segments) {
         if (segments > 64) return;
     }
     try {
-        for (const StudyPlan& study : cli::runnable_studies(config)) {
+        for (const StudyPlan& study : config::runnable_studies(config)) {
             if (soon_done(study)) prepare(study);
         }
-    } catch (const cli::ConfigError&) {
+    } catch (const config::ConfigError&) {
     } catch (const InvalidInput&) {
     }
 }
@@ -49,13 +49,13 @@ void prepare_all(const cli::ReadConfig& config) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
-        const cli::ReadConfig config = cli::parse_config(fuzz::text_of(data, size), "fuzzed.toml");
-        const std::string text = cli::config_text(config.plan, cli::Comments::none);
+        const config::ReadConfig config = config::parse_config(fuzz::text_of(data, size), "fuzzed.toml");
+        const std::string text = config::config_text(config.plan, config::Comments::none);
         const std::string again =
-            cli::config_text(cli::parse_config(text, "again").plan, cli::Comments::none);
+            config::config_text(config::parse_config(text, "again").plan, config::Comments::none);
         fuzz::demand(text == again, "a plan's text gives the same plan:\n" + text + "\n" + again);
         prepare_all(config);
-    } catch (const cli::ConfigError& refusal) {
+    } catch (const config::ConfigError& refusal) {
         fuzz::demand(!refusal.problems().empty(), "a refusal names a problem");
         fuzz::demand(std::string(refusal.what()).starts_with("fuzzed.toml"), refusal.what());
     }

@@ -55,7 +55,7 @@ TEST(Cable, EveryProblemIsNamedAtOnce) {
     bad.static_friction = std::numeric_limits<double>::quiet_NaN();
     bad.pretension_N = std::numeric_limits<double>::infinity();
     const std::string text = refusal(bad);
-    for (const char* name : {"curvature piece 1: length_m", "curvature piece 2: bend_radius_m", "segments",
+    for (const char* name : {"curvature[1].length_m", "curvature[2].bend_radius_m", "segments",
                              "axial_stiffness_N", "dynamic_friction", "static_friction", "pretension_N"}) {
         EXPECT_NE(text.find(name), std::string::npos) << name << " not in: " << text;
     }

@@ -6,7 +6,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/duty/duty_cycle.h"
-#include "capstan/gap/recording_reader.h"
+#include "capstan/recording/recording_reader.h"
 
 namespace capstan::duty {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 constexpr double sample_rate_Hz = 100.0;
 
 // One cable, 2 m at 0.7 m, its far end held; the motor angle over time is given.
-gap::Recording single_cable(const std::vector<double>& motor_angle_rad, double dynamic_friction) {
-    gap::Recording recording;
+Recording single_cable(const std::vector<double>& motor_angle_rad, double dynamic_friction) {
+    Recording recording;
     recording.name = "single cable";
-    recording.mode = gap::BenchMode::single_cable;
+    recording.mode = BenchMode::single_cable;
     recording.sample_rate_Hz = sample_rate_Hz;
     recording.channels = {{"motor_angle", "rad", {}, {}}};
-    gap::NominalBench bench;
+    NominalBench bench;
     bench.curvature = {{2.0, 0.7}};
     bench.motor_radius_m = 0.02;
     bench.load_radius_m = 0.02;
@@ -28,10 +28,10 @@ gap::Recording single_cable(const std::vector<double>& motor_angle_rad, double d
     bench.dynamic_friction = dynamic_friction;
     bench.static_friction = dynamic_friction;
     recording.nominal = bench;
-    gap::RecordedRun run;
+    RecordedRun run;
     run.number = 1;
     run.pretension_N = 10.0;
-    run.output = gap::OutputKind::locked;
+    run.output = OutputKind::locked;
     run.driven = {"motor_angle"};
     for (std::size_t k = 0; k < motor_angle_rad.size(); ++k)
         run.time_s.push_back(static_cast<double>(k) / sample_rate_Hz);
@@ -55,7 +55,7 @@ DutyOptions still_below(double speed_m_per_s) {
 }
 
 TEST(DutyCycle, TheTimesOfARunSumToItsLength) {
-    const gap::Recording recording = single_cable(rest_then_sine(0.2), 0.2);
+    const Recording recording = single_cable(rest_then_sine(0.2), 0.2);
     const DutyCycle duty = measure_duty(recording, {});
     EXPECT_NEAR(duty.all.total_s(), 5.0, 1e-9);
     EXPECT_NEAR(duty.runs.front().total_s(), 5.0, 1e-9);
@@ -102,8 +102,8 @@ TEST(DutyCycle, APlanTakesTheSharesOfItsRegimes) {
 }
 
 TEST(DutyCycle, ABenchWithoutGeometryIsRefused) {
-    gap::Recording recording = single_cable(rest_then_sine(0.2), 0.2);
-    recording.mode = gap::BenchMode::capstan_band;
+    Recording recording = single_cable(rest_then_sine(0.2), 0.2);
+    recording.mode = BenchMode::capstan_band;
     EXPECT_THROW(measure_duty(recording, {}), InvalidInput);
 }
 
@@ -111,7 +111,7 @@ TEST(DutyCycle, ABenchWithoutGeometryIsRefused) {
 TEST(DutyCycle, OfARecordedSessionTellsRampsFromAHandle) {
     const std::filesystem::path path = std::filesystem::path(CAPSTAN_OPEN_RECORDINGS) / "open01.csv";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
-    const DutyCycle duty = measure_duty(gap::read_recording(path), {});
+    const DutyCycle duty = measure_duty(read_recording(path), {});
     ASSERT_EQ(duty.runs.size(), 4u);
     const auto proximal_fraction = [&](std::size_t run) {
         return duty.runs[run].regime_s[static_cast<std::size_t>(Regime::partial_proximal)] /

@@ -5,7 +5,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimate/left_out.h"
-#include "capstan/gap/recording_reader.h"
+#include "capstan/recording/recording_reader.h"
 #include "capstan/sensing/random_stream.h"
 
 namespace capstan::estimate {
@@ -106,9 +106,9 @@ TEST(LeaveOut, OneChannelLeavesNothingToPredictFrom) {
 }
 
 TEST(SensedCable, RefusesARecordingWithoutTensionsAndSaysWhatToDo) {
-    gap::Recording recording;
+    Recording recording;
     recording.name = "bench";
-    recording.nominal = gap::NominalBench{};
+    recording.nominal = NominalBench{};
     recording.channels = {{"motor_angle", "rad", {}, {}}, {"load_angle", "rad", {}, {}}};
     try {
         sensed_cables(recording, 20);
@@ -127,7 +127,7 @@ bool there(const std::string& file) {
 TEST(OpenRecordings, ASensorOfAPairWithoutGapIsPredictedToItsNoise) {
     if (!there("open01.csv")) GTEST_SKIP() << "the open recordings are not on this machine";
     const auto cables =
-        sensed_cables(gap::read_recording(std::string(CAPSTAN_OPEN_RECORDINGS) + "/open01.csv"), 40);
+        sensed_cables(read_recording(std::string(CAPSTAN_OPEN_RECORDINGS) + "/open01.csv"), 40);
     ASSERT_EQ(cables.size(), 1u);
     const LeftOutChannel result = leave_out(cables.front(), {1}, {}).front();
     EXPECT_NEAR(result.rms_N, 0.25, 0.02);
@@ -139,7 +139,7 @@ TEST(OpenRecordings, ASensorOfAPairWithoutGapIsPredictedToItsNoise) {
 TEST(OpenRecordings, ASensorOfACableThatTheModelGetsWrongIsPredictedFromItsNeighbours) {
     if (!there("open14.csv")) GTEST_SKIP() << "the open recordings are not on this machine";
     const auto cables =
-        sensed_cables(gap::read_recording(std::string(CAPSTAN_OPEN_RECORDINGS) + "/open14.csv"), 20);
+        sensed_cables(read_recording(std::string(CAPSTAN_OPEN_RECORDINGS) + "/open14.csv"), 20);
     ASSERT_EQ(cables.front().channels.size(), 7u) << "five sensors and both ends";
     const LeftOutChannel result = leave_out(cables.front(), {2}, {}).front();
     EXPECT_LT(result.rms_N, 0.2 * result.model_alone_rms_N);

@@ -2,7 +2,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/calibration.h"
-#include "capstan/gap/recording_reader.h"
+#include "capstan/recording/recording_reader.h"
 #include "sample_recording.h"
 
 namespace capstan::gap {
@@ -45,7 +45,7 @@ TEST(Calibration, SaysWhatARecordingDoesNotConfine) {
     Recording recording = driven_session();
     recording.runs.resize(1);
     recording.runs[0].pretension_N = 40.0;
-    recording.channels.resize(4);  // no tension sensor, which would tell the pretension
+    recording.channels.resize(4);         // no tension sensor, which would tell the pretension
     recording.channels[1].step = 0.0314;  // 200 counts a turn
     recording.tension_sensors.clear();
     recording.runs[0].values.resize(4);

@@ -5,7 +5,7 @@
 #include "capstan/effects/effect_catalogue.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/effects_twin.h"
-#include "capstan/gap/recording_reader.h"
+#include "capstan/recording/recording_reader.h"
 #include "sample_recording.h"
 
 namespace capstan::gap {

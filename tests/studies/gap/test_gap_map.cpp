@@ -3,8 +3,8 @@
 #include <random>
 
 #include "capstan/gap/candidate_cause.h"
-#include "capstan/gap/estimated_noise.h"
 #include "capstan/gap/gap_map.h"
+#include "capstan/recording/estimated_noise.h"
 #include "sample_recording.h"
 
 namespace capstan::gap {

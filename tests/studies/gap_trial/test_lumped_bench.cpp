@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "capstan/gap/effects_twin.h"
-#include "capstan/gap/recording_reader.h"
 #include "capstan/gap_trial/recording_files.h"
+#include "capstan/recording/recording_reader.h"
 #include "sample_session.h"
 #include "scratch_folder.h"
 
@@ -23,7 +23,7 @@ std::vector<double> missed_by_the_twin(BenchKind kind, const std::string& channe
         logged.push_back(with_noise(bench, run, {}, noise));
     const ScratchFolder folder;
     write_recording(folder.path(), "none", bench, runs, logged);
-    const gap::Recording recording = gap::read_recording(folder.path() / "none.csv");
+    const Recording recording = read_recording(folder.path() / "none.csv");
     const gap::EffectsTwin twin(recording, {100, 1});
     const auto index = static_cast<std::size_t>(*recording.channel(channel));
     std::vector<double> missed;

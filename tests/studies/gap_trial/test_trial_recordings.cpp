@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/recording_reader.h"
 #include "capstan/gap_trial/blind_trial.h"
+#include "capstan/recording/recording_reader.h"
 #include "scratch_folder.h"
 
 namespace capstan::gap_trial {
@@ -37,7 +37,7 @@ TEST(TrialRecordings, AreTheSameBitsForAnyNumberOfThreads) {
             EXPECT_EQ(bytes, bytes_of(three.path() / name)) << name;
         }
         // The lab's own reader takes them, and they tell nothing of what is behind.
-        const gap::Recording recording = gap::read_recording(one.path() / (label.name + ".csv"));
+        const Recording recording = read_recording(one.path() / (label.name + ".csv"));
         EXPECT_EQ(recording.runs.size(), label.protocols.size());
         const std::string sidecar = bytes_of(one.path() / (label.name + ".json"));
         for (const char* word : {"effect", "cause", "severity", "visibility", "true_ratios"})

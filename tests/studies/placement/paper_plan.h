@@ -4,14 +4,13 @@
 #include <numeric>
 
 #include "capstan/estimation/fusion_method.h"
-#include "capstan/placement/study_plan.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan::test {
 
 inline StudyPlan paper_plan(int repetitions) {
     StudyPlan plan;
     plan.name = "paper";
-    plan.config_toml = "# made by a test\n";
     plan.repetitions = repetitions;
 
     CableSpecification& cable = plan.transmission.cable;

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "capstan/placement/placement_constraints.h"
+#include "capstan/plan/placement_constraints.h"
 
 namespace capstan {
 namespace {
@@ -48,7 +48,7 @@ TEST(PlacementConstraints, TheMessageOfAClashSaysWhatEachAsksFor) {
     const PlacementPlan plan{.forbidden_nodes = {4, 7}, .required_nodes = {7}};
     const auto problems = problems_of(plan, nodes);
     ASSERT_EQ(problems.size(), 1u);
-    EXPECT_EQ(problems[0],
+    EXPECT_EQ(problems[0].text(),
               "placement.required_nodes: no layout satisfies required_nodes = [8], forbidden_nodes = [5, 8] "
               "together; loosen one of them");
 }
@@ -56,7 +56,7 @@ TEST(PlacementConstraints, TheMessageOfAClashSaysWhatEachAsksFor) {
 TEST(PlacementConstraints, OneConstraintAloneCanAskTooMuch) {
     const auto problems = problems_of(PlacementPlan{.budget = 0.5}, nodes);
     ASSERT_EQ(problems.size(), 1u);
-    EXPECT_EQ(problems[0], "placement.budget: no layout satisfies budget = 0.5; loosen it");
+    EXPECT_EQ(problems[0].text(), "placement.budget: no layout satisfies budget = 0.5; loosen it");
 }
 
 TEST(PlacementConstraints, NodesOutsideTheCableAndCostsThatDoNotFitAreRefused) {

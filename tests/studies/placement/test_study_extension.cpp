@@ -11,14 +11,12 @@ namespace capstan {
 namespace {
 
 StudyPlan plan_with(int repetitions) {
-    StudyPlan plan = test::short_cable_plan(repetitions);
-    plan.config_toml = "repetitions = " + std::to_string(repetitions) + "\n";
-    return plan;
+    return test::short_cable_plan(repetitions);
 }
 
 StudyToExtend begun_with(storage::Database& database, int repetitions) {
     const std::int64_t id = run_study(database, plan_with(repetitions), "test", {}).study_id;
-    return {id, plan_with(repetitions), plan_with};
+    return {id, plan_with(repetitions)};
 }
 
 /// A small study, and beside it the larger one, run from the start.

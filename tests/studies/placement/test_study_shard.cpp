@@ -6,7 +6,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/study_cost.h"
 #include "capstan/placement/study_shard.h"
-#include "capstan/placement/study_sweep.h"
+#include "capstan/plan/study_sweep.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
 #include "paper_plan.h"
@@ -118,7 +118,7 @@ TEST(Sweep, TakesInstantsThatAreInTheirRegime) {
     plan.sweep.friction_ratio = {0.25, 0.5, 1.0};
     plan.sweep.instants_per_regime = 5;
     for (const StudyPlan& study : studies_in_sweep(plan)) {
-        EXPECT_TRUE(problems_of(study).empty()) << problems_of(study).front();
+        EXPECT_TRUE(problems_of(study).empty()) << problems_of(study).front().text();
         for (const RegimeInstants& regime : study.regimes) {
             EXPECT_EQ(std::set<int>(regime.samples.begin(), regime.samples.end()).size(), 5u);
         }

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/placement/true_motion.h"
+#include "capstan/plan/true_motion.h"
 #include "paper_plan.h"
 
 namespace capstan {

@@ -1,0 +1,64 @@
+#pragma once
+// What both kinds of configuration say of a cable, in the same words.
+
+#include "capstan/config/config_key_makers.h"
+
+namespace capstan::config {
+
+/// Where the kinds differ.
+struct CableText {
+    std::int64_t default_segments = 0;
+    double default_pretension_N = 0.0;
+    std::string segments_help;
+};
+
+/// Keys of section `at` and of its repeated section `at`.curvature; `cable(plan)` refers to the
+/// specification.
+template <class Plan, class CableOf>
+void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, const CableText& text,
+                    CableOf cable) {
+    const auto add = [&](KeyText about, Limits limits, double default_value,
+                         double CableSpecification::*field) {
+        keys.push_back(real<Plan>(
+            std::move(about), limits, default_value,
+            [ cable, field ](auto& plan, int) -> auto& { return cable(plan).*field; }));
+    };
+    keys.push_back(whole<Plan>(
+        {at, "segments", "", text.segments_help}, {1, true, 10000},
+        text.default_segments, [cable](auto& plan, int) -> auto& { return cable(plan).segments; }));
+    add({at, "axial_stiffness_N", "N",
+         "Axial stiffness EA: force per unit strain, not per elongation. The paper's Table I says \"2 "
+         "kN/m\" for its 2 m cable; used directly as EA = 2000 N it reproduces the paper's figures "
+         "best."},
+        above_zero, 2000.0, &CableSpecification::axial_stiffness_N);
+    add({at, "dynamic_friction", "", "Friction coefficient of a segment that slides."}, zero_or_more, 0.21,
+        &CableSpecification::dynamic_friction);
+    add({at, "static_friction", "",
+         "Friction coefficient of a segment about to slide; at least dynamic_friction."},
+        zero_or_more, 0.63, &CableSpecification::static_friction);
+    add({at, "pretension_N", "N", "Tension of the whole cable before anything moves."}, zero_or_more,
+        text.default_pretension_N, &CableSpecification::pretension_N);
+
+    const std::string piece = at + ".curvature";
+    keys.push_back(required(real<Plan>(
+        {piece, "length_m", "m", "Length of conduit along its axis."}, above_zero,
+        {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].length_m; })));
+    ConfigKey<Plan> radius = real<Plan>(
+        {piece, "bend_radius_m", "m", "Bend radius of the piece; left out where it is straight."}, above_zero,
+        {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].bend_radius_m; });
+    radius.read = [cable](const Plan& plan, int row) -> ConfigValue {
+        const double radius_m = cable(plan).curvature[row].bend_radius_m;
+        return radius_m == straight ? ConfigValue{} : ConfigValue{radius_m};
+    };
+    keys.push_back(std::move(radius));
+}
+
+/// The repeated section of the conduit's pieces. `CableOf{}(plan)` refers to a plan's specification.
+template <class Plan, class CableOf>
+ConfigSection<Plan> curvature_section(const std::string& path, CableOf, void (*fill_default)(Plan&)) {
+    return {path, "The conduit's course from the proximal end: pieces of one bend radius each.",
+            [](const Plan& plan) { return static_cast<int>(CableOf{}(plan).curvature.size()); },
+            [](Plan& plan, int count) { CableOf{}(plan).curvature.assign(count, {}); }, fill_default};
+}
+
+}  // namespace capstan::config

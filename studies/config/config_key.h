@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "capstan/bench/bench_plan.h"
+#include "capstan/plan/study_plan.h"
+
+namespace capstan::config {
+
+/// What a key can hold; nothing where the key is left out.
+using ConfigValue =
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::int64_t>,
+                 std::vector<double>, std::vector<std::string>, std::vector<std::vector<std::int64_t>>>;
+
+enum class ValueKind {
+    text,
+    whole_number,
+    real_number,
+    yes_or_no,
+    choice,         ///< one of `names`
+    whole_numbers,  ///< a list
+    real_numbers,   ///< a list; the same number may come twice
+    names,          ///< a list of some of `names`
+    node_sets,      ///< a list of lists of nodes
+};
+
+/// Range of a number, or of every number in a list.
+struct Limits {
+    double low = -std::numeric_limits<double>::infinity();
+    bool low_is_allowed = true;
+    double high = std::numeric_limits<double>::infinity();
+
+    bool admits(double value) const { return (low_is_allowed ? value >= low : value > low) && value <= high; }
+    std::string words() const;  ///< "above 0", "1 to 200", empty without limits
+};
+
+/// The values that a key takes.
+struct AllowedValues {
+    ValueKind kind = ValueKind::text;
+    std::string unit;
+    Limits limits{};
+    std::vector<std::string> names{};
+    bool takes_all = false;     ///< the text "all" stands for the whole list
+    bool may_be_empty = false;  ///< of real_numbers; other lists may
+};
+
+/// When a key has a meaning, for keys that depend on another one.
+template <class Plan>
+struct KeyCondition {
+    std::function<bool(const Plan&, int row)> holds;  ///< empty: always
+    std::string words;                                ///< kind = "spring"
+};
+
+enum class Presence { optional, required };
+
+/// One key of a configuration: all that reading, checking, writing and explaining it need.
+template <class Plan>
+struct ConfigKey {
+    std::string section;  ///< "" at the top, else as in [section]
+    std::string name;     ///< ends in its unit
+    AllowedValues allowed{};
+    Presence presence = Presence::optional;
+    ConfigValue default_value{};
+    std::string help{};
+    KeyCondition<Plan> condition{};
+    /// `row` counts the tables of a repeated section from 0, and is 0 elsewhere.
+    std::function<ConfigValue(const Plan&, int row)> read{};
+    std::function<void(Plan&, int row, const ConfigValue&)> write{};
+};
+
+/// One table of the configuration, or a list of tables.
+template <class Plan>
+struct ConfigSection {
+    std::string path;
+    std::string help;
+    /// Repeated sections only: [[path]].
+    int (*rows)(const Plan&) = nullptr;
+    void (*set_rows)(Plan&, int count) = nullptr;
+    void (*fill_default)(Plan&) = nullptr;
+
+    bool is_repeated() const { return rows != nullptr; }
+};
+
+/// A kind of configuration.
+template <class Plan>
+struct ConfigSchema {
+    std::string introduction;                   ///< the comment that a printed default begins with
+    std::vector<ConfigSection<Plan>> sections;  ///< in the order of reading and writing
+    std::vector<ConfigKey<Plan>> keys;          ///< a key may rely on all keys before it
+};
+
+/// The one list of sections and keys of each kind of configuration.
+template <class Plan>
+const ConfigSchema<Plan>& config_schema();
+template <>
+const ConfigSchema<StudyPlan>& config_schema<StudyPlan>();
+template <>
+const ConfigSchema<bench::BenchPlan>& config_schema<bench::BenchPlan>();
+
+}  // namespace capstan::config

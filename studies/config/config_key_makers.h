@@ -1,0 +1,116 @@
+#pragma once
+// How rows of a key table are written: a maker for each kind of value, bound to a field of the plan.
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "capstan/config/config_key.h"
+
+namespace capstan::config {
+
+inline constexpr Limits above_zero{0.0, false};
+inline constexpr Limits zero_or_more{0.0, true};
+
+// A key that is a field of the plan; `field(plan, row)` refers to it.
+template <class Stored, class Plan, class Field>
+void bind_field(ConfigKey<Plan>& key, Field field) {
+    key.read = [field](const Plan& plan, int row) -> ConfigValue {
+        return static_cast<Stored>(field(plan, row));
+    };
+    key.write = [field](Plan& plan, int row, const ConfigValue& value) {
+        auto& target = field(plan, row);
+        target = static_cast<std::remove_reference_t<decltype(target)>>(std::get<Stored>(value));
+    };
+}
+
+struct KeyText {
+    std::string section;
+    std::string name;
+    std::string unit;
+    std::string help;
+};
+
+template <class Plan = StudyPlan, class Field>
+ConfigKey<Plan> text(KeyText about, ConfigValue default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::text, about.unit}};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    bind_field<std::string>(key, field);
+    return key;
+}
+
+template <class Plan = StudyPlan, class Field>
+ConfigKey<Plan> whole(KeyText about, Limits limits, ConfigValue default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::whole_number, about.unit, limits}};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    bind_field<std::int64_t>(key, field);
+    return key;
+}
+
+template <class Plan = StudyPlan, class Field>
+ConfigKey<Plan> real(KeyText about, Limits limits, ConfigValue default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::real_number, about.unit, limits}};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    bind_field<double>(key, field);
+    return key;
+}
+
+template <class Plan = StudyPlan, class Field>
+ConfigKey<Plan> yes_or_no(KeyText about, bool default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::yes_or_no, about.unit}};
+    key.help = std::move(about.help);
+    key.default_value = default_value;
+    bind_field<bool>(key, field);
+    return key;
+}
+
+template <class Plan, class Field>
+ConfigKey<Plan> real_list(KeyText about, Limits limits, std::vector<double> default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::real_numbers, about.unit, limits}};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    bind_field<std::vector<double>>(key, field);
+    return key;
+}
+
+template <class Value>
+struct Named {
+    std::string name;
+    Value value;
+};
+
+template <class Value, class Plan = StudyPlan, class Field, class Same = std::equal_to<>>
+ConfigKey<Plan> choice(KeyText about, std::vector<Named<Value>> all, ConfigValue default_value, Field field,
+                       Same same = {}) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::choice, about.unit}};
+    key.help = std::move(about.help);
+    key.default_value = std::move(default_value);
+    for (const auto& each : all) key.allowed.names.push_back(each.name);
+    key.read = [all, field, same](const Plan& plan, int row) -> ConfigValue {
+        const auto found = std::find_if(all.begin(), all.end(),
+                                        [&](const auto& each) { return same(each.value, field(plan, row)); });
+        return found->name;
+    };
+    key.write = [all, field](Plan& plan, int row, const ConfigValue& value) {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const auto& each) {
+            return each.name == std::get<std::string>(value);
+        });
+        field(plan, row) = found->value;
+    };
+    return key;
+}
+
+template <class Plan>
+ConfigKey<Plan> required(ConfigKey<Plan> key) {
+    key.presence = Presence::required;
+    key.default_value = std::monostate{};
+    return key;
+}
+
+}  // namespace capstan::config

@@ -1,0 +1,280 @@
+// The key table of a study: one row per key. Defaults have their home here, and the reason for a default is
+// in its help.
+
+#include "capstan/config/config_cable_keys.h"
+#include "capstan/config/config_layout_keys.h"
+#include "capstan/config/config_placement_keys.h"
+#include "capstan/config/config_sensitivity_keys.h"
+#include "capstan/config/config_sweep_keys.h"
+#include "capstan/config/config_truth.h"
+
+namespace capstan::config {
+
+namespace {
+
+using StudyKey = ConfigKey<StudyPlan>;
+
+// ---- the whole study
+
+void add_study_keys(std::vector<StudyKey>& keys) {
+    keys.push_back(text(
+        {"", "name", "", "Name of the study in lists and reports."}, std::string("study"),
+        [](auto& plan, int) -> auto& { return plan.name; }));
+    keys.push_back(whole(
+        {"", "seed", "", "Seed of all random numbers: the same seed gives the same bits."},
+        {0, true, 9223372036854774784.0}, std::int64_t{1},
+        [](auto& plan, int) -> auto& { return plan.seed; }));
+    keys.push_back(whole(
+        {"", "repetitions", "",
+         "Draws of sensor noise per instant and noise level. Standard errors shrink with the "
+         "square root; 2000 separate differences of about 0.01 N."},
+        {1, true, 1e7}, std::int64_t{2000}, [](auto& plan, int) -> auto& { return plan.repetitions; }));
+    keys.push_back(yes_or_no(
+        {"", "compare_with_paper", "",
+         "Show the paper's numbers beside ours. Only for the paper's own transmission, motion "
+         "and instants."},
+        false, [](auto& plan, int) -> auto& { return plan.compare_with_paper; }));
+}
+
+// ---- [transmission]
+
+constexpr auto transmission_cable = [](auto& plan) -> auto& {
+    return plan.transmission.cable;
+};
+
+bool same_rules(const ModelRules& a, const ModelRules& b) {
+    return a.elongation == b.elongation && a.stiction == b.stiction && a.check == b.check;
+}
+
+void add_transmission_keys(std::vector<StudyKey>& keys) {
+    const std::string at = "transmission";
+    add_cable_keys<StudyPlan>(
+        keys, at,
+        {10, 10.0,
+         "Equal pieces into which the cable is cut; nodes are their ends, numbered 1 (proximal, "
+         "motor) to segments + 1 (distal, load). Sensors sit at nodes."},
+        transmission_cable);
+    keys.push_back(choice<ModelRules>(
+        {at, "rules", "",
+         "How the model is read where the paper is silent or contradicts itself: \"consistent\" is our consistent reading, "
+         "\"paper\" follows the paper to the letter."},
+        {{"consistent", ModelRules::consistent()}, {"paper", ModelRules::paper()}}, std::string("consistent"),
+        [](auto& plan, int) -> auto& { return plan.transmission.rules; }, same_rules));
+}
+
+// ---- [motion]
+
+// Both ends have the same keys; only what they do by default differs.
+struct EndText {
+    std::string section;
+    double default_amplitude_m;
+    EndMotion TrueMotion::*end;
+};
+
+void add_end_keys(std::vector<StudyKey>& keys, const EndText& end) {
+    const std::string& at = end.section;
+    const auto motion = [member = end.end](auto& plan, int) -> auto& {
+        return plan.motion.*member;
+    };
+    const auto kind = [member = end.end](const StudyPlan& plan) { return (plan.motion.*member).kind; };
+
+    keys.push_back(choice<EndKind>(
+        {at, "kind", "",
+         "What is prescribed here: the cable's \"position\", its \"tension\", or a "
+         "\"spring\" between the cable and a wall that moves. Not a tension at both ends."},
+        {{"position", EndKind::position}, {"tension", EndKind::tension}, {"spring", EndKind::spring}},
+        std::string("position"), [motion](auto& plan, int row) -> auto& { return motion(plan, row).kind; }));
+
+    const auto amplitude = [motion](auto& plan, int row) -> auto& {
+        return motion(plan, row).amplitude;
+    };
+    StudyKey amplitude_m =
+        real({at, "amplitude_m", "m",
+              "Amplitude of the motion, of the cable's end or of the spring's wall: rest + "
+              "amplitude sin(2 pi frequency time + phase), positive towards the distal end. 0: "
+              "blocked."},
+             zero_or_more, end.default_amplitude_m, amplitude);
+    amplitude_m.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) != EndKind::tension; },
+                             "kind = \"position\" or \"spring\""};
+    keys.push_back(std::move(amplitude_m));
+
+    StudyKey amplitude_N = real({at, "amplitude_N", "N", "Amplitude of the tension about the pretension."},
+                                zero_or_more, 0.0, amplitude);
+    amplitude_N.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) == EndKind::tension; },
+                             "kind = \"tension\""};
+    keys.push_back(std::move(amplitude_N));
+
+    keys.push_back(real(
+        {at, "frequency_Hz", "Hz", "Frequency of the motion."}, zero_or_more,
+        1.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).frequency_Hz; }));
+    keys.push_back(real(
+        {at, "phase_rad", "rad", "Phase of the motion at time 0."}, {},
+        0.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).phase_rad; }));
+    keys.push_back(real(
+        {at, "start_s", "s", "When the motion begins; the end holds still before."}, zero_or_more,
+        0.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).start_s; }));
+    keys.push_back(real(
+        {at, "stop_s", "s", "When it ends; the end holds still after."}, above_zero,
+        EndMotion{}.stop_s, [motion](auto& plan, int row) -> auto& { return motion(plan, row).stop_s; }));
+
+    StudyKey stiffness = required(real(
+        {at, "spring_stiffness_N_per_m", "N/m", "Stiffness of the spring."}, above_zero,
+        {}, [motion](auto& plan, int row) -> auto& { return motion(plan, row).spring_stiffness_N_per_m; }));
+    stiffness.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) == EndKind::spring; },
+                           "kind = \"spring\""};
+    keys.push_back(std::move(stiffness));
+}
+
+void add_motion_keys(std::vector<StudyKey>& keys) {
+    keys.push_back(real(
+        {"motion", "sample_rate_Hz", "Hz",
+         "Samples per second. Each sample is one quasi-static step; smaller steps follow the motion "
+         "better."},
+        above_zero, 100.0, [](auto& plan, int) -> auto& { return plan.motion.sample_rate_Hz; }));
+    keys.push_back(whole(
+        {"motion", "samples", "",
+         "How many samples are simulated; sample 0 is the pretensioned cable at rest."},
+        {1, true, 1e7}, std::int64_t{200}, [](auto& plan, int) -> auto& { return plan.motion.samples; }));
+    add_end_keys(keys, {"motion.proximal", 0.01, &TrueMotion::proximal});
+    add_end_keys(keys, {"motion.distal", 0.0, &TrueMotion::distal});
+}
+
+// ---- [[regime]], [[noise]]
+
+void add_regime_keys(std::vector<StudyKey>& keys) {
+    std::vector<Named<Regime>> regimes;
+    for (const Regime regime : all_regimes) regimes.push_back({std::string(name_of(regime)), regime});
+    keys.push_back(required(choice<Regime>(
+        {"regime", "name", "",
+         "Motion regime: all of the cable slides (mass), or nodes at the proximal "
+         "end, the distal end or both move while others rest."},
+        regimes, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].regime; })));
+
+    StudyKey samples{"regime", "samples", {ValueKind::whole_numbers, "", {1, true, 1e7}}};
+    samples.presence = Presence::required;
+    samples.help =
+        "Instants at which sensors are judged, as samples of the motion; each must be in this regime. "
+        "`capstan simulate CONFIG` shows which sample is in which.";
+    samples.read = [](const StudyPlan& plan, int row) -> ConfigValue {
+        return std::vector<std::int64_t>(plan.regimes[row].samples.begin(), plan.regimes[row].samples.end());
+    };
+    samples.write = [](StudyPlan& plan, int row, const ConfigValue& value) {
+        const auto& given = std::get<std::vector<std::int64_t>>(value);
+        plan.regimes[row].samples.assign(given.begin(), given.end());
+    };
+    keys.push_back(std::move(samples));
+
+    keys.push_back(required(real(
+        {"regime", "duty_fraction", "",
+         "Fraction of the working time in this regime, for the recommendation by duty cycle; "
+         "the fractions of all regimes sum to 1."},
+        {0, true, 1}, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].duty_fraction; })));
+}
+
+void add_noise_keys(std::vector<StudyKey>& keys) {
+    keys.push_back(required(text(
+        {"noise", "label", "", "Name of the noise level in tables and figures."}, {},
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].label; })));
+    keys.push_back(real(
+        {"noise", "multiplicative_ratio", "",
+         "Standard deviation of a reading's error as a fraction of the tension: 0.1 is 10 %."},
+        zero_or_more, 0.0,
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.multiplicative_ratio; }));
+    keys.push_back(real(
+        {"noise", "additive_N", "N", "Standard deviation of a reading's error at any tension."}, zero_or_more,
+        0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.additive_N; }));
+    keys.push_back(real(
+        {"noise", "bias_N", "N",
+         "Standard deviation of each sensor's offset, drawn once per repetition and the same at every "
+         "instant."},
+        zero_or_more, 0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.bias_N; }));
+    keys.push_back(real(
+        {"noise", "quantisation_N", "N", "Step of the converter, to which readings are rounded; 0: none."},
+        zero_or_more, 0.0,
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.quantisation_N; }));
+    keys.push_back(real(
+        {"noise", "range_N", "N",
+         "The largest tension that the sensor can read; estimators on the feasible curve know that a reading at the "
+         "end of the range may be any larger one."},
+        above_zero, NoiseLevel{}.range_N,
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.range_N; }));
+}
+
+std::vector<StudyKey> all_keys() {
+    std::vector<StudyKey> keys;
+    add_study_keys(keys);
+    add_transmission_keys(keys);
+    add_motion_keys(keys);
+    add_regime_keys(keys);
+    add_noise_keys(keys);
+    add_layout_keys(keys);
+    add_estimation_keys(keys);
+    keys.push_back(real(
+        {"recommendation", "worthwhile_gain_N", "N",
+         "One more sensor must lower the error by this much to be recommended."},
+        zero_or_more, 0.02, [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));
+    add_placement_keys(keys);
+    add_sensitivity_keys(keys);
+    add_sweep_keys(keys);
+    for (StudyKey& key : truth_keys()) keys.push_back(std::move(key));
+    return keys;
+}
+
+std::vector<ConfigSection<StudyPlan>> all_sections() {
+    std::vector<ConfigSection<StudyPlan>> sections = {
+        {"", "The study."},
+        {"transmission", "The cable in its conduit."},
+        // The paper's: 2 m of conduit at its bend radius.
+        curvature_section<StudyPlan>("transmission.curvature", transmission_cable,
+                                     [](StudyPlan& plan) {
+                                         plan.transmission.cable.curvature = {{2.0, 0.28}};
+                                     }),
+        {"motion", "The true motion, which the estimators have to find out from the sensors."},
+        {"motion.proximal", "The proximal end, where the motor is."},
+        {"motion.distal", "The distal end, where the load is."},
+        {"regime", "Instants at which sensors are judged, by motion regime. Each regime once.",
+         [](const StudyPlan& plan) { return static_cast<int>(plan.regimes.size()); },
+         [](StudyPlan& plan, int count) { plan.regimes.assign(count, {}); },
+         // The paper's: samples 112 and 142 of its motion.
+         [](StudyPlan& plan) {
+             plan.regimes = {{Regime::mass, {112, 142}, 1.0}};
+         }},
+        {"noise",
+         "Noise levels: reading = T (1 + multiplicative_ratio e1) + additive_N e2 + bias_N e3, all e standard normal, "
+         "then rounded to quantisation_N and cut off at range_N.",
+         [](const StudyPlan& plan) { return static_cast<int>(plan.noise_levels.size()); },
+         [](StudyPlan& plan, int count) { plan.noise_levels.assign(count, {}); },
+         // The paper's.
+         [](StudyPlan& plan) {
+             plan.noise_levels = {{"10 %", {.multiplicative_ratio = 0.1}}};
+         }},
+        {"layouts", "Where sensors may sit. Give families with counts, explicit layouts, or both."},
+        {"estimation", "How readings become tensions."},
+        {"recommendation", "What counts as better."},
+        {"placement",
+         "For `capstan place`, which searches all layouts: what a designer has to live with. Regimes, noise and methods "
+         "are those above; layouts is not used."},
+        {"sensitivity",
+         "For `capstan sensitivity`, which asks what uncertain numbers would change the advice: how uncertain they are. "
+         "Constraints and the error that counts are those of placement."},
+        {"sweep",
+         "Many studies from one file: one for every combination of the values given here. `capstan study plan` says "
+         "what it costs, `capstan study submit` runs it on a cluster."},
+    };
+    for (ConfigSection<StudyPlan>& section : truth_sections()) sections.push_back(std::move(section));
+    return sections;
+}
+
+}  // namespace
+
+template <>
+const ConfigSchema<StudyPlan>& config_schema<StudyPlan>() {
+    static const ConfigSchema<StudyPlan> schema{
+        "A study for capstan: where to put tension sensors in a cable-conduit transmission. Every key is "
+        "here with its default; a key that is left out takes it. Check a file with "
+        "`capstan config check FILE`, run it with `capstan study run FILE`.",
+        all_sections(), all_keys()};
+    return schema;
+}
+
+}  // namespace capstan::config

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capstan/cable/invalid_input.h"
+
+namespace capstan::config {
+
+/// One thing wrong with a configuration.
+struct ConfigProblem {
+    int line = 0;         ///< from 1; 0: the file as a whole
+    int column = 0;       ///< from 1; 0: the line as a whole
+    std::string key;      ///< full path, "regime[2].samples"; empty: no key in particular
+    std::string message;  ///< what is wrong; what to try
+};
+
+/// Every problem of a configuration, one a line: FILE:LINE: key: what is wrong; what to try.
+class ConfigError : public InvalidInput {
+  public:
+    ConfigError(const std::string& file, std::vector<ConfigProblem> problems);
+
+    const std::vector<ConfigProblem>& at_lines() const { return problems_; }
+
+  private:
+    std::vector<ConfigProblem> problems_;
+};
+
+}  // namespace capstan::config

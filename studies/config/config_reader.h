@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "capstan/bench/bench_plan.h"
+#include "capstan/plan/study_plan.h"
+
+namespace capstan::config {
+
+/// Where keys stand in the text: "regime[2].samples" -> line, both from 1. Sections are in it too.
+using KeyLines = std::map<std::string, int, std::less<>>;
+
+/// A configuration read for its kind of plan.
+template <class Plan>
+struct ReadPlan {
+    std::string file;  ///< as messages name it
+    Plan plan;
+    KeyLines lines;
+};
+using ReadConfig = ReadPlan<StudyPlan>;
+using ReadBench = ReadPlan<bench::BenchPlan>;
+
+/// Throws ConfigError with every problem that can be seen without simulating.
+template <class Plan>
+ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file);
+ReadConfig parse_config(std::string_view toml, const std::string& file);
+/// Refuses a bench with what it is good for.
+ReadConfig read_config(const std::filesystem::path& path);
+ReadBench read_bench(const std::filesystem::path& path);
+
+}  // namespace capstan::config

@@ -1,0 +1,78 @@
+#include "capstan/config/config_truth.h"
+
+#include <fmt/format.h>
+
+#include "capstan/config/config_effect_keys.h"
+#include "capstan/config/config_problem.h"
+#include "capstan/config/config_reader.h"
+
+namespace capstan::config {
+
+namespace {
+
+using StudyKey = ConfigKey<StudyPlan>;
+
+StudyKey ratio_key(const std::string& name, const std::string& of, double TrueCable::*ratio) {
+    return real(
+        {"truth", name, "", "Of " + of + ", in parts of what [transmission] says."}, {0.01, true, 100.0},
+        1.0, [ratio](auto& plan, int) -> auto& { return plan.truth.*ratio; });
+}
+
+// A number that reads back to the same bits, and as a real number.
+std::string real_text(double value) {
+    const std::string text = fmt::format("{}", value);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+}  // namespace
+
+std::vector<ConfigSection<StudyPlan>> truth_sections() {
+    std::vector<ConfigSection<StudyPlan>> sections = {
+        {"truth",
+         "How the true cable differs from the one above, in which the estimators believe; as by default, not at "
+         "all. `capstan diagnose --corrected FILE` writes one from a recording, `capstan study run --truth FILE` "
+         "takes it. Effects need both ends' positions to be given."}};
+    add_effect_sections(sections, "truth", is_of_the_cable);
+    return sections;
+}
+
+std::vector<StudyKey> truth_keys() {
+    std::vector<StudyKey> keys = {
+        ratio_key("friction_ratio", "both friction coefficients", &TrueCable::friction_ratio),
+        ratio_key("stiffness_ratio", "the axial stiffness", &TrueCable::stiffness_ratio),
+        ratio_key("pretension_ratio", "the pretension", &TrueCable::pretension_ratio)};
+    add_effect_keys(
+        keys, "truth", is_of_the_cable, [](auto& plan) -> auto& { return plan.truth.effects; });
+    return keys;
+}
+
+TrueCable read_truth(const std::filesystem::path& path) {
+    const ReadConfig config = read_config(path);
+    std::vector<ConfigProblem> problems;
+    for (const auto& [key, line] : config.lines) {
+        if (!key.empty() && !key.starts_with("truth"))
+            problems.push_back(
+                {line, 0, key, "does not belong into a file for --truth, which holds [truth] only"});
+    }
+    if (!problems.empty()) throw ConfigError(path.string(), std::move(problems));
+    return config.plan.truth;
+}
+
+std::string truth_text(const TrueCable& truth, const std::vector<std::string>& comments) {
+    std::string text;
+    for (const std::string& comment : comments) text += "# " + comment + "\n";
+    text += fmt::format("\n[truth]\nfriction_ratio = {}\nstiffness_ratio = {}\npretension_ratio = {}\n",
+                        real_text(truth.friction_ratio), real_text(truth.stiffness_ratio),
+                        real_text(truth.pretension_ratio));
+    for (std::size_t e = 0; e < truth.effects.size(); ++e) {
+        const Effect& effect = effect_catalogue()[e];
+        if (truth.effects[e] == effect.absent) continue;
+        text += fmt::format("\n[{}]  # {}\n", effect_section("truth", effect), effect.meaning);
+        for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+            text += fmt::format("{} = {}\n", effect_key_name(effect.parameters[p]),
+                                real_text(truth.effects[e][p]));
+    }
+    return text;
+}
+
+}  // namespace capstan::config

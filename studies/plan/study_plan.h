@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "capstan/cable/cable.h"
+#include "capstan/estimation/single_sensor.h"
+#include "capstan/plan/placement_plan.h"
+#include "capstan/plan/sensitivity_plan.h"
+#include "capstan/plan/true_cable.h"
+#include "capstan/sensing/layout.h"
+#include "capstan/sensing/noise.h"
+#include "capstan/solver/model_rules.h"
+
+namespace capstan {
+
+/// What is prescribed at one end of the cable over time: a sine `amplitude * sin(2 pi f t + phase)` that
+/// moves from `start_s` to `stop_s` and holds still before and after, added to the value at rest of the
+/// pretensioned cable (its displacement, its tension, the wall where it stands) so that it begins there.
+enum class EndKind { position, tension, spring };
+
+struct EndMotion {
+    EndKind kind = EndKind::position;
+    double amplitude = 0.0;  ///< position, spring (of its wall): m; tension: N
+    double frequency_Hz = 0.0;
+    double phase_rad = 0.0;
+    double start_s = 0.0;
+    double stop_s = 1e9;                    ///< longer than any motion
+    double spring_stiffness_N_per_m = 0.0;  ///< spring only
+};
+
+struct Transmission {
+    CableSpecification cable;
+    ModelRules rules = ModelRules::consistent();
+};
+
+/// The true motion, sampled at a fixed rate; sample 0 is the pretensioned cable at rest.
+struct TrueMotion {
+    EndMotion proximal;
+    EndMotion distal;
+    double sample_rate_Hz = 0.0;
+    int samples = 0;
+};
+
+enum class Regime { mass, partial_proximal, partial_distal, partial_both };
+
+std::string_view name_of(Regime regime);
+inline constexpr Regime all_regimes[] = {Regime::mass, Regime::partial_proximal, Regime::partial_distal,
+                                         Regime::partial_both};
+
+/// The instants at which a regime is judged, and its fraction of the working time.
+struct RegimeInstants {
+    Regime regime = Regime::mass;
+    std::vector<int> samples;
+    double duty_fraction = 0.0;
+};
+
+struct NamedNoise {
+    std::string label;
+    NoiseLevel level;
+};
+
+/// Where the weights of the W methods come from.
+enum class WeightSource {
+    mass_motion,  ///< the single-sensor errors in mass motion, whatever the regime: the paper's. Needs that
+                  ///< regime.
+    same_regime,  ///< those of the regime that is fused
+};
+
+/// A plan that stands for many: one study for every combination of these values. An empty list leaves what
+/// the plan says. Ratios multiply: both friction coefficients, the curvature of every bend, the axial
+/// stiffness.
+struct Sweep {
+    std::vector<double> friction_ratio;
+    std::vector<double> curvature_ratio;
+    std::vector<double> stiffness_ratio;
+    std::vector<int> segments;
+    /// The samples of a regime move with the transmission: take this many, spread evenly over all that are in
+    /// it. 0: the plan's samples.
+    int instants_per_regime = 0;
+
+    bool is_there() const {
+        return !friction_ratio.empty() || !curvature_ratio.empty() || !stiffness_ratio.empty() ||
+               !segments.empty() || instants_per_regime > 0;
+    }
+};
+
+/// Everything a study is: plain values, checked by problems_of(). What a configuration file describes.
+struct StudyPlan {
+    std::string name;
+    std::uint64_t seed = 1;
+    int repetitions = 0;
+
+    Transmission transmission;
+    TrueMotion motion;
+    TrueCable truth;
+    std::vector<RegimeInstants> regimes;
+    std::vector<NamedNoise> noise_levels;
+
+    std::vector<std::string> layout_families;        ///< names of layout_families()
+    std::vector<int> sensor_counts;                  ///< for each family
+    std::vector<std::vector<int>> explicit_layouts;  ///< nodes from 0
+    std::vector<std::string> fusion_methods;         ///< names of fusion_methods()
+
+    DistalSide distal_side = DistalSide::excluded;
+    WeightSource weight_source = WeightSource::mass_motion;
+    double largest_distal_increment_m =
+        0.0;  ///< feasible curve: flat prior of the distal end's motion in a sample
+    int curve_points = 128;
+
+    double worthwhile_gain_N = 0.02;  ///< one more sensor must lower the error by this to be recommended
+    bool compare_with_paper = false;  ///< the plan holds what the paper's table needs
+
+    PlacementPlan placement;      ///< for the search over all layouts
+    SensitivityPlan sensitivity;  ///< for the sensitivity of what it advises
+    Sweep sweep;                  ///< studies_in_sweep() makes the studies; each of them has none
+};
+
+/// Everything wrong with the plan's values, each with the key it belongs to and what to try. Simulates
+/// nothing.
+std::vector<KeyProblem> problems_of_values(const StudyPlan& plan);
+
+/// The same, and each instant that is not in its regime, which takes a simulation of the motion; empty when
+/// the plan can run.
+std::vector<KeyProblem> problems_of(const StudyPlan& plan);
+
+/// Samples at which the motion is in each regime, ascending. The plan's cable and motion must be valid.
+std::map<Regime, std::vector<int>> samples_by_regime(const StudyPlan& plan);
+
+}  // namespace capstan

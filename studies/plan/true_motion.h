@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/cable/cable_state.h"
+#include "capstan/plan/study_plan.h"
+#include "capstan/solver/quasi_static_step.h"
+
+namespace capstan {
+
+/// What both ends prescribe at a sample of the motion.
+EndConditions ends_at(const Cable& cable, const TrueMotion& motion, int sample);
+
+/// One sample of a trajectory, with the one before.
+struct TrueSample {
+    int sample = 0;
+    const CableState& previous;
+    const CableState& now;
+    const StepReport& report;
+};
+
+/// Simulates samples 1 to motion.samples and shows each.
+void simulate(const QuasiStaticStep& step, const TrueMotion& motion,
+              const std::function<void(const TrueSample&)>& show);
+
+/// One sample of a trajectory with effects, which has no report.
+using ShowStates = std::function<void(int sample, const CableState& previous, const CableState& now)>;
+
+/// The plan's true cable over samples 1 to motion.samples: by the closed-form step, or where it has effects
+/// by BenchSimulation on a grid fine enough, read off at the plan's nodes. Throws InvalidInput with
+/// problems_of_truth(plan).
+void simulate_truth(const StudyPlan& plan, const ShowStates& show);
+
+/// What keeps the plan's true cable from being simulated; empty if nothing.
+std::vector<KeyProblem> problems_of_truth(const StudyPlan& plan);
+
+/// The regime a motion pattern belongs to; none at rest or slack.
+std::optional<Regime> regime_of(const MotionPattern& pattern);
+
+}  // namespace capstan

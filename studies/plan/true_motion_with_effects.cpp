@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/plan/true_motion.h"
+#include "capstan/solver/bench_simulation.h"
+
+namespace capstan {
+
+namespace {
+
+// Of the grid on which effects are simulated: in each of the plan's segments.
+constexpr int min_segments = 60;
+// A node that goes this much less than the one that goes most is at rest: bristles give a little.
+constexpr double at_rest_fraction = 1e-2;
+// Displacements are the pulley's turns.
+constexpr double radius_m = 1.0;
+
+int pieces_of_each_segment(int segments) {
+    return (min_segments + segments - 1) / segments;
+}
+
+CableState read_off(const BenchSimulation& bench, const Cable& cable, int pieces) {
+    CableState state;
+    for (int node = 0; node < cable.nodes(); ++node) {
+        state.displacement_m.push_back(bench.displacement_m(0, node * pieces));
+        state.tension_N.push_back(bench.tension_at_N(0, cable.node_position_m(node)));
+    }
+    state.tension_N.front() = bench.motor_tension_N(0);
+    state.tension_N.back() = bench.load_tension_N(0);
+    return state;
+}
+
+// Which nodes moved, from both ends to the first that rests or goes the other way.
+MotionPattern pattern_between(const CableState& before, const CableState& now) {
+    const int nodes = static_cast<int>(now.displacement_m.size());
+    std::vector<double> moved;
+    double most = 0.0;
+    for (std::size_t node = 0; node < now.displacement_m.size(); ++node) {
+        moved.push_back(now.displacement_m[node] - before.displacement_m[node]);
+        most = std::max(most, std::abs(moved.back()));
+    }
+    const auto way = [&](int node) {
+        const double by = moved[static_cast<std::size_t>(node)];
+        return std::abs(by) <= at_rest_fraction * most ? Direction::none : direction_of(by);
+    };
+    const auto moving_from = [&](int end, int step) {
+        int count = 0;
+        for (int node = end; count < nodes && way(node) == way(end) && way(end) != Direction::none;
+             node += step)
+            ++count;
+        return count;
+    };
+    MotionPattern pattern;
+    pattern.proximal_moving_nodes = moving_from(0, 1);
+    pattern.distal_moving_nodes = moving_from(nodes - 1, -1);
+    if (pattern.proximal_moving_nodes > 0) pattern.proximal_direction = way(0);
+    if (pattern.distal_moving_nodes > 0) pattern.distal_direction = way(nodes - 1);
+    const int moving = pattern.proximal_moving_nodes + pattern.distal_moving_nodes;
+    // A held end is part of a cable that slides all along.
+    const bool all_but_an_end =
+        pattern.proximal_moving_nodes == nodes - 1 && pattern.distal_moving_nodes == 0;
+    const bool all_but_the_first =
+        pattern.distal_moving_nodes == nodes - 1 && pattern.proximal_moving_nodes == 0;
+    if (moving == 0) {
+        pattern.kind = MotionKind::rest;
+    } else if (moving == 2 * nodes || all_but_an_end || all_but_the_first) {
+        const Direction direction =
+            pattern.proximal_moving_nodes > 0 ? pattern.proximal_direction : pattern.distal_direction;
+        pattern = {MotionKind::mass, direction, direction, nodes, nodes};
+    } else if (moving >= nodes) {
+        pattern.kind = MotionKind::opposed;
+        pattern.distal_moving_nodes = nodes - pattern.proximal_moving_nodes;
+        pattern.zero_velocity_fraction = 0.5;
+    } else {
+        pattern.kind = MotionKind::partial;
+    }
+    return pattern;
+}
+
+// Of ends whose positions are given.
+BenchInputs inputs_at(const Cable& cable, const TrueMotion& motion, int sample) {
+    const EndConditions ends = ends_at(cable, motion, sample);
+    const EndConditions rest = ends_at(cable, motion, 0);
+    const double proximal_m = ends.proximal.value - rest.proximal.value;
+    const double distal_m = ends.distal.value - rest.distal.value;
+    // The motor pulley reels in where its end goes backward.
+    return {MotorAngle{-proximal_m / radius_m}, LoadAngle{-distal_m / radius_m}, 1.0 / motion.sample_rate_Hz,
+            sample / motion.sample_rate_Hz};
+}
+
+void simulate_effects(const StudyPlan& plan, const ShowStates& show) {
+    CableSpecification coarse = true_specification(plan.transmission.cable, plan.truth);
+    const int pieces = pieces_of_each_segment(coarse.segments);
+    CableSpecification fine = coarse;
+    fine.segments *= pieces;
+    const Cable cable(coarse);
+    BenchSimulation bench({Cable(fine), false, {radius_m, radius_m}, {}}, effects_with(plan.truth.effects));
+    CableState now = read_off(bench, cable, pieces);
+    CableState previous = now;
+    for (int sample = 1; sample <= plan.motion.samples; ++sample) {
+        previous = now;
+        if (!bench.advance(inputs_at(cable, plan.motion, sample)).converged)
+            throw InvalidInput({"truth: the motion with these effects has no solution at sample " +
+                                std::to_string(sample) + "; make the effects smaller"});
+        now = read_off(bench, cable, pieces);
+        now.last_motion = pattern_between(previous, now);
+        show(sample, previous, now);
+    }
+}
+
+}  // namespace
+
+std::vector<KeyProblem> problems_of_truth(const StudyPlan& plan) {
+    std::vector<KeyProblem> problems;
+    for (const double ratio :
+         {plan.truth.friction_ratio, plan.truth.stiffness_ratio, plan.truth.pretension_ratio}) {
+        if (!(ratio > 0.0)) problems.push_back({"truth", "a ratio must be above 0"});
+    }
+    if (!plan.truth.has_effects()) return problems;
+    for (const EndMotion* end : {&plan.motion.proximal, &plan.motion.distal}) {
+        if (end->kind != EndKind::position)
+            problems.push_back({"truth",
+                                "effects are simulated between ends whose positions are given; make both "
+                                "motion.proximal.kind and motion.distal.kind \"position\""});
+    }
+    return problems;
+}
+
+void simulate_truth(const StudyPlan& plan, const ShowStates& show) {
+    if (const auto problems = problems_of_truth(plan); !problems.empty()) throw InvalidInput(problems);
+    if (plan.truth.has_effects()) return simulate_effects(plan, show);
+    const QuasiStaticStep step(Cable(true_specification(plan.transmission.cable, plan.truth)),
+                               plan.transmission.rules);
+    simulate(step, plan.motion,
+             [&](const TrueSample& sample) { show(sample.sample, sample.previous, sample.now); });
+}
+
+}  // namespace capstan

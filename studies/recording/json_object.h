@@ -1,0 +1,41 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/recording/problem_list.h"
+
+namespace capstan {
+
+/// An object of a JSON file with the way to it, so that a problem names its key. A value that is missing or
+/// of the wrong kind is noted and comes out as its type's empty value.
+class JsonObject {
+  public:
+    JsonObject(const nlohmann::json& json, std::string place, ProblemList& problems);
+
+    bool has(const char* key) const;
+    double number(const char* key) const;
+    double positive(const char* key) const;
+    std::optional<double> optional_number(const char* key) const;
+    int whole(const char* key) const;
+    std::string text(const char* key) const;
+    std::vector<std::string> texts(const char* key) const;
+    JsonObject object(const char* key) const;
+    /// Each element as an object.
+    std::vector<JsonObject> objects(const char* key) const;
+    std::vector<std::string> keys() const;
+
+    void add_problem(const std::string& key, const std::string& problem) const;
+
+  private:
+    const nlohmann::json* find(const char* key) const;
+    std::string way_to(const std::string& key) const;
+
+    const nlohmann::json* json_;
+    std::string place_;
+    ProblemList* problems_;
+};
+
+}  // namespace capstan

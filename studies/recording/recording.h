@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capstan/cable/cable.h"
+
+namespace capstan {
+
+/// What was on the bench.
+enum class BenchMode {
+    pull_pull,     ///< two cables between a motor pulley and a load pulley
+    single_cable,  ///< one cable, its input end on the motor pulley, its far end held
+    lumped_drive,  ///< a cable drive whose geometry is not known, seen from its two shafts
+    capstan_band,  ///< a band round a drum, both ends of the band measured
+};
+
+/// What held the load pulley of a run.
+enum class OutputKind { locked, handle, unknown };
+
+enum class CableName { a, b };
+
+/// A strain sensor on a cable, `position_m` from the motor end.
+struct TensionSensor {
+    std::string channel;
+    CableName cable = CableName::a;
+    double position_m = 0.0;
+};
+
+/// One measured quantity, in SI units.
+struct Channel {
+    std::string name;
+    std::string unit;
+    std::optional<double> noise_std;  ///< of one sample, where the sidecar states it
+    std::optional<double> step;       ///< of an encoder or converter, where the sidecar states it
+};
+
+struct RecordedRun {
+    int number = 0;
+    std::string protocol;
+    double session_start_s = 0.0;
+    std::optional<double> pretension_N;
+    OutputKind output = OutputKind::unknown;
+    std::vector<std::string> driven;          ///< channels that a model takes as inputs
+    std::vector<double> time_s;               // samples
+    std::vector<std::vector<double>> values;  // channels x samples
+
+    int samples() const { return static_cast<int>(time_s.size()); }
+    bool drives(std::string_view channel) const;
+};
+
+/// What a lab knows of its bench before it looks at the recording.
+struct NominalBench {
+    std::vector<CurvaturePiece> curvature;
+    double motor_radius_m = 0.0;
+    double load_radius_m = 0.0;
+    double axial_stiffness_N = 0.0;
+    double dynamic_friction = 0.0;
+    double static_friction = 0.0;
+    double rotor_inertia_kg_m2 = 0.0;        ///< with the motor pulley; 0: not stated
+    double load_pulley_inertia_kg_m2 = 0.0;  ///< 0: not stated
+};
+
+/// A session on a bench: several runs, all with the same channels.
+struct Recording {
+    std::string name;
+    BenchMode mode = BenchMode::pull_pull;
+    double sample_rate_Hz = 0.0;
+    std::vector<Channel> channels;
+    std::vector<TensionSensor> tension_sensors;
+    std::optional<NominalBench> nominal;  ///< none where the geometry is not known
+    std::vector<RecordedRun> runs;        ///< in the order they were made
+
+    /// Index in `channels`; none if there is no such channel.
+    std::optional<int> channel(std::string_view channel_name) const;
+    int samples() const;
+};
+
+}  // namespace capstan

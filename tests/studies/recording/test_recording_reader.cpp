@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/recording/recording_reader.h"
+#include "sample_recording.h"
+
+namespace capstan::gap {
+namespace {
+
+// Geometry of driven_session().
+const std::vector<double> true_parameters = {0.2, 0.4, 4000.0, 1.0};
+
+std::string replaced(std::string text, const std::string& old_words, const std::string& new_words) {
+    const std::size_t at = text.find(old_words);
+    EXPECT_NE(at, std::string::npos) << old_words;
+    return at == std::string::npos ? text : text.replace(at, old_words.size(), new_words);
+}
+
+// Line `number` (from 1) of a text, changed.
+std::string with_line(const std::string& text, int number,
+                      const std::function<std::string(std::string)>& change) {
+    std::string out;
+    std::size_t first = 0;
+    for (int line = 1; first < text.size(); ++line) {
+        const std::size_t end = text.find('\n', first);
+        const std::string whole = text.substr(first, end - first);
+        out += (line == number ? change(whole) : whole) + "\n";
+        first = end + 1;
+    }
+    return out;
+}
+
+TEST(RecordingReader, ReadsWhatWasRecorded) {
+    const Recording measured = measured_session(true_parameters);
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder.write(as_files(measured));
+    std::filesystem::path sidecar = path;
+    sidecar.replace_extension(".json");
+    for (const auto& name : {path, sidecar}) {
+        const Recording read = read_recording(name);
+        ASSERT_EQ(read.runs.size(), 2u);
+        EXPECT_EQ(read.samples(), measured.samples());
+        EXPECT_EQ(read.runs[0].output, OutputKind::locked);
+        EXPECT_EQ(read.runs[1].pretension_N, 6.0);
+        EXPECT_EQ(read.nominal->axial_stiffness_N, 4000.0);
+        ASSERT_EQ(read.nominal->curvature.size(), 2u);
+        EXPECT_TRUE(std::isinf(read.nominal->curvature[0].bend_radius_m));
+        for (const Channel& channel : measured.channels) {
+            const auto found = static_cast<std::size_t>(*read.channel(channel.name));
+            const auto original = static_cast<std::size_t>(*measured.channel(channel.name));
+            EXPECT_NEAR(read.runs[1].values[found][77], measured.runs[1].values[original][77], 1e-8);
+        }
+    }
+}
+
+struct Fault {
+    const char* name;
+    std::function<void(RecordingFiles&)> commit;
+    std::vector<const char*> told;  ///< words of the message
+};
+
+class BadRecordings : public testing::TestWithParam<Fault> {};
+
+TEST_P(BadRecordings, AreRefusedByNameWithTheirPlace) {
+    RecordingFiles files = as_files(measured_session(true_parameters));
+    GetParam().commit(files);
+    const TemporaryFolder folder;
+    try {
+        read_recording(folder.write(files));
+        FAIL() << "taken";
+    } catch (const InvalidInput& error) {
+        for (const char* words : GetParam().told)
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << words << "\n"
+                                                                                << error.what();
+    }
+}
+
+const Fault faults[] = {
+    {"TruncatedLine",
+     [](RecordingFiles& f) {
+         f.samples_csv = with_line(f.samples_csv, 40, [](auto line) { return line.substr(0, 9); });
+     },
+     {"bench.csv:40", "values for 7 columns", "cut short"}},
+    {"LastLineCutShort",
+     [](RecordingFiles& f) { f.samples_csv.resize(f.samples_csv.size() - 20); },
+     {"bench.csv:1201", "cut short"}},
+    {"NotANumber",
+     [](RecordingFiles& f) {
+         f.samples_csv =
+             with_line(f.samples_csv, 12, [](auto line) { return replaced(line, "1,0.1", "1,nan"); });
+     },
+     {"bench.csv:12", "column 't'", "'nan'", "not a finite number"}},
+    {"TextInANumber",
+     [](RecordingFiles& f) {
+         f.samples_csv =
+             with_line(f.samples_csv, 12, [](auto line) { return replaced(line, "1,0.1", "1,0.1s"); });
+     },
+     {"bench.csv:12", "0.1s"}},
+    {"TimeGap",
+     [](RecordingFiles& f) {
+         f.samples_csv =
+             with_line(f.samples_csv, 12, [](auto line) { return replaced(line, "1,0.1", "1,0.8"); });
+     },
+     {"bench.csv:12", "gap", "split the run"}},
+    {"TimeRunsBackwards",
+     [](RecordingFiles& f) {
+         f.samples_csv =
+             with_line(f.samples_csv, 12, [](auto line) { return replaced(line, "1,0.1", "1,0.01"); });
+     },
+     {"bench.csv:12", "does not come after"}},
+    {"UnknownRun",
+     [](RecordingFiles& f) {
+         f.samples_csv =
+             with_line(f.samples_csv, 12, [](auto line) { return replaced(line, "1,0.1", "7,0.1"); });
+     },
+     {"bench.csv:12", "run 7"}},
+    {"MissingColumn",
+     [](RecordingFiles& f) { f.samples_csv = replaced(f.samples_csv, "load_torque", "torque"); },
+     {"bench.csv:1", "no column 'load_torque'", "column 'torque'"}},
+    {"ForeignUnit",
+     [](RecordingFiles& f) {
+         f.sidecar_json = replaced(f.sidecar_json, "\"load_angle\": \"rad\"", "\"load_angle\": \"deg\"");
+     },
+     {"units.load_angle", "'deg'", "'rad'"}},
+    {"SwappedRadii",
+     [](RecordingFiles& f) {
+         f.sidecar_json = replaced(f.sidecar_json, "\"r_input\": 0.02, \"r_load\": 0.1",
+                                   "\"r_input\": 0.1, \"r_load\": 0.02");
+     },
+     {"motor_angle turns", "swapped"}},
+    {"AllChannelsDriven",
+     [](RecordingFiles& f) {
+         f.sidecar_json =
+             replaced(f.sidecar_json, "[\"motor_torque\", \"load_angle\"]",
+                      "[\"motor_torque\", \"motor_angle\", \"load_angle\", \"load_torque\", \"tension_1\"]");
+     },
+     {"runs[0].driven", "every channel"}},
+    {"UnknownDrivenChannel",
+     [](RecordingFiles& f) {
+         f.sidecar_json = replaced(f.sidecar_json, "[\"motor_torque\"", "[\"motor_tork\"");
+     },
+     {"runs[0].driven", "motor_tork"}},
+    {"SensorOffTheCable",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"s\": 1.0", "\"s\": 2.4"); },
+     {"tension_sensors[0].s", "outside"}},
+    {"ProfileWithAHole",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "{\"s0\": 0.5,", "{\"s0\": 0.7,"); },
+     {"R_profile[1].s0", "end at 0.5"}},
+    {"NegativeStiffness",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"K\": 2000.0", "\"K\": -2000.0"); },
+     {"nominal.K", "positive"}},
+    {"MissingPretension",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"T0\": 6.0, ", ""); },
+     {"runs[1].T0", "missing"}},
+    {"BrokenJson",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"runs\": [", "\"runs\": "); },
+     {"bench.json", "no JSON", "line"}},
+    {"UnknownMode",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"pull_pull\"", "\"push_pull\""); },
+     {"mode", "push_pull", "single_cable"}},
+    {"EmptyFile", [](RecordingFiles& f) { f.samples_csv.clear(); }, {"bench.csv", "no samples"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Faults, BadRecordings, testing::ValuesIn(faults),
+                         [](const auto& fault) { return std::string(fault.param.name); });
+
+TEST(RecordingReader, NamesAConstantChannel) {
+    Recording measured = measured_session(true_parameters);
+    for (RecordedRun& run : measured.runs) std::fill(run.values[4].begin(), run.values[4].end(), 3.0);
+    const TemporaryFolder folder;
+    EXPECT_THROW(
+        {
+            try {
+                read_recording(folder.write(as_files(measured)));
+            } catch (const InvalidInput& error) {
+                EXPECT_NE(std::string(error.what()).find("'tension_1' never changes"), std::string::npos);
+                throw;
+            }
+        },
+        InvalidInput);
+}
+
+TEST(RecordingReader, TellsAFewOfManyProblems) {
+    RecordingFiles files = as_files(measured_session(true_parameters));
+    for (char& letter : files.samples_csv) {
+        if (letter == '.') letter = ';';
+    }
+    const TemporaryFolder folder;
+    try {
+        read_recording(folder.write(files));
+        FAIL() << "taken";
+    } catch (const InvalidInput& error) {
+        EXPECT_LT(error.problems().size(), 20u);
+        EXPECT_NE(error.problems().back().find("problems more"), std::string::npos);
+    }
+}
+
+TEST(RecordingReader, RefusesANumberThatNoMachineHolds) {
+    const TemporaryFolder folder;
+    try {
+        read_recording(folder.write({"run,t\n1,0\n", R"({"sample_rate_hz": 1e999})"}));
+        FAIL() << "taken";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("1e999"), std::string::npos) << error.what();
+    }
+}
+
+TEST(RecordingReader, SaysWhichFileIsMissing) {
+    try {
+        read_recording("/no/such/bench.csv");
+        FAIL() << "taken";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("/no/such/bench.json"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace capstan::gap
