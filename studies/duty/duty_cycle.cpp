@@ -9,8 +9,8 @@
 #include "capstan/gap/driven_inputs.h"
 #include "capstan/gap/parameter_file.h"
 #include "capstan/gap/twin.h"
-#include "capstan/parallel/parallel_for.h"
 #include "capstan/placement/true_motion.h"
+#include "capstan/platform/parallel_for.h"
 #include "capstan/solver/pull_pull.h"
 
 namespace capstan::duty {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "capstan/gap/driven_inputs.h"
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan::gap {
 

@@ -12,7 +12,8 @@
 #include "capstan/gap/recording_reader.h"
 #include "capstan/gap_trial/recording_files.h"
 #include "capstan/gap_trial/reference_fit.h"
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/files.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan::gap_trial {
 
@@ -45,7 +46,7 @@ void write_reference(const std::filesystem::path& path,
             text.push_back(
                 {{"channel", each.channel}, {"rms_before", each.before}, {"rms_after", each.after}});
     }
-    write_whole_file(path, text.dump(1) + "\n");
+    write_file(path, text.dump(1) + "\n");
 }
 
 Reference read_reference(const std::filesystem::path& path, const std::string& name) {
@@ -84,8 +85,8 @@ void answer_trial(const TrialFolder& folder, const TrialOptions& options, const 
         [&](const std::string& name) {
             gap::DiagnosisOptions one_thread;
             one_thread.threads = 1;
-            const gap::Recording recording =
-                gap::with_estimated_noise(gap::read_recording(folder.recording(name)));  // as the command does
+            const gap::Recording recording = gap::with_estimated_noise(
+                gap::read_recording(folder.recording(name)));  // as the command does
             write_answer(folder.answer(name), answer_of(name, gap::diagnose(recording, one_thread)), seal);
         });
 }
