@@ -7,7 +7,6 @@
 #include <charconv>
 
 #include "capstan/cli/nearest_name.h"
-#include "capstan/cli/second_reading.h"
 #include "capstan/cli/usage_error.h"
 
 namespace capstan::cli {
@@ -53,13 +52,9 @@ po::variables_map parse(const Command& command, const std::vector<std::string>& 
     positions.add(positional, -1);
     po::variables_map values;
     try {
-        values = read_again_if_wrong<po::error>([&] {
-            const po::options_description description = description_of(command);
-            po::command_line_parser parser(arguments);
-            po::variables_map found;
-            po::store(parser.options(description).positional(positions).style(style).run(), found);
-            return found;
-        });
+        const po::options_description description = description_of(command);
+        po::command_line_parser parser(arguments);
+        po::store(parser.options(description).positional(positions).style(style).run(), values);
     } catch (const po::unknown_option& error) {
         refuse(command, nearest_option(command, error.get_option_name()));
     } catch (const po::multiple_occurrences& error) {

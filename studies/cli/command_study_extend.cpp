@@ -11,6 +11,7 @@
 #include "capstan/cli/usage_error.h"
 #include "capstan/cli/watched_run.h"
 #include "capstan/placement/study_extension.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
@@ -91,8 +92,8 @@ ExitCode run(const Invocation& invocation) {
             resolution.max_repetitions = static_cast<int>(invocation.whole("max-repetitions"));
             if (invocation.text("progress") == "auto") {
                 resolution.on_look = [](int repetitions, double unresolved_N) {
-                    fmt::print(stderr, "{} repetitions: some choice may still be better by {:.4f} N\n",
-                               repetitions, unresolved_N);
+                    say(fmt::format("{} repetitions: some choice may still be better by {:.4f} N",
+                                    repetitions, unresolved_N));
                 };
             }
             outcome = extend_until_resolved(database, study, resolution, program_version(), options);

@@ -98,10 +98,6 @@ ExitCode dispatch(const std::vector<std::string>& words) {
     return found.command->run(parse_command_line(*found.command, {rest, words.end()}));
 }
 
-void say(const std::string& message) {
-    fmt::print(stderr, "{}{}", message, message.ends_with('\n') ? "" : "\n");
-}
-
 }  // namespace
 
 std::string program_version() {

@@ -1,11 +1,9 @@
 #include "capstan/cli/toml_nodes.h"
 
-#include "capstan/cli/second_reading.h"
-
 namespace capstan::cli {
 
 toml::table parsed(std::string_view toml, const std::string& file) {
-    return read_again_if_wrong<toml::parse_error>([&] { return toml::table(toml::parse(toml, file)); });
+    return toml::parse(toml, file);
 }
 
 int line_of(const toml::node& node) {
