@@ -46,7 +46,7 @@
     const done = units.filter((unit) => unit.done).length;
     const under_way = job && ["queued", "running"].includes(job.state);
     const state = study.status === "complete" ? "Complete" : under_way ? (job.state === "queued" ? "Waiting for its turn" : "Running") : "Stopped";
-    const left = under_way && job.left_s > 0 ? `, about ${Math.max(1, Math.round(job.left_s))} s left` : "";
+    const left = under_way && job.seconds_left > 0 ? `, about ${Math.max(1, Math.round(job.seconds_left))} s left` : "";
     words.textContent = `${state}: ${done} of ${units.length} units${left}.`;
     cells.setAttribute("aria-label", words.textContent);
     cells.replaceChildren(...units.map((unit) => element("i", { className: unit.done ? "done" : "", title: `${unit.stage}, ${unit.regime}, sample ${unit.sample}, ${unit.noise}` })));

@@ -43,13 +43,13 @@
 
   function showJobs(jobs) {
     at("job-table").tBodies[0].replaceChildren(...jobs.toReversed().slice(0, 20).map((job) => {
-      const doing = [job.doing, job.left_s > 0 ? "about " + seconds(job.left_s) + " left" : ""].filter(Boolean).join(", ");
+      const activity = [job.activity, job.seconds_left > 0 ? "about " + seconds(job.seconds_left) + " left" : ""].filter(Boolean).join(", ");
       const does = ["queued", "running"].includes(job.state) ? "stop" : ["stopped", "failed"].includes(job.state) ? "resume" : "";
       const button = element("button", { type: "button", className: "plain", textContent: does === "stop" ? "Stop" : "Resume", ariaLabel: does + " job " + job.job });
       button.addEventListener("click", () => act(post("/api/jobs/" + job.job + "/" + does)));
       const result = job.study_id ? link("/studies/" + job.study_id, "study " + job.study_id) : job.diagnosis_id ? link("#diagnosis-" + job.diagnosis_id, "diagnosis " + job.diagnosis_id) : "";
       const row = element("tr", {}, element("th", { scope: "row", textContent: "Job " + job.job }), cell(job.kind + " " + job.title), cell(job.state),
-        cell(...(job.state === "running" ? bar(job.fraction_done, doing) : [job.message])), cell(result), cell(...(does ? [button] : [])));
+        cell(...(job.state === "running" ? bar(job.fraction, activity) : [job.message])), cell(result), cell(...(does ? [button] : [])));
       row.dataset.state = job.state;
       return row;
     }));

@@ -5,8 +5,8 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
-#include "capstan/config/wrapped_text.h"
 #include "capstan/gap/calibration.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
@@ -60,10 +60,10 @@ std::string in_words(const Recording& recording, const Calibration& calibration)
             ? "There is one run only, so nothing could be held out."
             : "Held out: each run predicted with parameters fitted to all the others.";
     return text +
-           config::wrapped(held_out +
-                               " Intervals take residuals as hanging together within a second, and as wide "
-                               "as the runs disagree.",
-                           100, "", "") +
+           wrapped(held_out +
+                       " Intervals take residuals as hanging together within a second, and as wide "
+                       "as the runs disagree.",
+                   100, "", "") +
            "\n";
 }
 

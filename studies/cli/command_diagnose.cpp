@@ -1,9 +1,7 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <sstream>
 
 #include "capstan/cli/answer_format.h"
@@ -20,6 +18,8 @@
 #include "capstan/config/config_truth.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/equivalent_bench.h"
+#include "capstan/platform/progress.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/recording/estimated_noise.h"
 #include "capstan/recording/recording_reader.h"
 #include "capstan/reports/diagnosis_report.h"
@@ -74,7 +74,7 @@ void store(const Invocation& invocation, const Recording& recording, const Diagn
     storage::Database database = storage::Database::open_or_create(invocation.text("db"));
     const std::int64_t id = storage::write_diagnosis(database, record);
     if (invocation.text("progress") != "none")
-        fmt::print(stderr, "Stored as diagnosis {} in {}.\n", id, invocation.text("db"));
+        say(fmt::format("Stored as diagnosis {} in {}.", id, invocation.text("db")));
 }
 
 std::string answer_in(const std::string& format, const Recording& recording, const Diagnosis& diagnosis) {
@@ -88,20 +88,15 @@ ExitCode run(const Invocation& invocation) {
     const Recording recording = recorded_bench(invocation);
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.whole("jobs"));
-    const bool on_a_terminal = isatty(STDERR_FILENO) != 0;
-    if (on_a_terminal && invocation.text("progress") == "auto") {
-        options.on_progress = [](const std::string& doing, double fraction) {
-            fmt::print(stderr, "\r\033[K{:3.0f}%  {}", 1e2 * fraction, doing);
-            std::fflush(stderr);
-        };
-    } else if (invocation.text("progress") == "json") {
-        options.on_progress = [](const std::string& doing, double fraction) {
-            const ordered_json json = {{"event", "progress"}, {"doing", doing}, {"fraction_done", fraction}};
-            fmt::print(stderr, "{}\n", json.dump());
-        };
-    }
+    ProgressDisplay display(progress_mode(invocation.text("progress")));
+    options.on_progress = [&](const std::string& activity, double fraction) {
+        ProgressEvent event;
+        event.activity = activity;
+        event.fraction = fraction;
+        display.show(event);
+    };
     const Diagnosis diagnosis = gap::diagnose(recording, options);
-    if (on_a_terminal && invocation.text("progress") == "auto") fmt::print(stderr, "\r\033[K");
+    display.end_line();
     if (invocation.has("db")) store(invocation, recording, diagnosis);
     deliver_page(invocation,
                  [&] { return reports::experiment_page_html(diagnosis_page(recording, diagnosis)); });

@@ -11,7 +11,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/simd_choice.h"
-#include "capstan/cluster/command_output.h"
+#include "capstan/platform/child_process.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/health.h"
 #include "capstan/storage/schema.h"
@@ -68,7 +68,7 @@ ordered_json in_json(const std::string& file, const DatabaseState& state) {
                          {"simd", simd_in_use()},
                          {"processors", std::thread::hardware_concurrency()},
                          {"tools", ordered_json::object()}};
-    for (const Tool& tool : tools) json["tools"][tool.program] = cluster::is_on_path(tool.program);
+    for (const Tool& tool : tools) json["tools"][tool.program] = is_on_path(tool.program);
     json["database"] = {{"file", file},
                         {"is_there", state.is_there},
                         {"is_whole", state.is_whole},
@@ -88,8 +88,8 @@ std::string in_words(const std::string& file, const DatabaseState& state) {
     text +=
         fmt::format("Processor   {} threads, SIMD {}\n", std::thread::hardware_concurrency(), simd_in_use());
     for (const Tool& tool : tools)
-        text += fmt::format("{:<11} {:<9} {}\n", tool.program,
-                            cluster::is_on_path(tool.program) ? "found" : "missing", tool.what_for);
+        text += fmt::format("{:<11} {:<9} {}\n", tool.program, is_on_path(tool.program) ? "found" : "missing",
+                            tool.what_for);
     text += fmt::format("Database    {}: {}\n", file, state.words);
     const storage::Health& health = state.health;
     if (!state.is_there || health.studies + health.diagnoses == 0) return text;

@@ -11,8 +11,9 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/row_text.h"
 #include "capstan/cli/usage_error.h"
-#include "capstan/cli/whole_file.h"
-#include "capstan/config/nearest_name.h"
+#include "capstan/platform/files.h"
+#include "capstan/platform/nearest_name.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/reports/parquet_file.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/schema_documentation.h"
@@ -37,7 +38,7 @@ std::vector<DocumentedTable> chosen_tables(const Invocation& invocation) {
         const auto found = std::find(names.begin(), names.end(), word);
         if (found == names.end())
             throw UsageError(fmt::format("capstan export: there is no table or view '{}'{}", word,
-                                         config::suggestion(word, names)));
+                                         suggestion(word, names)));
         chosen.push_back(all[static_cast<std::size_t>(found - names.begin())]);
     }
     return chosen;
@@ -66,7 +67,7 @@ struct RowsToFile {
     std::function<void()> end;
 };
 
-RowsToFile as_csv_file(WholeFile& file) {
+RowsToFile as_csv_file(AtomicFile& file) {
     return {{[&](const std::vector<std::string>& columns) { file.append(csv_head(columns)); },
              [&](std::vector<storage::QueryValue>& row) {
                  file.append(csv_line(row));
@@ -75,7 +76,7 @@ RowsToFile as_csv_file(WholeFile& file) {
             [] {}};
 }
 
-RowsToFile as_json_file(WholeFile& file) {
+RowsToFile as_json_file(AtomicFile& file) {
     struct State {
         std::vector<std::string> columns;
         bool empty = true;
@@ -90,7 +91,7 @@ RowsToFile as_json_file(WholeFile& file) {
             [state, &file] { file.append(state->empty ? "[]\n" : "\n]\n"); }};
 }
 
-RowsToFile as_parquet_file(WholeFile& file, storage::Database& database, const DocumentedTable& table) {
+RowsToFile as_parquet_file(AtomicFile& file, storage::Database& database, const DocumentedTable& table) {
     std::vector<reports::ParquetColumn> columns;
     for (const auto& column : table.columns)
         columns.push_back({column.name, type_of(database, table, column)});
@@ -107,7 +108,7 @@ RowsToFile as_parquet_file(WholeFile& file, storage::Database& database, const D
 // Row by row: a table may be larger than memory. Returns how many there were.
 std::size_t export_table(storage::Database& database, const DocumentedTable& table,
                          const std::filesystem::path& path, const std::string& format) {
-    WholeFile file(path);
+    AtomicFile file(path);
     const RowsToFile rows = format == "csv"    ? as_csv_file(file)
                             : format == "json" ? as_json_file(file)
                                                : as_parquet_file(file, database, table);
@@ -135,7 +136,7 @@ ExitCode run(const Invocation& invocation) {
     for (const DocumentedTable& table : tables) {
         const std::filesystem::path file = folder / (table.name + "." + format);
         const std::size_t rows = export_table(database, table, file, format);
-        fmt::print(stderr, "{}: {} rows\n", file.string(), rows);
+        say(fmt::format("{}: {} rows", file.string(), rows));
     }
     return ExitCode::success;
 }

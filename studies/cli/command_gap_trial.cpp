@@ -1,7 +1,6 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
+#include <memory>
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
@@ -10,6 +9,8 @@
 #include "capstan/cli/usage_error.h"
 #include "capstan/gap_trial/blind_trial.h"
 #include "capstan/gap_trial/trial_table.h"
+#include "capstan/platform/progress.h"
+#include "capstan/platform/standard_streams.h"
 
 namespace capstan::cli {
 
@@ -44,24 +45,15 @@ BlindTrialHooks hooks_of(const Invocation& invocation) {
     hooks.on_sealed = [progress](const std::string& seal) {
         if (progress == "json") {
             const nlohmann::ordered_json json = {{"event", "sealed"}, {"labels_sha256", seal}};
-            fmt::print(stderr, "{}\n", json.dump());
+            say(json.dump());
         } else {
-            fmt::print(stderr, "Labels sealed before any diagnosis: SHA-256 {}\n", seal);
+            say(fmt::format("Labels sealed before any diagnosis: SHA-256 {}", seal));
         }
     };
-    if (progress == "none") return hooks;
-    const bool on_a_terminal = isatty(STDERR_FILENO) != 0;
-    hooks.on_progress = [progress, on_a_terminal](const std::string& doing, int done, int of) {
-        if (progress == "json") {
-            const nlohmann::ordered_json json = {
-                {"event", "progress"}, {"doing", doing}, {"cases_done", done}, {"cases", of}};
-            fmt::print(stderr, "{}\n", json.dump());
-        } else if (on_a_terminal) {
-            fmt::print(stderr, "\r\033[K{}: {} of {} cases{}", doing, done, of, done == of ? "\n" : "");
-            std::fflush(stderr);
-        } else if (done == of || done % 10 == 0) {
-            fmt::print(stderr, "{}: {} of {} cases\n", doing, done, of);
-        }
+    const auto display = std::make_shared<ProgressDisplay>(progress_mode(progress));
+    hooks.on_progress = [display](const std::string& activity, int done, int total) {
+        display->show(counted_progress(activity, done, total, "cases"));
+        if (done == total) display->end_line();
     };
     return hooks;
 }
@@ -153,14 +145,15 @@ Command gap_trial_command() {
                 "All protocols of a bench, or only one or two.",
                 "standard",
                 {"standard", "short"}},
-         Option{"only",
-                '\0',
-                OptionKind::text,
-                "GROUP",
-                "All recordings of one kind: 'none' (no gap: how often is a false alarm given?), 'one effect', "
-                "'two effects', 'wrong parameter', 'outside the catalogue'. Default: a mix of all.",
-                "",
-                {"none", "one effect", "two effects", "wrong parameter", "outside the catalogue"}},
+         Option{
+             "only",
+             '\0',
+             OptionKind::text,
+             "GROUP",
+             "All recordings of one kind: 'none' (no gap: how often is a false alarm given?), 'one effect', "
+             "'two effects', 'wrong parameter', 'outside the catalogue'. Default: a mix of all.",
+             "",
+             {"none", "one effect", "two effects", "wrong parameter", "outside the catalogue"}},
          Option{"nominal-error", '\0', OptionKind::flag, "",
                 "Nominal friction, stiffness and pretension are each off by about 1%."},
          Option{"keep", '\0', OptionKind::text, "DIR",

@@ -6,9 +6,8 @@
 #include <boost/program_options.hpp>
 #include <charconv>
 
-#include "capstan/cli/second_reading.h"
 #include "capstan/cli/usage_error.h"
-#include "capstan/config/nearest_name.h"
+#include "capstan/platform/nearest_name.h"
 
 namespace capstan::cli {
 
@@ -42,7 +41,7 @@ std::string nearest_option(const Command& command, std::string given) {
     const std::string bare = given.substr(std::min(given.find_first_not_of('-'), given.size()));
     std::vector<std::string> known;
     for (const Option& option : command.options) known.emplace_back(option.name);
-    const auto nearest = config::nearest_name(bare, known);
+    const auto nearest = nearest_name(bare, known);
     return fmt::format("unknown option '{}'{}", given, nearest ? "; did you mean '--" + *nearest + "'?" : "");
 }
 
@@ -53,13 +52,9 @@ po::variables_map parse(const Command& command, const std::vector<std::string>& 
     positions.add(positional, -1);
     po::variables_map values;
     try {
-        values = read_again_if_wrong<po::error>([&] {
-            const po::options_description description = description_of(command);
-            po::command_line_parser parser(arguments);
-            po::variables_map found;
-            po::store(parser.options(description).positional(positions).style(style).run(), found);
-            return found;
-        });
+        const po::options_description description = description_of(command);
+        po::command_line_parser parser(arguments);
+        po::store(parser.options(description).positional(positions).style(style).run(), values);
     } catch (const po::unknown_option& error) {
         refuse(command, nearest_option(command, error.get_option_name()));
     } catch (const po::multiple_occurrences& error) {

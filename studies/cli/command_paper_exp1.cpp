@@ -9,8 +9,8 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/paper_experiment.h"
 #include "capstan/cli/paper_pages.h"
-#include "capstan/config/wrapped_text.h"
 #include "capstan/paper/pretension_ramps.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -44,12 +44,12 @@ std::string in_words(const std::vector<std::vector<RampRun>>& runs) {
         "Exp. 1: load locked, motor torque ramps of 0.1 N m/s between +-0.125 N m, 0.5 s dwell, 30 s.\n\n";
     for (std::size_t s = 0; s < runs.size(); ++s) {
         const CableSetting& setting = paper::cable_settings()[s];
-        text += config::wrapped(setting.name + ": " + setting.meaning, 100, "", "  ") + "\n\n" + head;
+        text += wrapped(setting.name + ": " + setting.meaning, 100, "", "  ") + "\n\n" + head;
         for (std::size_t k = 0; k < runs[s].size(); ++k) text += row(runs[s][k], papers_level(setting, k));
         text += "\n";
     }
     return text +
-           config::wrapped(
+           wrapped(
                "Dead width: motor torque that a reversal goes through before the load torque changes (250 is "
                "the whole ramp). Lost transfer: 1 - peak / 650 mN m, the ideal transmission's. The paper's "
                "peaks follow from its rms errors and their fraction of the peak; its rms to the ideal is that "

@@ -10,8 +10,8 @@
 #include "capstan/cli/paper_pages.h"
 #include "capstan/cli/viscous_answer.h"
 #include "capstan/cli/viscous_recording.h"
-#include "capstan/config/wrapped_text.h"
 #include "capstan/paper/error_reduction_tunnel.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -39,7 +39,7 @@ std::string in_words(const std::vector<std::vector<TunnelRun>>& runs) {
         "Exp. 2: the handle moves 40 deg peak to peak, the motor torque follows the error-reduction tunnel (7).\n\n";
     for (std::size_t s = 0; s < runs.size(); ++s) {
         const CableSetting& setting = paper::cable_settings()[s];
-        text += config::wrapped(setting.name + ": " + setting.meaning, 100, "", "  ") + "\n\n" + head;
+        text += wrapped(setting.name + ": " + setting.meaning, 100, "", "  ") + "\n\n" + head;
         for (const TunnelRun& run : runs[s]) text += row(run);
         text += "\n";
     }
@@ -47,14 +47,13 @@ std::string in_words(const std::vector<std::vector<TunnelRun>>& runs) {
                         papers_numbers.implied_peak_Nm(), papers_numbers.rms_to_ideal_Nm,
                         1e2 * papers_numbers.rms_to_ideal_by_peak);
     return text +
-           config::wrapped(
-               fmt::format(
-                   "Loop area and friction loss are of one period of the motion ({:.0f} s); the "
-                   "ideal transmission has neither. Unsolved: at a reversal the motor torque can jump by "
-                   "the friction of one segment, and a torque inside the jump is met only to "
-                   "that. Without viscous friction, which follows.",
-                   paper::handle_period_s),
-               100, "", "") +
+           wrapped(fmt::format(
+                       "Loop area and friction loss are of one period of the motion ({:.0f} s); the "
+                       "ideal transmission has neither. Unsolved: at a reversal the motor torque can jump by "
+                       "the friction of one segment, and a torque inside the jump is met only to "
+                       "that. Without viscous friction, which follows.",
+                       paper::handle_period_s),
+                   100, "", "") +
            "\n\n";
 }
 

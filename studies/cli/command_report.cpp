@@ -10,6 +10,7 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/reports/diagnosis_report.h"
 #include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"
@@ -80,7 +81,7 @@ ExitCode run(const Invocation& invocation) {
     }
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     deliver(invocation, chosen_report(invocation, database, format));
-    if (file != "-") fmt::print(stderr, "Wrote {}.\n", file);
+    if (file != "-") say(fmt::format("Wrote {}.", file));
     return ExitCode::success;
 }
 

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <fstream>
 #include <future>
 
@@ -12,6 +11,7 @@
 #include "capstan/cli/service_answers.h"
 #include "capstan/cli/stop_request.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/service/service.h"
 #include "capstan/storage/database.h"
 
@@ -73,11 +73,9 @@ ExitCode run(const Invocation& invocation) {
     const std::string host = anywhere ? "127.0.0.1" : options.access.host;
     const std::string token = options.access.token.empty() ? "" : "?token=" + options.access.token;
     const StopRequest stoppable;
-    fmt::print(stderr,
-               "capstan serves {} at http://{}:{}/{}\nCtrl-C ends it; a study under way goes on at the next "
-               "start.\n",
-               invocation.text("db"), host, service.port(), token);
-    std::fflush(stderr);
+    say(fmt::format(
+        "capstan serves {} at http://{}:{}/{}\nCtrl-C ends it; a study under way goes on at the next start.",
+        invocation.text("db"), host, service.port(), token));
 
     std::future<void> running = std::async(std::launch::async, [&] { service.run(); });
     // Signals come to this thread, which waits for nothing else.

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
@@ -15,7 +14,7 @@ ExitCode run(const Invocation& invocation) {
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     const std::string name = storage::load_study(database, id).study.name;
     storage::delete_study(database, id);
-    fmt::print(stderr, "Deleted study {} ({}).\n", id, name);
+    say(fmt::format("Deleted study {} ({}).", id, name));
     return ExitCode::success;
 }
 

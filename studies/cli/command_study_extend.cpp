@@ -11,6 +11,7 @@
 #include "capstan/config/config_writer.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/placement/study_extension.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
@@ -82,8 +83,8 @@ ExitCode run(const Invocation& invocation) {
             resolution.max_repetitions = static_cast<int>(invocation.whole("max-repetitions"));
             if (invocation.text("progress") == "auto") {
                 resolution.on_look = [](int repetitions, double unresolved_N) {
-                    fmt::print(stderr, "{} repetitions: some choice may still be better by {:.4f} N\n",
-                               repetitions, unresolved_N);
+                    say(fmt::format("{} repetitions: some choice may still be better by {:.4f} N",
+                                    repetitions, unresolved_N));
                 };
             }
             outcome = extend_until_resolved(database, study, resolution, program_version(), options);

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/text_table.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
@@ -21,8 +20,7 @@ ExitCode run(const Invocation& invocation) {
                               std::int64_t{study.units}});
     }
     if (table.rows.empty() && !json) {
-        fmt::print(stderr, "{} holds no study; `capstan study run CONFIG` makes one.\n",
-                   invocation.text("db"));
+        say(fmt::format("{} holds no study; `capstan study run CONFIG` makes one.", invocation.text("db")));
     }
     deliver(invocation, json ? as_json(table) : as_table(table));
     return ExitCode::success;

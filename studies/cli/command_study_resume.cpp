@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "capstan/cli/commands.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/shard_option.h"
 #include "capstan/cli/watched_run.h"
 #include "capstan/placement/stored_study.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
@@ -17,15 +16,14 @@ ExitCode resume_one(const Invocation& invocation, storage::Database& database, s
     const StoredStudy stored = load_stored_study(database, id);
     const storage::StudyRecord& study = stored.description.study;
     if (study.status == "complete") {
-        fmt::print(stderr, "Study {} ({}) is complete already; nothing to do.\n", id, study.name);
+        say(fmt::format("Study {} ({}) is complete already; nothing to do.", id, study.name));
         deliver_conclusions(invocation, database, id);
         return ExitCode::success;
     }
     if (study.program_version != program_version()) {
-        fmt::print(
-            stderr,
-            "Note: study {} was begun by capstan {}, this is {}; the rest may differ in the last bits.\n", id,
-            study.program_version, program_version());
+        say(fmt::format(
+            "Note: study {} was begun by capstan {}, this is {}; the rest may differ in the last bits.", id,
+            study.program_version, program_version()));
     }
     return run_watched(invocation, database, study.name, [&](const RunOptions& options) {
         return resume_study(database, id, stored.plan, options);
@@ -41,7 +39,7 @@ ExitCode resume_all(const Invocation& invocation, storage::Database& database) {
         const ExitCode code = resume_one(invocation, database, study.study_id);
         if (code != ExitCode::success) return code;
     }
-    if (running == 0) fmt::print(stderr, "All studies are complete already; nothing to do.\n");
+    if (running == 0) say("All studies are complete already; nothing to do.");
     return ExitCode::success;
 }
 

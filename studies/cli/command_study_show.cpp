@@ -5,7 +5,7 @@
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/study_words.h"
-#include "capstan/config/wrapped_text.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
@@ -52,9 +52,8 @@ std::string in_words(std::int64_t id, const StudyDescription& study, std::size_t
     text += fmt::format("Draws:        {} repetitions, seed {}\n", head.repetitions, head.seed);
     text += fmt::format("Layouts:      {}, with {} different sets of sensors\n", study.layouts.size(),
                         study.sensor_sets.size());
-    text += config::wrapped(fmt::format("{}", fmt::join(methods, "; ")), 100,
-                            "Methods:      ", "              ") +
-            "\n";
+    text +=
+        wrapped(fmt::format("{}", fmt::join(methods, "; ")), 100, "Methods:      ", "              ") + "\n";
     text += fmt::format("Program:      capstan {}\n\n", head.program_version);
     text += scenarios_text(study) + "\n" + noise_text(study) + "\n";
     text +=

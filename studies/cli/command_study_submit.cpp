@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
@@ -31,11 +29,6 @@ fs::path absolute_directory(const std::string& named) {
     return path;
 }
 
-std::string text_in(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 // The same study may be submitted again into its folder; any other folder must be new or empty.
 void require_own_folder(const StudyDirectory& directory, const std::string& config_toml) {
     if (!fs::exists(directory.path) || fs::is_empty(directory.path)) return;
@@ -50,7 +43,7 @@ void require_own_folder(const StudyDirectory& directory, const std::string& conf
                         "name a new folder",
                         name, before.shards, directory.shards));
     }
-    if (text_in(directory.config_file()) != config_toml) {
+    if (read_file(directory.config_file()) != config_toml) {
         throw UsageError(
             name +
             " holds a study with another configuration; name a new folder (in it, config.toml is "
@@ -72,8 +65,8 @@ void say_dry_run(const StudyDirectory& directory) {
     write_standard_output(fmt::format(
         "# {}\n{}\n# {}\n{}\n# Not submitted. Without --dry-run:\nsbatch --array={} {}\nsbatch "
         "--dependency=afterok:JOB --kill-on-invalid-dep=yes {}\n",
-        directory.shards_script().string(), text_in(directory.shards_script()),
-        directory.merge_script().string(), text_in(directory.merge_script()), cluster::as_array(numbers),
+        directory.shards_script().string(), read_file(directory.shards_script()),
+        directory.merge_script().string(), read_file(directory.merge_script()), cluster::as_array(numbers),
         directory.shards_script().string(), directory.merge_script().string()));
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "capstan/cli/stored_diagnosis.h"
-#include "capstan/config/wrapped_text.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/reports/diagnosis_report.h"
 
 namespace capstan::cli {
@@ -97,9 +97,9 @@ std::string in_words(const Recording& recording, const Diagnosis& diagnosis) {
             fmt::format("  {:<14} {:>5} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3g}  {}\n", channel.channel,
                         channel.unit, channel.noise, channel.before_rms, channel.after_rms,
                         channel.held_out_rms, channel.runner_up_rms, closed_in_words(channel));
-    text += "\n" + config::wrapped(gap::gap_sentence(diagnosis.gap.map), 100, "  ", "  ") + "\n";
+    text += "\n" + wrapped(gap::gap_sentence(diagnosis.gap.map), 100, "  ", "  ") + "\n";
     const std::string next = next_experiment_in_words(diagnosis.non_identifiable);
-    return next.empty() ? text : text + "\n" + config::wrapped(next, 100, "  ", "  ") + "\n";
+    return next.empty() ? text : text + "\n" + wrapped(next, 100, "  ", "  ") + "\n";
 }
 
 ordered_json in_json(const Recording& recording, const Diagnosis& diagnosis) {

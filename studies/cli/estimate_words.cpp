@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "capstan/cli/json_text.h"
-#include "capstan/config/wrapped_text.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -70,7 +70,7 @@ std::string left_out_words(const Recording& recording, const std::vector<LeftOut
             " Some bands are NOT widened: it takes three channels on a cable to see the model's error without the channel "
             "that is left out.";
     }
-    return text + "\n" + config::wrapped(explained, 100, "", "") + "\n";
+    return text + "\n" + wrapped(explained, 100, "", "") + "\n";
 }
 
 std::string left_out_json(const Recording& recording, const std::vector<LeftOutCable>& results) {

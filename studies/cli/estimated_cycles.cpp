@@ -6,8 +6,8 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/config/config_reader.h"
-#include "capstan/config/wrapped_text.h"
 #include "capstan/estimate/cycle_trial.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -31,7 +31,7 @@ std::string in_words(const StudyPlan& plan, const std::vector<CycleScore>& score
         "In newtons. error: mean size of the recursive estimator's error over samples, nodes and repetitions. in band: "
         "fraction of tensions within its 95% band, whose mean half width is band. Mean, Mean-R: the paper's methods, each "
         "step from their own last estimate.";
-    return text + "\n" + config::wrapped(explained, 100, "", "") + "\n";
+    return text + "\n" + wrapped(explained, 100, "", "") + "\n";
 }
 
 std::string in_json(const StudyPlan& plan, const std::vector<CycleScore>& scores, int repetitions) {

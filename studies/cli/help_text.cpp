@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "capstan/cli/commands.h"
-#include "capstan/config/wrapped_text.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -23,8 +23,7 @@ std::string two_columns(const std::vector<Entry>& entries) {
     const std::string indent(column, ' ');
     std::string text;
     for (const Entry& entry : entries) {
-        text += config::wrapped(entry.meaning, help_width, fmt::format("  {:<{}}", entry.term, column - 2),
-                                indent) +
+        text += wrapped(entry.meaning, help_width, fmt::format("  {:<{}}", entry.term, column - 2), indent) +
                 "\n";
     }
     return text;
@@ -106,7 +105,7 @@ std::string program_help() {
 
 std::string command_help(const Command& command) {
     std::string text = fmt::format("Usage: {}\n\n{}\n", usage_line(command),
-                                   config::wrapped(command.description, help_width, "", ""));
+                                   wrapped(command.description, help_width, "", ""));
     std::vector<Entry> arguments;
     for (const Argument& argument : command.arguments) {
         std::string meaning(argument.meaning);

@@ -1,10 +1,10 @@
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
 
 #include "capstan/cli/exit_code.h"
 #include "capstan/cli/program.h"
+#include "capstan/platform/standard_streams.h"
 
 namespace {
 
@@ -14,7 +14,7 @@ namespace {
     try {
         if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
     } catch (const std::bad_alloc&) {
-        std::fputs("capstan: out of memory\n", stderr);
+        capstan::say("capstan: out of memory");
         std::_Exit(static_cast<int>(capstan::cli::ExitCode::failure));
     } catch (...) {
         std::abort();
@@ -25,6 +25,7 @@ namespace {
 }  // namespace
 
 int main(int argument_count, char** arguments) {
+    capstan::reserve_standard_streams();
     std::set_terminate(end_in_words);
     return static_cast<int>(capstan::cli::run_program({arguments + 1, arguments + argument_count}));
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "capstan/cli/usage_error.h"
-#include "capstan/config/nearest_name.h"
+#include "capstan/platform/nearest_name.h"
 
 namespace capstan::cli {
 
@@ -18,8 +18,7 @@ int noise_index_of(const StudyPlan& plan, const Invocation& invocation) {
         if (labels.back() == invocation.text("noise")) return static_cast<int>(k);
     }
     throw UsageError(fmt::format("--noise: the configuration has no noise level \"{}\"{}",
-                                 invocation.text("noise"),
-                                 config::suggestion(invocation.text("noise"), labels)));
+                                 invocation.text("noise"), suggestion(invocation.text("noise"), labels)));
 }
 
 }  // namespace capstan::cli

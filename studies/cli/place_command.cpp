@@ -13,6 +13,7 @@
 #include "capstan/config/plan_checks.h"
 #include "capstan/duty/duty_cycle.h"
 #include "capstan/placement/sensor_placement.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
@@ -30,11 +31,12 @@ void take_duty(const Invocation& invocation, StudyPlan& plan) {
         fractions += fmt::format("{}{} {:.1f} %", fractions.empty() ? "" : ", ", name_of(regime.regime),
                                  100.0 * regime.duty_fraction);
     }
-    fmt::print(stderr, "duty cycle from {}: {}", invocation.text("duty"), fractions);
+    std::string message = fmt::format("duty cycle from {}: {}", invocation.text("duty"), fractions);
     if (elsewhere > 0.0005)
-        fmt::print(stderr, "; {:.1f} % of the moving time is in regimes that the configuration does not have",
-                   100.0 * elsewhere);
-    fmt::print(stderr, "\n");
+        message +=
+            fmt::format("; {:.1f} % of the moving time is in regimes that the configuration does not have",
+                        100.0 * elsewhere);
+    say(message);
 }
 
 ExitCode run(const Invocation& invocation) {
@@ -49,12 +51,12 @@ ExitCode run(const Invocation& invocation) {
     options.noise_index = noise_index_of(config.plan, invocation);
     options.runners_up = static_cast<int>(invocation.whole("runners-up"));
     if (invocation.has("until-resolved")) options.resolve_to_N = invocation.real("until-resolved");
-    options.on_progress = [](const std::string& message) { fmt::print(stderr, "{}\n", message); };
+    options.on_progress = [](const std::string& message) { say(message); };
     const PlacementAnswer answer = place_sensors(config.plan, options);
     if (invocation.has("stats")) {
-        fmt::print(stderr,
-                   "wall time: {:.2f} s to score {} candidates, {:.2f} s on fresh draws, {:.2f} s in all\n",
-                   answer.times.score_s, answer.candidates, answer.times.fresh_s, answer.times.wall_s);
+        say(fmt::format(
+            "wall time: {:.2f} s to score {} candidates, {:.2f} s on fresh draws, {:.2f} s in all",
+            answer.times.score_s, answer.candidates, answer.times.fresh_s, answer.times.wall_s));
     }
     deliver_page(invocation, [&] { return reports::experiment_page_html(place_page(config.plan, answer)); });
     deliver(invocation,

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "capstan/config/wrapped_text.h"
 #include "capstan/estimation/fusion_method.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -198,7 +198,7 @@ std::string in_words(const StudyPlan& plan, const PlacementAnswer& answer) {
         "that is worst to lose. Right of the bar: how much worse each choice is than the best of that count, with "
         "the method that suits it best; * breaks a constraint.",
         plan.worthwhile_gain_N, answer.repetitions, reliability);
-    text += "\n" + config::wrapped(legend, words_width, "", "") + "\n";
+    text += "\n" + wrapped(legend, words_width, "", "") + "\n";
     return text;
 }
 

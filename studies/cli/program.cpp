@@ -15,7 +15,7 @@
 #include "capstan/cli/simd_choice.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/config/config_problem.h"
-#include "capstan/config/nearest_name.h"
+#include "capstan/platform/nearest_name.h"
 #include "capstan/storage/error.h"
 
 namespace capstan::cli {
@@ -53,7 +53,7 @@ FoundCommand find_command_in(const std::vector<std::string>& words) {
         if (!second && name.find(' ') != std::string::npos) known.push_back(name.substr(0, name.find(' ')));
     }
     if (!second) known.insert(known.end(), {"help", "--help", "--version"});
-    const auto nearest = config::nearest_name(given, known);
+    const auto nearest = nearest_name(given, known);
     const bool is_option = given.starts_with("-");
     throw UsageError(fmt::format("capstan: unknown {} '{}'{}\nTry `capstan --help`.",
                                  is_option ? "option" : "command", given,
@@ -96,10 +96,6 @@ ExitCode dispatch(const std::vector<std::string>& words) {
     if (found.command == nullptr) refuse_unknown(words);
     const auto rest = words.begin() + static_cast<std::ptrdiff_t>(found.words);
     return found.command->run(parse_command_line(*found.command, {rest, words.end()}));
-}
-
-void say(const std::string& message) {
-    fmt::print(stderr, "{}{}", message, message.ends_with('\n') ? "" : "\n");
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "capstan/cli/text_table.h"
-#include "capstan/config/wrapped_text.h"
 #include "capstan/placement/recommendation.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
 
@@ -81,22 +81,22 @@ std::string alternatives_words(const storage::StudyDescription& study,
     }
     if (r.alternatives.size() > shown)
         text += fmt::format("; {} more (--json lists all)", r.alternatives.size() - shown);
-    return text.empty() ? "" : config::wrapped(text + ".", words_width, "    ", "    ") + "\n";
+    return text.empty() ? "" : wrapped(text + ".", words_width, "    ", "    ") + "\n";
 }
 
 std::string comparison_words(const std::vector<storage::PaperComparisonRecord>& rows) {
     if (rows.empty()) return "";
     std::string text = "\nThe paper's numbers and ours [N]\n\n";
     std::size_t width = 0;
-    for (const auto& row : rows) width = std::max(width, config::columns_of(row.quantity));
+    for (const auto& row : rows) width = std::max(width, columns_of(row.quantity));
     text += fmt::format("  {:<{}}  {:>7}  {:>16}\n", "", width, "paper", "ours");
     for (const auto& row : rows) {
         const std::string paper =
             row.paper_N ? fmt::format("{}{:.3g}", row.relation == "<" ? "< " : "", *row.paper_N) : "-";
         text += fmt::format("  {}{}  {:>7}  {:>7.3f} +- {:.3f}\n", row.quantity,
-                            std::string(width - config::columns_of(row.quantity), ' '), paper, row.ours_N,
+                            std::string(width - columns_of(row.quantity), ' '), paper, row.ours_N,
                             1.96 * row.standard_error_N);
-        text += config::wrapped(row.reason, words_width, "      ", "      ") + "\n";
+        text += wrapped(row.reason, words_width, "      ", "      ") + "\n";
     }
     return text;
 }
@@ -126,7 +126,7 @@ std::string in_words(const Conclusions& conclusions) {
             noise = recommendation.noise_index;
             text += fmt::format("\nSensor noise: {}\n", study.noise_levels[noise].label);
         }
-        text += "\n" + config::wrapped(recommendation.sentence, words_width, "  * ", "    ") + "\n";
+        text += "\n" + wrapped(recommendation.sentence, words_width, "  * ", "    ") + "\n";
         text += alternatives_words(study, recommendation);
     }
     return text + comparison_words(conclusions.paper_comparison);

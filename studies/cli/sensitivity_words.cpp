@@ -6,8 +6,8 @@
 
 #include "capstan/cli/place_words.h"
 #include "capstan/config/config_writer.h"
-#include "capstan/config/wrapped_text.h"
 #include "capstan/estimation/fusion_method.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/sensing/layout.h"
 
 namespace capstan::cli {
@@ -124,8 +124,8 @@ std::string screening_sentence(const StudyPlan& plan, const sensitivity::Sensiti
 
 std::string in_words(const StudyPlan& plan, const sensitivity::SensitivityAnswer& answer) {
     std::string text = fmt::format("{}: what would change the advice\n\n", plan.name);
-    text += config::wrapped(advice_sentence(plan, answer), words_width, "", "") + "\n\n";
-    text += config::wrapped(screening_sentence(plan, answer), words_width, "", "") + "\n\n";
+    text += wrapped(advice_sentence(plan, answer), words_width, "", "") + "\n\n";
+    text += wrapped(screening_sentence(plan, answer), words_width, "", "") + "\n\n";
     text += fmt::format("  {:<24} {:>9}  {:>20}  {:>15}  {:>15}\n", "parameter", "value", "range",
                         "regret mu* (s)", "error mu* (s)");
     for (const ParameterSensitivity& parameter : answer.parameters) {
@@ -138,20 +138,18 @@ std::string in_words(const StudyPlan& plan, const sensitivity::SensitivityAnswer
     }
     text += "\nOne parameter alone, the others as configured; the advice flips\n";
     for (const ParameterSensitivity& parameter : answer.parameters) {
-        text += config::wrapped(parameter.title + ": " + flips_words(parameter) + ".", words_width, "  * ",
-                                "    ") +
+        text += wrapped(parameter.title + ": " + flips_words(parameter) + ".", words_width, "  * ", "    ") +
                 "\n";
     }
-    text +=
-        "\n" +
-        config::wrapped(
-            fmt::format("regret: how much worse the advice is than the best layout there, in newtons, on "
+    text += "\n" +
+            wrapped(fmt::format(
+                        "regret: how much worse the advice is than the best layout there, in newtons, on "
                         "draws that did not choose it. mu*: mean size of what moving through the whole range "
                         "does (Morris), from {} walks; s: its spread, large where it depends on the other "
                         "parameters. The advice flips where the regret exceeds {:g} N.",
                         plan.sensitivity.trajectories, plan.sensitivity.tolerance_N),
-            words_width, "", "") +
-        "\n";
+                    words_width, "", "") +
+            "\n";
     return text;
 }
 

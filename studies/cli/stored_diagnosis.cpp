@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "capstan/cli/diagnosis_words.h"
 #include "capstan/cli/program.h"
 #include "capstan/gap/gap_map.h"
 #include "capstan/gap_trial/sealed_labels.h"
+#include "capstan/platform/files.h"
 
 namespace capstan::cli {
 
@@ -28,8 +27,7 @@ std::optional<double> if_number(double value) {
 std::string hash_of(const std::filesystem::path& log) {
     std::error_code none;
     if (!std::filesystem::is_regular_file(log, none)) return "";
-    std::ifstream file(log, std::ios::binary);
-    return gap_trial::sha256({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+    return gap_trial::sha256(read_file(log));
 }
 
 storage::DiagnosisCauseRecord cause_record(const gap::FittedCause& cause) {

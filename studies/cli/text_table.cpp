@@ -7,7 +7,7 @@
 
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/row_text.h"
-#include "capstan/config/wrapped_text.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -51,7 +51,7 @@ struct ForJson {
 };
 
 std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
-    const std::string blanks(width - std::min(width, config::columns_of(text)), ' ');
+    const std::string blanks(width - std::min(width, columns_of(text)), ' ');
     return to_the_right ? blanks + text : text + blanks;
 }
 
@@ -66,10 +66,10 @@ std::string as_table(const QueryResult& result) {
     std::vector<std::size_t> width;
     std::vector<bool> numeric;
     for (std::size_t c = 0; c < result.columns.size(); ++c) {
-        width.push_back(config::columns_of(result.columns[c]));
+        width.push_back(columns_of(result.columns[c]));
         numeric.push_back(!result.rows.empty());
         for (const auto& row : result.rows) {
-            width[c] = std::max(width[c], config::columns_of(std::visit(ForPeople{}, row[c])));
+            width[c] = std::max(width[c], columns_of(std::visit(ForPeople{}, row[c])));
             if (!is_number(row[c]) && !std::holds_alternative<std::monostate>(row[c])) numeric[c] = false;
         }
     }

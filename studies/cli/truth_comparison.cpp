@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "capstan/cli/recommendation_words.h"
-#include "capstan/config/wrapped_text.h"
 #include "capstan/placement/recommendation.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/storage/statement.h"
 
 namespace capstan::cli {
@@ -91,7 +91,7 @@ std::string in_words(const std::vector<AdviceUnderTruth>& advice) {
                       "{:.3f}).",
                       fmt::join(each.true_nodes, ", "), each.true_method, each.best_error_N,
                       each.fresh_error_N, each.fresh_low_N, each.fresh_high_N);
-        text += "\n" + config::wrapped(line, 100, "  * ", "    ") + "\n";
+        text += "\n" + wrapped(line, 100, "  * ", "    ") + "\n";
     }
     return text;
 }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "capstan/config/wrapped_text.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -49,7 +49,7 @@ std::string viscous_in_words(const paper::ViscousComparison& comparison) {
         1e2 * comparison.reduction(), 1e2 * papers_numbers.reduction, 1e3 * comparison.without_term.rms_Nm,
         1e3 * papers_numbers.rms_without_term_Nm, comparison.bench.drag_N_s_per_m2,
         comparison.fitted_drag_N_s_per_m2, comparison.unsolved_steps);
-    return text + config::wrapped(viscous_caveat(comparison), 100, "", "") + "\n";
+    return text + wrapped(viscous_caveat(comparison), 100, "", "") + "\n";
 }
 
 nlohmann::ordered_json viscous_in_json(const paper::ViscousComparison& comparison) {

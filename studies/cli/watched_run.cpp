@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/progress_display.h"
 #include "capstan/cli/recommendation_words.h"
 #include "capstan/cli/stop_request.h"
 #include "capstan/paper/placement_comparison.h"
+#include "capstan/platform/progress.h"
 
 namespace capstan::cli {
 
@@ -27,19 +26,18 @@ void say_times(const StudyTimes& times) {
         {"database (wall time)", times.storage_s},
         {"from plan to database (wall time)", times.wall_s},
     };
-    fmt::print(stderr, "Processor time over all threads:\n");
-    for (const auto& [what, seconds] : rows)
-        fmt::print(stderr, "  {:<42} {:>9.1f} ms\n", what, 1e3 * seconds);
+    say("Processor time over all threads:");
+    for (const auto& [what, seconds] : rows) say(fmt::format("  {:<42} {:>9.1f} ms", what, 1e3 * seconds));
 }
 
 void say_end(ProgressMode mode, const std::string& event, const std::string& words, std::int64_t study_id) {
     if (mode == ProgressMode::none) return;
     if (mode == ProgressMode::automatic) {
-        fmt::print(stderr, "{}\n", words);
+        say(words);
         return;
     }
     const nlohmann::ordered_json json = {{"event", event}, {"study_id", study_id}, {"message", words}};
-    fmt::print(stderr, "{}\n", json.dump());
+    say(json.dump());
 }
 
 }  // namespace
@@ -50,21 +48,18 @@ std::vector<Option> watched_run_options() {
 }
 
 ExitCode watch(const Invocation& invocation, const std::string& name, const WatchedWork& work) {
-    ProgressDisplay display(progress_mode(invocation.text("progress")), name);
+    ProgressDisplay display(progress_mode(invocation.text("progress")));
     RunOptions options;
     options.jobs = static_cast<int>(invocation.whole("jobs"));
-    options.on_progress = [&](const StudyProgress& progress) { display.show(progress); };
+    options.on_progress = [&](const StudyProgress& progress) {
+        display.show(counted_progress(name, progress.units_done, progress.units, "units"));
+    };
     options.compare_with_paper = paper::compare_placement;
     WatchedEnd ended;
     {
         const StopRequest stoppable;
         options.stop = StopRequest::flag();
-        try {
-            ended = work(options);
-        } catch (...) {
-            display.end_line();
-            throw;
-        }
+        ended = work(options);
     }
     display.end_line();
     if (invocation.has("stats")) say_times(ended.times);

@@ -3,8 +3,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "capstan/cluster/command_output.h"
 #include "capstan/cluster/slurm_scripts.h"
+#include "capstan/platform/child_process.h"
 
 namespace capstan::cluster {
 

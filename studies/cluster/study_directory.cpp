@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "capstan/placement/study_merge.h"
+#include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
 
 namespace capstan::cluster {
@@ -42,14 +42,13 @@ StudyDirectory read_directory(const fs::path& path) {
     StudyDirectory directory;
     directory.path = fs::absolute(path).lexically_normal();
     if (!directory.path.has_filename()) directory.path = directory.path.parent_path();
-    std::ifstream stream(directory.submission_file());
-    if (!stream) {
+    if (!fs::exists(directory.submission_file())) {
         throw std::runtime_error(
             path.string() + " holds no submitted study; `capstan study submit --slurm CONFIG --directory " +
             path.string() + "` makes one");
     }
     try {
-        const auto json = nlohmann::json::parse(stream);
+        const auto json = nlohmann::json::parse(read_file(directory.submission_file()));
         directory.name = json.at("name");
         directory.shards = json.at("shards");
         directory.processors_per_shard = json.at("processors_per_shard");

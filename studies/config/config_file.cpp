@@ -1,10 +1,10 @@
 #include "capstan/config/config_file.h"
 
-#include <fstream>
-#include <iterator>
+#include <stdexcept>
 
 #include "capstan/config/config_problem.h"
 #include "capstan/config/toml_nodes.h"
+#include "capstan/platform/files.h"
 
 namespace capstan::config {
 
@@ -18,10 +18,11 @@ std::string content_of(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, ignored)) {
         throw ConfigError(file, {{0, 0, "", "is a folder; name the configuration file in it"}});
     }
-    std::ifstream stream(path, std::ios::binary);
-    std::string content{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) throw ConfigError(file, {{0, 0, "", "cannot be read; check its permissions"}});
-    return content;
+    try {
+        return read_file(path);
+    } catch (const std::runtime_error&) {
+        throw ConfigError(file, {{0, 0, "", "cannot be read; check its permissions"}});
+    }
 }
 
 ConfigContent content_described_by(std::string_view toml) {

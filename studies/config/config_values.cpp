@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capstan/config/nearest_name.h"
 #include "capstan/config/toml_nodes.h"
+#include "capstan/platform/nearest_name.h"
 
 namespace capstan::config {
 

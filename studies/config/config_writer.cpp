@@ -4,7 +4,7 @@
 
 #include "capstan/config/config_key.h"
 #include "capstan/config/config_reader.h"
-#include "capstan/config/wrapped_text.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::config {
 

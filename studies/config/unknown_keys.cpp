@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "capstan/config/config_key.h"
-#include "capstan/config/nearest_name.h"
+#include "capstan/platform/nearest_name.h"
 
 namespace capstan::config {
 

@@ -8,8 +8,8 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/parameter_file.h"
 #include "capstan/gap/twin.h"
-#include "capstan/parallel/parallel_for.h"
 #include "capstan/plan/true_motion.h"
+#include "capstan/platform/parallel_for.h"
 #include "capstan/recording/driven_inputs.h"
 #include "capstan/solver/pull_pull.h"
 

@@ -6,8 +6,8 @@
 
 #include "capstan/estimation/recursive_estimator.h"
 #include "capstan/estimation/recursive_fusion.h"
-#include "capstan/parallel/parallel_for.h"
 #include "capstan/plan/true_motion.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan::estimate {
 

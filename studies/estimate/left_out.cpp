@@ -5,7 +5,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimate/paper_tracking.h"
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan::estimate {
 

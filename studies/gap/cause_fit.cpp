@@ -5,7 +5,7 @@
 #include <map>
 
 #include "capstan/gap/same_benches.h"
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan::gap {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/parallel_for.h"
 #include "capstan/recording/driven_inputs.h"
 
 namespace capstan::gap {

@@ -9,7 +9,8 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap_trial/recording_files.h"
 #include "capstan/gap_trial/reference_fit.h"
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/files.h"
+#include "capstan/platform/parallel_for.h"
 #include "capstan/recording/estimated_noise.h"
 #include "capstan/recording/json_file.h"
 #include "capstan/recording/recording_reader.h"
@@ -45,7 +46,7 @@ void write_reference(const std::filesystem::path& path,
             text.push_back(
                 {{"channel", each.channel}, {"rms_before", each.before}, {"rms_after", each.after}});
     }
-    write_whole_file(path, text.dump(1) + "\n");
+    write_file(path, text.dump(1) + "\n");
 }
 
 Reference read_reference(const std::filesystem::path& path, const std::string& name) {

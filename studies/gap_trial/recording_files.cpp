@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+
+#include "capstan/platform/files.h"
 
 namespace capstan::gap_trial {
 
@@ -96,21 +96,10 @@ std::string samples_csv(const TrialBench& bench, const std::vector<TrialRun>& ru
 
 }  // namespace
 
-void write_whole_file(const std::filesystem::path& path, const std::string& text) {
-    const std::filesystem::path partial = path.string() + ".partial";
-    std::ofstream file(partial, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file)
-        throw std::runtime_error(
-            fmt::format("{}: cannot be written; is the folder there, and is there room?", path.string()));
-    std::filesystem::rename(partial, path);
-}
-
 void write_recording(const std::filesystem::path& folder, const std::string& name, const TrialBench& bench,
                      const std::vector<TrialRun>& runs, const std::vector<SensedRun>& logged) {
-    write_whole_file(folder / (name + ".csv"), samples_csv(bench, runs, logged));
-    write_whole_file(folder / (name + ".json"), sidecar(name, bench, runs).dump(2) + "\n");
+    write_file(folder / (name + ".csv"), samples_csv(bench, runs, logged));
+    write_file(folder / (name + ".json"), sidecar(name, bench, runs).dump(2) + "\n");
 }
 
 }  // namespace capstan::gap_trial

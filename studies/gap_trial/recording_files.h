@@ -13,8 +13,4 @@ namespace capstan::gap_trial {
 void write_recording(const std::filesystem::path& folder, const std::string& name, const TrialBench& bench,
                      const std::vector<TrialRun>& runs, const std::vector<SensedRun>& logged);
 
-/// The whole text, or a std::runtime_error that says which file and what to try. Written beside it first and
-/// renamed, so that the file is whole or not there.
-void write_whole_file(const std::filesystem::path& path, const std::string& text);
-
 }  // namespace capstan::gap_trial

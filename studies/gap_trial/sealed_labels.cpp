@@ -4,14 +4,13 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <stdexcept>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap_trial/recording_files.h"
+#include "capstan/platform/files.h"
 
 namespace capstan::gap_trial {
 
@@ -95,10 +94,13 @@ CaseLabel case_of(const std::string& name, const ordered_json& json) {
     return label;
 }
 
-std::string read_whole(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw InvalidInput({fmt::format("{}: cannot be read; is it there?", path.string())});
-    return {std::istreambuf_iterator<char>(file), {}};
+// A missing file is wrong input of the command.
+std::string read_input(const std::filesystem::path& path) {
+    try {
+        return read_file(path);
+    } catch (const std::runtime_error& problem) {
+        throw InvalidInput({problem.what()});
+    }
 }
 
 }  // namespace
@@ -161,16 +163,16 @@ TrialLabels read_labels(const std::string& text, const std::string& place) {
 std::string seal_labels(const std::filesystem::path& folder, const TrialLabels& labels) {
     const std::string text = labels_text(labels);
     std::string hash = sha256(text);
-    write_whole_file(folder / labels_name, text);
-    write_whole_file(folder / hash_name, fmt::format("{}  {}\n", hash, labels_name));
+    write_file(folder / labels_name, text);
+    write_file(folder / hash_name, fmt::format("{}  {}\n", hash, labels_name));
     return hash;
 }
 
 TrialLabels unseal_labels(const std::filesystem::path& labels_file, const std::string& expected_hash) {
-    const std::string text = read_whole(labels_file);
+    const std::string text = read_input(labels_file);
     const std::string hash = sha256(text);
     const std::filesystem::path hash_file = labels_file.parent_path() / hash_name;
-    const std::string sealed = read_whole(hash_file).substr(0, hash.size());
+    const std::string sealed = read_input(hash_file).substr(0, hash.size());
     for (const auto& [said, by] :
          {std::pair(sealed, hash_file.string()), std::pair(expected_hash, std::string("what was printed"))}) {
         if (!said.empty() && said != hash)

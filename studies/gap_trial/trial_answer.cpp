@@ -6,6 +6,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap_trial/recording_files.h"
+#include "capstan/platform/files.h"
 #include "capstan/recording/json_file.h"
 
 namespace capstan::gap_trial {
@@ -47,7 +48,7 @@ CaseAnswer answer_of(const std::string& name, const gap::Diagnosis& diagnosis) {
 }
 
 void write_answer(const std::filesystem::path& path, const CaseAnswer& answer, const std::string& seal) {
-    write_whole_file(path, in_json(answer, seal).dump(1) + "\n");
+    write_file(path, in_json(answer, seal).dump(1) + "\n");
 }
 
 CaseAnswer read_answer(const std::filesystem::path& path, const std::string& seal) {

@@ -2,25 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap_trial/recording_files.h"
 #include "capstan/gap_trial/sealed_labels.h"
+#include "capstan/platform/files.h"
 
 namespace capstan::gap_trial {
-
-namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-}  // namespace
 
 TrialFolder::TrialFolder(std::filesystem::path path, bool goes_away)
     : path_(std::move(path)), goes_away_(goes_away) {}
@@ -56,12 +46,12 @@ void TrialFolder::state_options(const TrialOptions& options) const {
     const std::filesystem::path stated = path_ / "trial.json";
     const std::string text = options_text(options);
     if (!std::filesystem::exists(stated)) {
-        write_whole_file(stated, text);
-    } else if (text_of(stated) != text) {
+        write_file(stated, text);
+    } else if (read_file(stated) != text) {
         throw InvalidInput(
             {fmt::format("{}: another trial is kept there, with\n{}and not\n{}give the same "
                          "options, or another folder",
-                         path_.string(), text_of(stated), text)});
+                         path_.string(), read_file(stated), text)});
     }
 }
 
@@ -74,7 +64,7 @@ std::filesystem::path TrialFolder::reference(const std::string& name) const {
 }
 
 std::string TrialFolder::seal() const {
-    const std::string text = text_of(path_ / "labels.sha256");
+    const std::string text = read_file(path_ / "labels.sha256");
     return text.substr(0, text.find(' '));
 }
 

@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan::gap_trial {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "capstan/estimation/information_bound.h"
-#include "capstan/parallel/parallel_for.h"
 #include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/repetition_blocks.h"
 #include "capstan/placement/repetition_profiles.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan {
 

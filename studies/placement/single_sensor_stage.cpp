@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "capstan/estimation/consensus.h"
-#include "capstan/parallel/parallel_for.h"
 #include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/repetition_blocks.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan {
 

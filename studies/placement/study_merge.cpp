@@ -7,6 +7,7 @@
 #include "capstan/config/config_reader.h"
 #include "capstan/placement/same_study.h"
 #include "capstan/placement/study_conclusion.h"
+#include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
 #include "capstan/storage/write_ahead_log.h"
@@ -217,7 +218,7 @@ RunEnd merge_shards(const fs::path& merged, const std::vector<fs::path>& paths, 
         throw;
     }
     if (end == RunEnd::complete) {
-        fs::rename(unfinished, merged);
+        rename_durably(unfinished, merged);
     } else {
         remove_database(unfinished);
     }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capstan/parallel/parallel_for.h"
 #include "capstan/placement/repetition_profiles.h"
 #include "capstan/placement/subset_curves.h"
 #include "capstan/placement/subset_means.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan {
 

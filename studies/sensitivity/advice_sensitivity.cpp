@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/parallel_for.h"
 #include "capstan/sensitivity/uncertain_parameter.h"
 
 namespace capstan::sensitivity {

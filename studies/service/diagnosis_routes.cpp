@@ -1,7 +1,6 @@
 // Recordings to be diagnosed, and the diagnoses that are stored.
 #include "capstan/reports/diagnosis_report.h"
 #include "capstan/service/exchange.h"
-#include "capstan/service/job_json.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/live_queries.h"

@@ -1,5 +1,7 @@
 #include "capstan/service/job.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -48,6 +50,24 @@ std::string_view name_of(JobState state) {
             return "failed";
     }
     return "";
+}
+
+ordered_json job_json(const Job& job) {
+    const ProgressEvent& progress = job.progress;
+    ordered_json json = {
+        {"job", job.number},
+        {"kind", name_of(job.kind)},
+        {"title", job.title},
+        {"state", name_of(job.state)},
+        {"activity", progress.items.empty()
+                         ? progress.activity
+                         : fmt::format("{} of {} {}", progress.done, progress.total, progress.items)},
+        {"fraction", progress.fraction},
+        {"seconds_left", progress.seconds_left ? ordered_json(*progress.seconds_left) : ordered_json()},
+        {"message", job.message}};
+    json[job.kind == JobKind::study ? "study_id" : "diagnosis_id"] =
+        job.result_id ? ordered_json(*job.result_id) : ordered_json(nullptr);
+    return json;
 }
 
 std::string jobs_text(const std::vector<Job>& jobs) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "capstan/platform/progress.h"
 
 namespace capstan::service {
 
@@ -20,7 +23,7 @@ enum class JobState {
 std::string_view name_of(JobKind kind);
 std::string_view name_of(JobState state);
 
-/// One thing to be done. What is kept over a restart is all but `doing`, `fraction_done` and `left_s`.
+/// One thing to be done. What is kept over a restart is all but `progress`.
 struct Job {
     int number = 0;  ///< from 1
     JobKind kind = JobKind::study;
@@ -31,12 +34,13 @@ struct Job {
     std::int64_t last_before = 0;
     std::optional<std::int64_t> result_id;  ///< study_id or diagnosis_id, as soon as it is known
     std::string message;                    ///< why it failed; empty otherwise
-    std::string doing;
-    double fraction_done = 0.0;
-    std::optional<double> left_s;
+    ProgressEvent progress;
 
     bool operator==(const Job&) const = default;
 };
+
+/// A job as the service's clients see it.
+nlohmann::ordered_json job_json(const Job& job);
 
 /// The kept part of jobs as JSON, and back. Throws std::runtime_error if the text is none of `jobs_text`.
 std::string jobs_text(const std::vector<Job>& jobs);

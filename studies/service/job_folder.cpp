@@ -6,27 +6,19 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "capstan/platform/files.h"
+
 namespace capstan::service {
-
-namespace {
-
-[[noreturn]] void refuse(const std::filesystem::path& path) {
-    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-}
-
-}  // namespace
 
 JobFolder::JobFolder(std::filesystem::path path) : path_(std::move(path)) {
     std::filesystem::create_directories(path_);
     const std::filesystem::path lock = path_ / "lock";
     lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    if (lock_ < 0) refuse(lock);
+    if (lock_ < 0)
+        throw std::runtime_error(fmt::format("cannot write {}: {}", lock.string(), std::strerror(errno)));
     if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
     ::close(lock_);
     throw std::runtime_error(
@@ -38,9 +30,8 @@ JobFolder::~JobFolder() {
 }
 
 std::vector<Job> JobFolder::read() const {
-    std::ifstream file(path_ / "jobs.json", std::ios::binary);
-    if (!file) return {};
-    return read_jobs({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+    const std::filesystem::path file = path_ / "jobs.json";
+    return std::filesystem::exists(file) ? read_jobs(read_file(file)) : std::vector<Job>{};
 }
 
 void JobFolder::write(const std::vector<Job>& jobs) const {
@@ -50,13 +41,7 @@ void JobFolder::write(const std::vector<Job>& jobs) const {
 void JobFolder::write_file(const std::string& name, const std::string& bytes) const {
     const std::filesystem::path path = path_ / name;
     std::filesystem::create_directories(path.parent_path());
-    const std::string unfinished = path.string() + ".unfinished";
-    std::FILE* file = std::fopen(unfinished.c_str(), "wb");
-    if (file == nullptr) refuse(path);
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
-                         std::fflush(file) == 0 && ::fsync(::fileno(file)) == 0;
-    if (std::fclose(file) != 0 || !written || std::rename(unfinished.c_str(), path.c_str()) != 0)
-        refuse(path);
+    capstan::write_file(path, bytes);
 }
 
 }  // namespace capstan::service

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "capstan/platform/files.h"
+#include "capstan/platform/progress.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
@@ -16,7 +16,8 @@ namespace capstan::service {
 
 namespace {
 
-constexpr int signal_code = 128;  // above: ended by a signal, or by a request to end (the program's 130)
+constexpr int nice_increment = 5;  // the service answers requests before a job goes on
+constexpr int signal_code = 128;   // above: ended by a signal, or by a request to end (the program's 130)
 constexpr std::size_t max_jobs = 1000;  // that the list tells of; the oldest that have ended are forgotten
 
 std::int64_t last_id(const JobCommands& commands, JobKind kind) {
@@ -38,11 +39,6 @@ std::string safe_stem(const std::string& name) {
         stem += plain || letter == '-' ? letter : '_';
     }
     return stem.empty() || stem == "answer" ? "recording" : stem.substr(0, 60);
-}
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace
@@ -157,7 +153,8 @@ bool JobQueue::resume(int number) {
 }
 
 std::string JobQueue::answer_of(const Job& job) const {
-    return text_of(folder_.path() / fmt::format("{}/answer.json", job.number));
+    const std::filesystem::path file = folder_.path() / fmt::format("{}/answer.json", job.number);
+    return std::filesystem::exists(file) ? read_file(file) : "";
 }
 
 void JobQueue::change(int number, const std::function<void(Job&)>& to) {
@@ -204,7 +201,7 @@ std::optional<std::int64_t> JobQueue::result_of(const Job& job) const {
     if (job.result_id) return job.result_id;
     storage::Database database = storage::Database::open_read_only(commands_.database);
     if (job.kind == JobKind::study) {
-        const std::string config = text_of(folder_.path() / job.file);
+        const std::string config = read_file(folder_.path() / job.file);
         for (const auto& study : storage::list_studies(database)) {
             if (study.study_id > job.last_before &&
                 storage::load_study(database, study.study_id).study.config_toml == config)
@@ -226,7 +223,7 @@ bool JobQueue::is_complete(const Job& job) const {
     return storage::load_study(database, *job.result_id).study.status == "complete";
 }
 
-std::vector<std::string> JobQueue::words_for(const Job& job) const {
+std::vector<std::string> JobQueue::command_line(const Job& job) const {
     std::vector<std::string> words{commands_.program};
     if (job.kind == JobKind::diagnosis) {
         words.insert(words.end(), {"diagnose", (folder_.path() / job.file).string(), "--json", "-o",
@@ -241,24 +238,16 @@ std::vector<std::string> JobQueue::words_for(const Job& job) const {
     return words;
 }
 
-void JobQueue::hear(int number, const std::string& line, std::string& last_words) {
-    const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object()) {
-        if (!line.empty()) last_words += (last_words.empty() ? "" : "\n") + line;
+void JobQueue::on_output(int number, const std::string& line, std::string& messages) {
+    const std::optional<ProgressEvent> progress = read_progress_json(line);
+    if (!progress) {
+        const bool is_event = nlohmann::json::accept(line);  // of the job's end
+        if (!line.empty() && !is_event) messages += (messages.empty() ? "" : "\n") + line;
         return;
     }
     const std::lock_guard lock(mutex_);
     for (Job& job : jobs_) {
-        if (job.number != number || json.value("event", "") != "progress") continue;
-        job.doing = json.value("doing", "");
-        job.fraction_done = json.value("fraction_done", 0.0);
-        job.left_s.reset();
-        if (json.contains("left_s") && json["left_s"].is_number()) job.left_s = json["left_s"].get<double>();
-        const double units = json.value("units", 0.0);
-        if (units > 0.0) {
-            job.fraction_done = json.value("units_done", 0.0) / units;
-            job.doing = fmt::format("{} of {} units", json.value("units_done", 0), json.value("units", 0));
-        }
+        if (job.number == number) job.progress = *progress;
     }
 }
 
@@ -279,16 +268,16 @@ void JobQueue::run(Job job) {
         each.state = JobState::running;
         each.last_before = job.last_before;
         each.result_id = job.result_id;
-        each.fraction_done = 0.0;
+        each.progress.fraction = 0.0;
     });
     {
         const std::lock_guard lock(mutex_);
-        child_ = std::make_unique<ChildProcess>(words_for(job));
+        child_ = std::make_unique<ChildProcess>(command_line(job), nice_increment);
         if (ending_ || stop_asked_) child_->ask_to_stop();
     }
-    std::string last_words;
-    const int code = child_->wait([&](const std::string& line) {
-        hear(job.number, line, last_words);
+    std::string messages;
+    const CommandOutput ended = child_->wait([&](const std::string& line) {
+        on_output(job.number, line, messages);
         if (!job.result_id && job.kind == JobKind::study) {
             job.result_id = result_of(job);
             if (job.result_id) change(job.number, [&](Job& each) { each.result_id = job.result_id; });
@@ -298,17 +287,17 @@ void JobQueue::run(Job job) {
     change(job.number, [&](Job& each) {
         child_.reset();
         each.result_id = job.result_id;
-        each.left_s.reset();
-        if (code == 0) {
+        each.progress.seconds_left.reset();
+        if (ended.exit_code == 0) {
             each.state = JobState::done;
-            each.fraction_done = 1.0;
+            each.progress.fraction = 1.0;
         } else if (ending_) {
             each.state = JobState::running;  // goes on at the next start
-        } else if (stop_asked_ && code > signal_code) {
+        } else if (stop_asked_ && ended.exit_code > signal_code) {
             each.state = JobState::stopped;
         } else {
             each.state = JobState::failed;
-            each.message = last_words.empty() ? fmt::format("ended with code {}", code) : last_words;
+            each.message = messages.empty() ? fmt::format("ended with code {}", ended.exit_code) : messages;
         }
     });
 }

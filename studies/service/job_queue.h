@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "capstan/service/child_process.h"
+#include "capstan/platform/child_process.h"
 #include "capstan/service/job_folder.h"
 
 namespace capstan::service {
@@ -50,10 +50,10 @@ class JobQueue {
   private:
     void work();
     void run(Job job);
-    std::vector<std::string> words_for(const Job& job) const;
+    std::vector<std::string> command_line(const Job& job) const;
     std::optional<std::int64_t> result_of(const Job& job) const;
     bool is_complete(const Job& job) const;
-    void hear(int number, const std::string& line, std::string& last_words);
+    void on_output(int number, const std::string& line, std::string& messages);
     Job add(Job job);
     int next_number() const;  // while locked
     void change(int number, const std::function<void(Job&)>& to);

@@ -1,11 +1,9 @@
 // Studies to be run: from a text, from a folder of configurations; watched, stopped, resumed.
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "capstan/config/config_writer.h"
+#include "capstan/platform/files.h"
 #include "capstan/service/exchange.h"
-#include "capstan/service/job_json.h"
 #include "capstan/service/routes.h"
 #include "capstan/service/study_state.h"
 #include "capstan/storage/study_store.h"
@@ -30,8 +28,7 @@ std::string config_named(const ServiceOptions& options, const std::string& name)
     const auto names = config_names(options);
     if (std::find(names.begin(), names.end(), name) == names.end())
         throw BadRequest("there is no configuration '" + name + "'", 404);
-    std::ifstream file(*options.configs / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return read_file(*options.configs / name);
 }
 
 ordered_json start(RouteContext& context, const nlohmann::json& body) {

@@ -73,7 +73,7 @@ class Answers(CapstanTest):
         self.assertEqual(first["sensor_count"], len(first["nodes"]))
         self.assertLess(first["interval_95_N"][0], first["error_N"])
         events = [json.loads(line) for line in run.stderr.splitlines()]
-        self.assertEqual(events[-2]["units_done"], events[-2]["units"])
+        self.assertEqual(events[-2]["done"], events[-2]["total"])
         self.assertEqual(events[-1]["event"], "complete")
         for words in (("study", "list"), ("study", "show"), ("study", "replay"), ("recommend",), ("report",),
                       ("query", "SELECT * FROM cell"), ("config", "check", CONFIGS / "quick.toml")):

@@ -71,7 +71,7 @@ class Crash(ServiceTest):
                 told = json.loads(line)
             except json.JSONDecodeError:
                 continue  # cut off in the middle
-            units = max(units, told.get("units_done", 0))
+            units = max(units, told.get("done") or 0)
             complete = complete or told.get("event") == "complete"
         return units, complete
 

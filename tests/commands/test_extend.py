@@ -28,7 +28,7 @@ class Extend(CapstanTest):
         words = ("study", "extend", "--repetitions", 4000, "--db", "a.db", "--progress", "json")
         process = self.start_capstan(*words)
         for line in process.stderr:
-            if '"units_done":2,' in line:
+            if '"done":2,' in line:
                 break
         process.send_signal(signal.SIGKILL)
         process.communicate()

@@ -65,7 +65,7 @@ class SameBits(CapstanTest):
             name = f"units{units}.db"
             process = self.start_capstan("study", "run", *STUDY, "--db", name, "--progress", "json")
             for line in process.stderr:
-                if f'"units_done":{units},' in line:
+                if f'"done":{units},' in line:
                     break
             process.send_signal(signal.SIGKILL)
             process.communicate()
@@ -78,7 +78,7 @@ class SameBits(CapstanTest):
             name = f"stopped{int(request)}.db"
             process = self.start_capstan("study", "run", *STUDY, "--db", name, "--progress", "json")
             for line in process.stderr:
-                if '"units_done":2,' in line:
+                if '"done":2,' in line:
                     break
             process.send_signal(request)
             answer, messages = process.communicate()

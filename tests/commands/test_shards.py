@@ -71,7 +71,7 @@ class Shards(CapstanTest):
             process = self.start_capstan("study", "run", *STUDY, "--shard", "1/2", "--db", f"killed{units}.db",
                                          "--progress", "json")
             for line in process.stderr:
-                if f'"units_done":{units},' in line:
+                if f'"done":{units},' in line:
                     break
             process.send_signal(signal.SIGKILL)
             process.communicate()
@@ -110,7 +110,7 @@ class Shards(CapstanTest):
         self.run_capstan("study", "run", *study, "--db", "whole.db")
         process = self.start_capstan("study", "run", *study, "--db", "killed.db", "--progress", "json")
         for line in process.stderr:
-            if '"units_done":13,' in line:
+            if '"done":13,' in line:
                 break
         process.send_signal(signal.SIGKILL)
         process.communicate()

@@ -4,6 +4,7 @@
 #include "capstan/gap_trial/recording_files.h"
 #include "capstan/gap_trial/sealed_labels.h"
 #include "capstan/gap_trial/trial_answer.h"
+#include "capstan/platform/files.h"
 #include "scratch_folder.h"
 
 namespace capstan::gap_trial {
@@ -58,10 +59,10 @@ TEST(SealedLabels, CannotBeChangedUnnoticed) {
     const std::filesystem::path file = folder.path() / "labels.json";
     std::string text = bytes_of(file);
     text.replace(text.find("local_bend"), 10, "param_mu  ");
-    write_whole_file(file, text);
+    write_file(file, text);
     EXPECT_THROW(unseal_labels(file), InvalidInput);
     // Even with a hash of the new text beside it, what was printed before tells.
-    write_whole_file(folder.path() / "labels.sha256", sha256(text) + "  labels.json\n");
+    write_file(folder.path() / "labels.sha256", sha256(text) + "  labels.json\n");
     EXPECT_THROW(unseal_labels(file, seal), InvalidInput);
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <map>
 
-#include "capstan/parallel/parallel_for.h"
 #include "capstan/placement/sensor_placement.h"
+#include "capstan/platform/parallel_for.h"
 #include "every_layout.h"
 
 namespace capstan {

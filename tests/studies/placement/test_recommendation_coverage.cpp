@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "capstan/parallel/parallel_for.h"
 #include "capstan/placement/recommendation.h"
+#include "capstan/platform/parallel_for.h"
 #include "capstan/storage/study_store.h"
 #include "every_layout.h"
 #include "temporary_study.h"

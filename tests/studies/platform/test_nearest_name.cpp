@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "capstan/config/nearest_name.h"
+#include "capstan/platform/nearest_name.h"
 
-namespace capstan::config {
+namespace capstan {
 namespace {
 
 const std::vector<std::string> known = {"segments", "pretension_N", "report", "recommend"};
@@ -25,4 +25,4 @@ TEST(NearestName, SaysNothingWhereNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace capstan::config
+}  // namespace capstan

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace capstan::config {
+namespace capstan {
 
 /// Breaks a text at blanks into lines of at most `width` columns (bytes beyond ASCII count as one per
 /// character); each line begins with `indent`, the first one with `first` instead. Ends without a line break.
@@ -13,4 +13,4 @@ std::string wrapped(std::string_view text, std::size_t width, std::string_view f
 /// Columns that a UTF-8 text takes.
 std::size_t columns_of(std::string_view text);
 
-}  // namespace capstan::config
+}  // namespace capstan

@@ -1,8 +1,8 @@
-#include "capstan/config/wrapped_text.h"
+#include "capstan/platform/wrapped_text.h"
 
 #include <algorithm>
 
-namespace capstan::config {
+namespace capstan {
 
 std::size_t columns_of(std::string_view text) {
     return std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; });
@@ -34,4 +34,4 @@ std::string wrapped(std::string_view text, std::size_t width, std::string_view f
     return result;
 }
 
-}  // namespace capstan::config
+}  // namespace capstan

@@ -1,4 +1,4 @@
-#include "capstan/parallel/parallel_for.h"
+#include "capstan/platform/parallel_for.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>

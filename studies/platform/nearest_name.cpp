@@ -1,10 +1,10 @@
-#include "capstan/config/nearest_name.h"
+#include "capstan/platform/nearest_name.h"
 
 #include <algorithm>
 #include <cctype>
 #include <vector>
 
-namespace capstan::config {
+namespace capstan {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::string suggestion(std::string_view name, std::span<const std::string> known
     return text;
 }
 
-}  // namespace capstan::config
+}  // namespace capstan

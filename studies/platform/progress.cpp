@@ -1,0 +1,122 @@
+#include "capstan/platform/progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "capstan/platform/standard_streams.h"
+
+namespace capstan {
+
+namespace {
+
+constexpr std::chrono::milliseconds bar_interval{100};
+constexpr std::chrono::seconds line_interval{5};
+
+std::string duration_words(double seconds) {
+    const long rounded = std::lround(std::ceil(seconds));
+    if (rounded < 90) return std::to_string(rounded) + " s";
+    if (rounded < 5400) return std::to_string((rounded + 30) / 60) + " min";
+    return std::to_string(rounded / 3600) + " h " + std::to_string(rounded % 3600 / 60) + " min";
+}
+
+std::string bar(double fraction) {
+    constexpr int width = 30;
+    const int full = static_cast<int>(width * std::clamp(fraction, 0.0, 1.0));
+    return "[" + std::string(static_cast<std::size_t>(full), '#') +
+           std::string(static_cast<std::size_t>(width - full), '.') + "]";
+}
+
+}  // namespace
+
+ProgressEvent counted_progress(std::string activity, int done, int total, std::string items) {
+    const double fraction = total == 0 ? 1.0 : static_cast<double>(done) / total;
+    return {std::move(activity), fraction, done, total, std::move(items), std::nullopt};
+}
+
+std::string progress_json(const ProgressEvent& event) {
+    using Json = nlohmann::ordered_json;
+    const bool is_counted = !event.items.empty();
+    return Json{{"event", "progress"},
+                {"activity", event.activity},
+                {"fraction", event.fraction},
+                {"done", is_counted ? Json(event.done) : Json()},
+                {"total", is_counted ? Json(event.total) : Json()},
+                {"items", is_counted ? Json(event.items) : Json()},
+                {"seconds_left", event.seconds_left ? Json(*event.seconds_left) : Json()}}
+        .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<ProgressEvent> read_progress_json(const std::string& line) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object()) return std::nullopt;
+    try {
+        if (json.at("event") != "progress") return std::nullopt;
+        ProgressEvent event;
+        event.activity = json.at("activity").get<std::string>();
+        event.fraction = json.at("fraction").get<double>();
+        if (!json.at("items").is_null()) {
+            event.done = json.at("done").get<int>();
+            event.total = json.at("total").get<int>();
+            event.items = json.at("items").get<std::string>();
+        }
+        if (!json.at("seconds_left").is_null()) event.seconds_left = json.at("seconds_left").get<double>();
+        return event;
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+}
+
+std::string progress_words(const ProgressEvent& event) {
+    std::string words = event.items.empty() ? std::to_string(std::lround(1e2 * event.fraction)) + "%"
+                                            : std::to_string(event.done) + " of " +
+                                                  std::to_string(event.total) + " " + event.items;
+    if (event.seconds_left.value_or(0.0) > 0.0)
+        words += ", about " + duration_words(*event.seconds_left) + " left";
+    return words;
+}
+
+ProgressMode progress_mode(const std::string& name) {
+    if (name == "json") return ProgressMode::json;
+    return name == "none" ? ProgressMode::none : ProgressMode::automatic;
+}
+
+ProgressDisplay::ProgressDisplay(ProgressMode mode)
+    : mode_(mode), is_terminal_(standard_error_is_terminal()) {}
+
+ProgressDisplay::~ProgressDisplay() {
+    end_line();
+}
+
+void ProgressDisplay::show(ProgressEvent event) {
+    const auto now = Clock::now();
+    const bool is_first = event.fraction < last_fraction_;
+    const bool is_last = event.fraction >= 1.0;
+    if (is_first) {
+        start_ = now;
+        fraction_at_start_ = event.fraction;
+    }
+    last_fraction_ = event.fraction;
+    const double done_here = event.fraction - fraction_at_start_;
+    if (!event.seconds_left && is_last) event.seconds_left = 0.0;
+    if (!event.seconds_left && done_here > 0.0)
+        event.seconds_left =
+            std::chrono::duration<double>(now - start_).count() * (1.0 - event.fraction) / done_here;
+    if (mode_ == ProgressMode::none) return;
+    if (mode_ == ProgressMode::json) return say(progress_json(event));
+    const auto interval = is_terminal_ ? Clock::duration(bar_interval) : Clock::duration(line_interval);
+    if (!is_first && !is_last && now - last_shown_ < interval) return;
+    last_shown_ = now;
+    if (!is_terminal_) return say(event.activity + ": " + progress_words(event));
+    write_standard_error("\r" + event.activity + " " + bar(event.fraction) + " " + progress_words(event) +
+                         "\x1b[K");
+    line_is_open_ = true;
+}
+
+void ProgressDisplay::end_line() {
+    if (line_is_open_) write_standard_error("\n");
+    line_is_open_ = false;
+}
+
+}  // namespace capstan
