@@ -8,7 +8,6 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/cluster/slurm_queue.h"
-#include "capstan/cluster/slurm_scripts.h"
 
 namespace capstan::cli {
 
