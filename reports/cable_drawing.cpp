@@ -11,7 +11,7 @@
 namespace capstan::reports {
 namespace {
 
-// All in the drawing's own units; it scales with the page.
+// In the units of the drawing, which scales with the page.
 constexpr double width = 760, height = 142;
 constexpr double cable_left = 66, cable_right = 694, cable_y = 66;
 constexpr double pin_y = 22, pin_radius = 12;

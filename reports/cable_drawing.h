@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "capstan/reports/study_tables.h"
+#include "capstan/reports/table.h"
 
 namespace capstan::reports {
 

@@ -45,7 +45,7 @@ NumberTable fitted_numbers(const DiagnosisRecord& diagnosis) {
                 {name_of(cause), number.name, fmt::format("{:.4g}", number.value_in_unit), number.unit});
     }
     const auto add = [&](const char* name, double ratio) {
-        table.rows.push_back({"nominal model", name, fmt::format("{:.4f}", ratio), "of stated"});
+        table.rows.push_back({"nominal model", name, fmt::format("{:.4f}", ratio), "of the stated value"});
     };
     add("friction", diagnosis.friction_ratio);
     add("stiffness", diagnosis.stiffness_ratio);
@@ -55,7 +55,7 @@ NumberTable fitted_numbers(const DiagnosisRecord& diagnosis) {
 
 NumberTable shrinkage_numbers(const DiagnosisRecord& diagnosis) {
     NumberTable table{
-        "RMS of measured less modelled, over whole runs",
+        "RMS of measured minus modelled, over complete runs",
         {"Channel", "Unit", "Noise", "Before", "After", "Held out", "Runner-up", "Fraction closed, held out"},
         {}};
     const auto number = [](double value) { return fmt::format("{:.3g}", value); };
@@ -84,7 +84,7 @@ NumberTable numbers_of(const Table& table, const std::vector<std::string>& heads
     return numbers;
 }
 
-// The load's torque, else the first.
+// The torque of the load, or the first channel if it was not measured.
 const DiagnosisChannelRecord* judged_channel(const DiagnosisRecord& diagnosis) {
     for (const DiagnosisChannelRecord& each : diagnosis.channels) {
         if (each.channel == "load_torque") return &each;
@@ -187,9 +187,9 @@ std::string diagnosis_csv(const DiagnosisRecord& diagnosis) {
         for (const auto& number : cause.numbers)
             add("cause", name_of(cause), number.name, number.value_in_unit, number.unit);
     }
-    add("nominal", "friction", "of stated", diagnosis.friction_ratio, "");
-    add("nominal", "stiffness", "of stated", diagnosis.stiffness_ratio, "");
-    add("nominal", "pretension", "of stated", diagnosis.pretension_ratio, "");
+    add("nominal", "friction", "of the stated value", diagnosis.friction_ratio, "");
+    add("nominal", "stiffness", "of the stated value", diagnosis.stiffness_ratio, "");
+    add("nominal", "pretension", "of the stated value", diagnosis.pretension_ratio, "");
     for (const DiagnosisChannelRecord& each : diagnosis.channels) {
         const auto of_channel = [&](const char* quantity, double value) {
             add("channel", each.channel, quantity, value, each.unit);
@@ -208,7 +208,7 @@ std::string diagnosis_csv(const DiagnosisRecord& diagnosis) {
         add("gap", part, "high_fraction", each.high_fraction, "");
         add("gap", part, "samples_fraction", each.samples_fraction, "");
     }
-    return table_csv(table);
+    return csv_text(table.columns, table.rows);
 }
 
 ordered_json diagnosis_json(const DiagnosisRecord& diagnosis) {

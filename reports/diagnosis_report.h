@@ -1,6 +1,6 @@
 #pragma once
-// A diagnosis as its readers get it, from what the database keeps of it. The samples themselves are not kept,
-// so its page has no curves; `capstan diagnose --html` has them.
+// The report of a diagnosis in every format, from its record in the database. The samples themselves are not
+// kept, so its page has no curves; `capstan diagnose --html` has them.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,10 +16,10 @@ ExperimentPage diagnosis_page(const storage::DiagnosisRecord& diagnosis);
 std::string diagnosis_html(const storage::DiagnosisRecord& diagnosis);
 std::string diagnosis_markdown(const storage::DiagnosisRecord& diagnosis);
 
-// One line a number: part, name, quantity, value, unit.
+// One line per number: part, name, quantity, value, unit.
 std::string diagnosis_csv(const storage::DiagnosisRecord& diagnosis);
 
-// The form that a judge reads (case, ranked, where, RMS before and after) and everything else.
+// The keys of the published scoring (case, ranked, where, RMS before and after) and everything else.
 nlohmann::ordered_json diagnosis_json(const storage::DiagnosisRecord& diagnosis);
 
 }  // namespace capstan::reports

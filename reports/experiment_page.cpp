@@ -41,7 +41,7 @@ std::string figures_html(const Tables& tables, const std::string& page, const st
             continue;
         }
         for (const Row& run : tables["run"].each())
-            html += figure_html(tables, figure, {.regime = {}, .run = run.whole("run")});
+            html += figure_html(tables, figure, {.regime = {}, .run = run.integer("run")});
     }
     return html;
 }

@@ -14,10 +14,10 @@ bool is_shown(const Table& table, const Row& row, const Figure& figure, const Fi
     if (!shown.regime.empty() && table.has_column("regime") && row.text("regime") != shown.regime)
         return false;
     if (shown.recommendation_id != 0 && table.has_column("recommendation_id") &&
-        row.whole("recommendation_id") != shown.recommendation_id) {
+        row.integer("recommendation_id") != shown.recommendation_id) {
         return false;
     }
-    if (shown.run != 0 && table.has_column("run") && row.whole("run") != shown.run) return false;
+    if (shown.run != 0 && table.has_column("run") && row.integer("run") != shown.run) return false;
     if (figure.knowledge.empty() || !table.has_column("knowledge")) return true;
     return std::find(figure.knowledge.begin(), figure.knowledge.end(), row.text("knowledge")) !=
            figure.knowledge.end();

@@ -34,7 +34,7 @@ std::string escape_html(std::string_view text) {
     return safe;
 }
 
-// Three significant digits are what two thousand repetitions can tell.
+// Two thousand repetitions determine about three significant digits.
 std::string plain_number(double value, int significant_digits) {
     if (value == 0) return "0";
     const int digits_before_point = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;

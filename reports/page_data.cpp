@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// More digits than any eye or printer resolves; the full ones are in the database and in the JSON report.
+// More digits than a screen or a printer resolves; all digits are in the database and in the JSON report.
 double rounded(double value) {
     return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
@@ -24,8 +24,8 @@ Json compact(const Value& value) {
     return to_json(value);
 }
 
-// A column whose values come again and again: each of them once, and which of them each row has. Where
-// neighbours are alike, once for all of them: `runs` says how many there are.
+// A column with repeated values: each distinct value once, and an index per row. Equal neighbours share one
+// index: `runs` is their number.
 Json repeated_values(Json words, const std::vector<std::size_t>& index) {
     std::vector<std::size_t> runs, first;
     for (std::size_t k = 0; k < index.size(); ++k) {
@@ -52,14 +52,14 @@ Json column_json(const Table& table, std::size_t column) {
         const auto [place, added] = place_of.emplace(word, words.size());
         if (added) words.push_back(value);
         index.push_back(place->second);
-        constexpr std::size_t times = 4;  // below, an index takes as much room as the value
+        constexpr std::size_t times = 4;  // with fewer repetitions an index is as long as the value
         if (words.size() * times > table.rows.size()) return values;
     }
     return repeated_values(std::move(words), index);
 }
 
-// By columns: a table of many thousand rows takes a third of the room, and is taken apart only as far as it
-// is drawn.
+// By columns: a table of many thousand rows needs a third of the bytes, and only the columns that are drawn
+// are unpacked.
 Json table_json(const Table& table) {
     Json values = Json::array();
     for (std::size_t k = 0; k < table.columns.size(); ++k) values.push_back(column_json(table, k));
@@ -69,7 +69,7 @@ Json table_json(const Table& table) {
             {"values", std::move(values)}};
 }
 
-// No text of a study can end the element or begin a comment in it.
+// So that no text of a study can end the script element or begin a comment in it.
 std::string safe_in_script(const Json& json) {
     const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
     std::string safe;

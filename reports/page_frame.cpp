@@ -23,7 +23,7 @@ std::string scripts(PageFiles files) {
     return html;
 }
 
-// The policy holds the page to its promise: it loads nothing. A service sends its own policy.
+// The content security policy enforces that the page loads nothing. The service sends its own policy.
 std::string style(PageFiles files) {
     if (files == PageFiles::served) {
         return R"(<link rel="icon" href="data:,">

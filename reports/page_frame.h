@@ -1,13 +1,13 @@
 #pragma once
-// What every page is made of: head, style, navigation, the scripts that draw its figures. A page loads
-// nothing from anywhere but, where a service sends it, from that service.
+// The frame of every page: head, style, navigation, the scripts that draw its figures. A page loads nothing;
+// a page that a service sends loads from that service alone.
 
 #include <string>
 #include <vector>
 
 namespace capstan::reports {
 
-// Plain text but for what ends in _html or _json.
+// Plain text, except for the members that end in _html or _json.
 struct PageFrame {
     std::string document_title;
     std::string kind;  // above the title: 'Sensor placement study'
@@ -20,7 +20,7 @@ struct PageFrame {
 };
 
 enum class PageFiles {
-    inside,  // the page is one file that needs nothing
+    inside,  // the page is one self-contained file
     served,  // style and scripts come from the service that sent the page, which adds live.js
 };
 
@@ -35,7 +35,7 @@ struct SectionLink {
     std::string title;
 };
 
-// Links to those of the sections that are on the page; `extra_html` stands beside them.
+// Links to the sections that are on the page, followed by `extra_html`.
 std::string navigation_html(const std::string& main_html, const std::vector<SectionLink>& links,
                             const std::string& extra_html);
 

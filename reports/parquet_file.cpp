@@ -15,17 +15,17 @@ using Rows = std::vector<std::vector<QueryValue>>;
 static_assert(std::endian::native == std::endian::little);  // as Parquet's values are
 
 constexpr const char* magic = "PAR1";
-constexpr std::size_t rows_in_a_group = 50'000;  // what is kept in memory
+constexpr std::size_t rows_in_a_group = 50'000;  // kept in memory
 // Numbers of the format's enumerations.
 constexpr int plain = 0, rle = 3, optional = 1, uncompressed = 0, utf8 = 0, data_page = 0;
 
 int type_number(ParquetType type) {
     switch (type) {
-        case ParquetType::whole:
+        case ParquetType::integer:
             return 2;
-        case ParquetType::real:
+        case ParquetType::number:
             return 5;
-        case ParquetType::text:
+        case ParquetType::string:
             return 6;
     }
     return 0;
@@ -43,14 +43,14 @@ bool is_null(const QueryValue& value) {
 }
 
 void append_value(std::string& bytes, const ParquetColumn& column, const QueryValue& value) {
-    const auto* whole = std::get_if<std::int64_t>(&value);
+    const auto* integer = std::get_if<std::int64_t>(&value);
     const auto* real = std::get_if<double>(&value);
     const auto* text = std::get_if<std::string>(&value);
-    if (column.type == ParquetType::whole && whole != nullptr) return append(bytes, *whole);
-    if (column.type == ParquetType::real && real != nullptr) return append(bytes, *real);
-    if (column.type == ParquetType::real && whole != nullptr)
-        return append(bytes, static_cast<double>(*whole));
-    if (column.type == ParquetType::text && text != nullptr) {
+    if (column.type == ParquetType::integer && integer != nullptr) return append(bytes, *integer);
+    if (column.type == ParquetType::number && real != nullptr) return append(bytes, *real);
+    if (column.type == ParquetType::number && integer != nullptr)
+        return append(bytes, static_cast<double>(*integer));
+    if (column.type == ParquetType::string && text != nullptr) {
         append(bytes, static_cast<std::uint32_t>(text->size()));
         bytes += *text;
         return;
@@ -58,7 +58,7 @@ void append_value(std::string& bytes, const ParquetColumn& column, const QueryVa
     throw std::invalid_argument("column '" + column.name + "' holds values of more than one type");
 }
 
-// Which rows have a value: runs of equal levels (1: there), after their length in bytes.
+// Which rows have a value: runs of equal levels (1: present), after their length in bytes.
 std::string definition_levels(const Rows& rows, std::size_t column) {
     std::string runs;
     for (std::size_t row = 0; row < rows.size();) {
@@ -87,7 +87,7 @@ void append_schema(std::string& footer, const std::vector<ParquetColumn>& column
         element.i32(1, type_number(column.type));
         element.i32(3, optional);
         element.text(4, column.name);
-        if (column.type == ParquetType::text) element.i32(6, utf8);
+        if (column.type == ParquetType::string) element.i32(6, utf8);
         element.end();
     }
 }

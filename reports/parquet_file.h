@@ -1,6 +1,6 @@
 #pragma once
 // Rows as a Parquet file, written as they come: version 1 of the format, uncompressed, PLAIN values, one page
-// a column and row group. What any reader of the format understands, written without a library.
+// a column and row group. Every reader of the format understands it.
 
 #include <cstdint>
 #include <functional>
@@ -12,24 +12,24 @@
 
 namespace capstan::reports {
 
-enum class ParquetType { whole, real, text };  // INT64, DOUBLE, BYTE_ARRAY of UTF-8
+enum class ParquetType { integer, number, string };  // INT64, DOUBLE, BYTE_ARRAY of UTF-8
 
 struct ParquetColumn {
     std::string name;
-    ParquetType type = ParquetType::real;
+    ParquetType type = ParquetType::number;
 };
 
 class ParquetWriter {
   public:
-    using Sink = std::function<void(std::string_view bytes)>;  // what goes into the file, in its order
+    using Sink = std::function<void(std::string_view bytes)>;  // receives the bytes of the file in order
 
     ParquetWriter(std::vector<ParquetColumn> columns, Sink sink);
 
-    // NULL may stand anywhere, and whole numbers in real columns. A value of another type is a
+    // NULL may stand anywhere, and integers in columns of numbers. A value of another type is a
     // std::invalid_argument that names its column.
     void add(std::vector<storage::QueryValue> row);
 
-    void finish();  // without it there is no file
+    void finish();  // without it the file is incomplete
 
   private:
     struct Chunk {
@@ -48,7 +48,7 @@ class ParquetWriter {
 
     std::vector<ParquetColumn> columns_;
     Sink sink_;
-    std::vector<std::vector<storage::QueryValue>> rows_;  // of the group under way
+    std::vector<std::vector<storage::QueryValue>> rows_;  // of the current group
     std::vector<Group> groups_;
     std::size_t written_rows_ = 0;
     std::size_t written_bytes_ = 0;

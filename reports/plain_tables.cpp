@@ -7,28 +7,33 @@
 namespace capstan::reports {
 namespace {
 
-// RFC 4180: quotes around text that holds a comma, a quote or a line break.
-std::string csv_field(const Value& value) {
-    const auto* text = std::get_if<std::string>(&value);
-    if (text == nullptr) {
-        const nlohmann::json json = to_json(value);
-        return json.is_null() ? "" : json.dump();
+struct CsvField {
+    std::string operator()(std::monostate) const { return ""; }
+    std::string operator()(std::int64_t value) const { return std::to_string(value); }
+    std::string operator()(double value) const { return fmt::format("{}", value); }
+    std::string operator()(const std::string& text) const {
+        if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+        std::string quoted = "\"";
+        for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+        return quoted + '"';
     }
-    if (text->find_first_of(",\"\r\n") == std::string::npos) return *text;
-    std::string quoted = "\"";
-    for (const char letter : *text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-    return quoted + '"';
-}
+};
 
 }  // namespace
 
-std::string table_csv(const Table& table) {
-    std::string text = fmt::format("{}\r\n", fmt::join(table.columns, ","));
-    for (const auto& row : table.rows) {
-        std::vector<std::string> fields;
-        for (const Value& value : row) fields.push_back(csv_field(value));
-        text += fmt::format("{}\r\n", fmt::join(fields, ","));
-    }
+std::string csv_head(const std::vector<std::string>& columns) {
+    return csv_line({columns.begin(), columns.end()});
+}
+
+std::string csv_line(const std::vector<Value>& row) {
+    std::string text;
+    for (std::size_t k = 0; k < row.size(); ++k) text += (k == 0 ? "" : ",") + std::visit(CsvField{}, row[k]);
+    return text + "\n";
+}
+
+std::string csv_text(const std::vector<std::string>& columns, const std::vector<std::vector<Value>>& rows) {
+    std::string text = csv_head(columns);
+    for (const auto& row : rows) text += csv_line(row);
     return text;
 }
 

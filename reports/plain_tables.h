@@ -9,7 +9,12 @@
 
 namespace capstan::reports {
 
-std::string table_csv(const Table& table);  // RFC 4180 with a head line, in full precision
+// CSV as RFC 4180 has it, with one exception: lines end in \n, as other programs of this system write and
+// expect them. The first line names the columns. Numbers are in full precision, and what is missing is an
+// empty field.
+std::string csv_head(const std::vector<std::string>& columns);
+std::string csv_line(const std::vector<Value>& row);
+std::string csv_text(const std::vector<std::string>& columns, const std::vector<std::vector<Value>>& rows);
 
 // {"table": [{"column": value, ...}, ...], ...}
 std::string tables_json(const std::vector<Table>& tables);
@@ -17,7 +22,7 @@ std::string tables_json(const std::vector<Table>& tables);
 // A heading and the rows below it.
 std::string markdown_of(const NumberTable& numbers);
 
-// A study's words must not become a table's border or a tag.
+// So that no text of a study acts as the border of a table or as a tag.
 std::string escape_markdown(const std::string& text);
 
 }  // namespace capstan::reports

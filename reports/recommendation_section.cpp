@@ -29,7 +29,7 @@ std::string alternatives(const StudyTables& tables, std::int64_t recommendation_
     std::string rows;
     int count = 0;
     for (const Row& row : tables["recommendation_alternative"].each()) {
-        if (row.whole("recommendation_id") != recommendation_id) continue;
+        if (row.integer("recommendation_id") != recommendation_id) continue;
         ++count;
         rows += fmt::format(
             "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td "
@@ -57,7 +57,7 @@ const Figure* chart_of_counts() {
 }
 
 std::string card(const StudyTables& tables, const Row& row, const std::vector<double>& positions_m) {
-    const std::int64_t id = row.whole("recommendation_id");
+    const std::int64_t id = row.integer("recommendation_id");
     const Figure* chart = chart_of_counts();
     return fmt::format(
         R"(<article class="advice" data-noise="{noise_id}" aria-labelledby="advice-{id}">
@@ -75,7 +75,7 @@ std::string card(const StudyTables& tables, const Row& row, const std::vector<do
 <div class="advice-chart">{chart}</div>
 </article>
 )",
-        fmt::arg("noise_id", row.whole("noise_level_id")), fmt::arg("id", id),
+        fmt::arg("noise_id", row.integer("noise_level_id")), fmt::arg("id", id),
         fmt::arg("title", escape_html(recommendation_title(row))),
         fmt::arg("noise", escape_html(row.text("noise"))),
         fmt::arg("sentence", escape_html(row.text("sentence"))),
@@ -83,7 +83,7 @@ std::string card(const StudyTables& tables, const Row& row, const std::vector<do
         fmt::arg("objective", escape_html(objective_title(row))),
         fmt::arg("error", newtons(row.number("error_N"))),
         fmt::arg("interval", newtons_between(row.number("interval_low_N"), row.number("interval_high_N"))),
-        fmt::arg("count", row.whole("sensor_count")),
+        fmt::arg("count", row.integer("sensor_count")),
         fmt::arg("method", escape_html(row.text("method_title"))),
         fmt::arg("nodes", nodes_in_words(row, positions_m)),
         fmt::arg("alternatives", alternatives(tables, id)),

@@ -1,9 +1,9 @@
 #pragma once
-// What to do: a card per recommendation, with the cable, the numbers and the choices that do as well.
+// One card per recommendation, with the cable, the numbers and the layouts that perform equally well.
 
 #include <string>
 
-#include "capstan/reports/study_tables.h"
+#include "capstan/reports/table.h"
 
 namespace capstan::reports {
 

@@ -4,19 +4,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
 
 #include "capstan/reports/experiment_page.h"
 #include "capstan/reports/html_text.h"
 #include "capstan/reports/plain_tables.h"
-#include "capstan/reports/setting_difference.h"
 #include "capstan/reports/table.h"
-#include "capstan/storage/comparison_queries.h"
+#include "capstan/storage/report_queries.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::reports {
 namespace {
 
-constexpr storage::QueryLimits patient{.time_limit_s = 300};  // as a report's own
+struct SettingDifference {
+    std::string key;  // 'transmission.segments', 'noise[2].label'
+    std::string first;
+    std::string second;  // '': not there
+};
+
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+}
+
+std::map<std::string, std::string> settings_of(const std::string& toml) {
+    std::map<std::string, std::string> settings;
+    std::map<std::string, int> rows;
+    std::istringstream lines(toml);
+    std::string line, section;
+    while (std::getline(lines, line)) {
+        line = trimmed(line);
+        if (line.empty() || line.front() == '#') continue;
+        if (line.starts_with("[[")) {
+            const std::string name = line.substr(2, line.find("]]") - 2);
+            section = name + "[" + std::to_string(++rows[name]) + "].";
+        } else if (line.front() == '[') {
+            section = line.substr(1, line.find(']') - 1) + ".";
+        } else if (const auto equals = line.find('='); equals != std::string::npos) {
+            settings[section + trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+        }
+    }
+    return settings;
+}
+
+// Of two configurations with every key written out on a line of its own, as studies store them.
+std::vector<SettingDifference> setting_differences(const std::string& first_toml,
+                                                   const std::string& second_toml) {
+    auto first = settings_of(first_toml);
+    auto second = settings_of(second_toml);
+    std::set<std::string> keys;
+    for (const auto& [key, value] : first) keys.insert(key);
+    for (const auto& [key, value] : second) keys.insert(key);
+    std::vector<SettingDifference> differences;
+    for (const std::string& key : keys) {
+        if (first[key] != second[key]) differences.push_back({key, first[key], second[key]});
+    }
+    return differences;
+}
+
+constexpr storage::QueryLimits patient{.time_limit_s = 300};  // the limit of a report
 
 struct Comparison {
     storage::StudyRecord first;
@@ -57,7 +105,7 @@ std::string title_of(const storage::StudyRecord& study) {
     return fmt::format("study {} ({})", study.study_id, study.name);
 }
 
-// How many of the common errors are clearly another in the second study.
+// How many of the common errors differ significantly in the second study.
 std::string verdict(const Comparison& comparison) {
     int smaller = 0, larger = 0;
     const auto rows = comparison["compared_error"].each();
@@ -109,7 +157,7 @@ std::vector<std::vector<std::string>> largest_rows(const Comparison& comparison)
         const Row& row = rows[order[k]];
         lines.push_back(
             {fmt::format("{}, {}, {}, {} sensors, {}", regime_title(row.text("regime")), row.text("noise"),
-                         row.text("family"), row.whole("sensor_count"), row.text("method_title")),
+                         row.text("family"), row.integer("sensor_count"), row.text("method_title")),
              newtons(row.number("first_error_N")), newtons(row.number("second_error_N")),
              fmt::format("{:+.3g} N", row.number("difference_N")),
              fmt::format("{:+.3g} to {:+.3g} N", row.number("interval_low_N"),
@@ -142,7 +190,7 @@ std::string study_comparison_html(storage::Database& database, const ComparedStu
         {"settings", "How they were set", "Keys that both have alike are left out.", {numbers[0]}, ""},
         {"advice", "What to do", "", {numbers[1]}, ""},
         {"errors",
-         "What they err",
+         "Estimation error",
          "",
          {numbers[2]},
          "Intervals take the draws of the two studies for independent."}};
@@ -165,7 +213,9 @@ std::string study_comparison_json(storage::Database& database, const ComparedStu
 }
 
 std::string study_comparison_csv(storage::Database& database, const ComparedStudies& studies) {
-    return table_csv(compare(database, studies)["compared_error"]);
+    const Comparison comparison = compare(database, studies);
+    const Table& errors = comparison["compared_error"];
+    return csv_text(errors.columns, errors.rows);
 }
 
 }  // namespace capstan::reports

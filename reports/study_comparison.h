@@ -1,6 +1,6 @@
 #pragma once
-// Two studies of one database beside each other: in what their configurations differ, what each recommends,
-// and the errors of what they have in common. Reads only; an unknown study is a storage::Error.
+// Two studies of one database compared: the differences of their configurations, their recommendations, and
+// the errors of the layouts and methods that both have. Reads only; an unknown study is a storage::Error.
 
 #include <cstdint>
 #include <string>

@@ -4,7 +4,7 @@
 #include "capstan/reports/plain_tables.h"
 #include "capstan/reports/recommendation_section.h"
 #include "capstan/reports/study_report.h"
-#include "capstan/reports/study_tables.h"
+#include "capstan/reports/table.h"
 
 namespace capstan::reports {
 namespace {
@@ -18,7 +18,7 @@ std::string recommendations_markdown(const StudyTables& tables) {
     std::string sentences;
     for (const Row& row : rows) {
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", recommendation_title(row),
-                            escape_markdown(row.text("noise")), row.whole("sensor_count"),
+                            escape_markdown(row.text("noise")), row.integer("sensor_count"),
                             escape_markdown(row.text("nodes")), escape_markdown(row.text("method_title")),
                             objective_title(row), plain_number(row.number("error_N")),
                             newtons_between(row.number("interval_low_N"), row.number("interval_high_N")));
@@ -38,7 +38,7 @@ std::string errors_markdown(const StudyTables& tables) {
     for (const Row& row : rows) {
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", regime_title(row.text("regime")),
                             escape_markdown(row.text("noise")), escape_markdown(row.text("family")),
-                            row.whole("sensor_count"), escape_markdown(row.text("method_title")),
+                            row.integer("sensor_count"), escape_markdown(row.text("method_title")),
                             plain_number(row.number("mean_abs_error_N")),
                             newtons_between(row.number("interval_low_N"), row.number("interval_high_N")));
     }
@@ -72,7 +72,7 @@ std::string study_report_markdown(storage::Database& database, std::int64_t stud
                        escape_markdown(verdict(tables))) +
            recommendations_markdown(tables) + errors_markdown(tables) + paper_markdown(tables) +
            fmt::format("Made by capstan {}, seed {}, {} repetitions.\n", study.text("program_version"),
-                       static_cast<std::uint64_t>(study.whole("seed")), study.whole("repetitions"));
+                       static_cast<std::uint64_t>(study.integer("seed")), study.integer("repetitions"));
 }
 
 std::string study_report_json(storage::Database& database, std::int64_t study_id) {
@@ -82,7 +82,8 @@ std::string study_report_json(storage::Database& database, std::int64_t study_id
 
 std::string study_error_csv(storage::Database& database, std::int64_t study_id) {
     const StudyTables tables(database, study_id);
-    return table_csv(tables["error_by_layout"]);
+    const Table& errors = tables["error_by_layout"];
+    return csv_text(errors.columns, errors.rows);
 }
 
 }  // namespace capstan::reports

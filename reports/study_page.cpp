@@ -8,7 +8,7 @@
 #include "capstan/reports/page_frame.h"
 #include "capstan/reports/recommendation_section.h"
 #include "capstan/reports/study_report.h"
-#include "capstan/reports/study_tables.h"
+#include "capstan/reports/table.h"
 
 namespace capstan::reports {
 namespace {
@@ -22,7 +22,7 @@ struct Section {
 // In the order of the page, between the recommendation and how the study was made.
 constexpr Section figure_sections[] = {
     {"one-sensor", "What one sensor tells",
-     "One noisy reading and the motor's position give a whole tension profile. How good it is depends on "
+     "One noisy reading and the motor's position give the tension profile of the cable. How accurate it is depends on "
      "where the "
      "sensor sits and on whether the direction of motion is known."},
     {"fusion", "What several sensors tell",
@@ -30,7 +30,7 @@ constexpr Section figure_sections[] = {
      "their "
      "bands suggest."},
     {"doubt", "Where to be careful",
-     "How often an estimate is in doubt, and at which node the recommended sensors err most."},
+     "How often the direction of motion is uncertain, and at which node the error of the recommended layout is largest."},
 };
 
 std::string each_figure(const StudyTables& tables, const char* section) {
@@ -92,8 +92,8 @@ std::string duty_in_words(const StudyTables& tables) {
     for (const Row& regime : tables["regime"].each()) {
         words += fmt::format("{}{} {} of the working time ({} {})", words.empty() ? "" : "; ",
                              escape_html(regime_title(regime.text("regime"))),
-                             percent(regime.number("duty_fraction")), regime.whole("instants"),
-                             regime.whole("instants") == 1 ? "instant" : "instants");
+                             percent(regime.number("duty_fraction")), regime.integer("instants"),
+                             regime.integer("instants") == 1 ? "instant" : "instants");
     }
     return words;
 }
@@ -109,8 +109,8 @@ std::string making_section(const StudyTables& tables) {
 <div class="wide"><dt>Regimes</dt><dd>{}</dd></div>
 </dl>
 )",
-        escape_html(study.text("program_version")), static_cast<std::uint64_t>(study.whole("seed")),
-        study.whole("repetitions"), study.whole("segments"), study.whole("segments") + 1,
+        escape_html(study.text("program_version")), static_cast<std::uint64_t>(study.integer("seed")),
+        study.integer("repetitions"), study.integer("segments"), study.integer("segments") + 1,
         duty_in_words(tables));
     html += method_list(tables);
     html +=
@@ -133,7 +133,7 @@ std::string noise_selector(const StudyTables& tables) {
     for (const Row& level : levels) {
         html += fmt::format(
             "<label><input type=\"radio\" name=\"noise\" value=\"{}\"{}><span>{}</span></label>\n",
-            level.whole("noise_level_id"), first ? " checked" : "", escape_html(level.text("label")));
+            level.integer("noise_level_id"), first ? " checked" : "", escape_html(level.text("label")));
         first = false;
     }
     return html + "</fieldset>\n";
@@ -165,7 +165,7 @@ std::string study_html(storage::Database& database, std::int64_t study_id, PageF
     frame.navigation_html = navigation(main_html, tables);
     frame.main_html = std::move(main_html);
     frame.footer = fmt::format("Made by capstan {} from study {}.", study.text("program_version"),
-                               study.whole("study_id"));
+                               study.integer("study_id"));
     frame.data_json = page_data(tables, "study");
     return page_html(frame, files);
 }

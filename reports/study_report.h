@@ -1,5 +1,5 @@
 #pragma once
-// A study as its readers get it. Every function only reads; the database must have been opened with
+// The report of a study in every format. Every function only reads; the database must have been opened with
 // storage::Database::open_read_only. An unknown study is a storage::Error.
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace capstan::reports {
 // One page that needs no network: recommendation first, then the figures and tables it rests on.
 std::string study_report_html(storage::Database& database, std::int64_t study_id);
 
-// The same for a page that `capstan serve` sends: style and scripts beside it, and the live ones with them.
+// The same for a page that `capstan serve` sends: style and scripts are separate files, and live.js is added.
 std::string study_live_html(storage::Database& database, std::int64_t study_id);
 
 // Facts, recommendations, best errors and the comparison with the paper, as tables.

@@ -4,15 +4,26 @@
 #include <stdexcept>
 
 #include "capstan/storage/error.h"
+#include "capstan/storage/report_queries.h"
 
 namespace capstan::reports {
 
 namespace {
 
-// No program writes it there, and the schema's types would not let it; but a disk may hold anything.
+// The types of the schema exclude such a value, so the file has been damaged.
 [[noreturn]] void refuse(std::string_view column, const char* wanted) {
     throw storage::Error("Column '" + std::string(column) + "' does not hold " + wanted +
                          ": the database is damaged. `capstan doctor` examines it; go back to a copy.");
+}
+
+std::vector<Table> read_tables(storage::Database& database, std::int64_t study_id) {
+    std::vector<Table> tables;
+    for (const storage::ReportQuery& query : storage::report_queries()) {
+        storage::QueryResult result = storage::read_report_table(database, query, study_id);
+        tables.push_back({std::string(query.table), std::string(query.meaning), std::move(result.columns),
+                          std::move(result.rows)});
+    }
+    return tables;
 }
 
 }  // namespace
@@ -33,14 +44,14 @@ std::string Row::text(std::string_view column) const {
 
 double Row::number(std::string_view column) const {
     const Value& value = at(column);
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
     if (const auto* number = std::get_if<double>(&value)) return *number;
     refuse(column, "a number");
 }
 
-std::int64_t Row::whole(std::string_view column) const {
-    if (const auto* whole = std::get_if<std::int64_t>(&at(column))) return *whole;
-    refuse(column, "a whole number");
+std::int64_t Row::integer(std::string_view column) const {
+    if (const auto* integer = std::get_if<std::int64_t>(&at(column))) return *integer;
+    refuse(column, "an integer");
 }
 
 std::optional<double> Row::maybe_number(std::string_view column) const {
@@ -71,10 +82,19 @@ const Table& Tables::operator[](std::string_view name) const {
 }
 
 nlohmann::json to_json(const Value& value) {
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
     if (const auto* number = std::get_if<double>(&value)) return *number;
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     return nullptr;
+}
+
+StudyTables::StudyTables(storage::Database& database, std::int64_t study_id)
+    : Tables(read_tables(database, study_id)) {
+    if ((*this)["study"].empty()) {
+        throw storage::Error("There is no study " + std::to_string(study_id) + " in " +
+                             database.path().string() +
+                             ", so there is nothing to report. `capstan study list` shows the studies.");
+    }
 }
 
 }  // namespace capstan::reports

@@ -8,13 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "capstan/storage/database.h"
 #include "capstan/storage/read_only_query.h"
 
 namespace capstan::reports {
 
 using Value = storage::QueryValue;
 
-// One row, read by column name. A number that is none is a storage::Error: the file is damaged.
+// One row, read by column name. A value that is not of the expected type is a storage::Error: the file is
+// damaged.
 class Row {
   public:
     Row(const std::vector<std::string>& columns, const std::vector<Value>& values)
@@ -23,7 +25,7 @@ class Row {
     const Value& at(std::string_view column) const;
     std::string text(std::string_view column) const;
     double number(std::string_view column) const;
-    std::int64_t whole(std::string_view column) const;
+    std::int64_t integer(std::string_view column) const;
     std::optional<double> maybe_number(std::string_view column) const;
 
   private:
@@ -57,5 +59,13 @@ class Tables {
 
 // The same value wherever it is shown, in full precision: numbers read back to the same bits.
 nlohmann::json to_json(const Value& value);
+
+// All tables of one study, read at once.
+class StudyTables : public Tables {
+  public:
+    StudyTables(storage::Database& database, std::int64_t study_id);
+
+    Row study() const { return (*this)["study"].each().front(); }
+};
 
 }  // namespace capstan::reports

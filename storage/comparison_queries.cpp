@@ -1,4 +1,4 @@
-#include "capstan/storage/comparison_queries.h"
+#include "capstan/storage/report_queries.h"
 
 namespace capstan::storage {
 

@@ -149,7 +149,7 @@ Database Database::open_read_only(const std::filesystem::path& path) {
     Database database(path, path.string(), SQLITE_OPEN_READONLY);
     if (!can_be_read(database)) {
         // A log needs its -shm file beside the database, which a read-only disk does not let us make. Without
-        // a log the database alone is the whole truth: open it as immutable, that is, trust that nobody
+        // a log the database alone is complete: open it as immutable, that is, trust that nobody
         // starts to write while we read. A log that holds something is never passed over.
         if (sqlite3_errcode(database.connection()) == SQLITE_CORRUPT ||
             sqlite3_errcode(database.connection()) == SQLITE_BUSY || holds_bytes(path.string() + "-wal") ||
@@ -175,6 +175,14 @@ void Database::execute(const std::string& sql, const char* doing) {
     if (sqlite3_exec(connection(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
         throw_sqlite_error(connection(), doing);
     }
+}
+
+void fold_write_ahead_log(Database& database) {
+    constexpr const char* doing = "take the log into the file";
+    Statement statement(database, "PRAGMA wal_checkpoint(TRUNCATE)");
+    statement.step(doing);
+    if (statement.get<int>(0) != 0)
+        throw Error(std::string("Cannot ") + doing + ": another program reads it.");
 }
 
 }  // namespace capstan::storage

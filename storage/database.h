@@ -10,7 +10,7 @@
 
 namespace capstan::storage {
 
-// How a file is kept whole while it is written.
+// How a file stays consistent while it is written.
 enum class Journal {
     write_ahead,  // readers never wait; only for programs on one machine
     rollback,  // for a shared disk, where programs on several machines may open the file, one after the other
@@ -48,5 +48,10 @@ class Database {
     std::filesystem::path path_;
     std::unique_ptr<sqlite3, Closer> connection_;
 };
+
+// Takes everything into the file itself and empties its log; an Error if that cannot be done. For a file that
+// is about to get another name: a log stays under the old one, and what SQLite cannot write when a file is
+// closed it keeps quiet about.
+void fold_write_ahead_log(Database& database);
 
 }  // namespace capstan::storage

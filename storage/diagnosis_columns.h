@@ -1,5 +1,5 @@
 #pragma once
-// Which fields of a diagnosis are which columns; see record_columns.h.
+// The columns of the records of a diagnosis; see record_columns.h.
 
 #include "capstan/storage/diagnosis_records.h"
 #include "capstan/storage/record_columns.h"
@@ -7,70 +7,84 @@
 namespace capstan::storage {
 
 template <>
-struct Columns<DiagnosisRecord> {
-    static constexpr std::string_view names =
-        "recording, log_file, log_sha256, program_version, runs, verdict, confidence_fraction, component, "
-        "cable_end, position_m, worst_run, worst_channel, friction_ratio, stiffness_ratio, pretension_ratio, "
-        "misfit_before_ratio, misfit_after_ratio, independent_samples_count, sentence, gap_sentence";
-    static auto fields(auto& row) {
-        return std::tie(row.recording, row.log_file, row.log_sha256, row.program_version, row.runs,
-                        row.verdict, row.confidence_fraction, row.component, row.cable_end, row.position_m,
-                        row.worst_run, row.worst_channel, row.friction_ratio, row.stiffness_ratio,
-                        row.pretension_ratio, row.misfit_before_ratio, row.misfit_after_ratio,
-                        row.independent_samples_count, row.sentence, row.gap_sentence);
-    }
+inline constexpr auto columns<DiagnosisRecord> = std::tuple{
+    Column{"recording", &DiagnosisRecord::recording},
+    Column{"log_file", &DiagnosisRecord::log_file},
+    Column{"log_sha256", &DiagnosisRecord::log_sha256},
+    Column{"program_version", &DiagnosisRecord::program_version},
+    Column{"runs", &DiagnosisRecord::runs},
+    Column{"verdict", &DiagnosisRecord::verdict},
+    Column{"confidence_fraction", &DiagnosisRecord::confidence_fraction},
+    Column{"component", &DiagnosisRecord::component},
+    Column{"cable_end", &DiagnosisRecord::cable_end},
+    Column{"position_m", &DiagnosisRecord::position_m},
+    Column{"worst_run", &DiagnosisRecord::worst_run},
+    Column{"worst_channel", &DiagnosisRecord::worst_channel},
+    Column{"friction_ratio", &DiagnosisRecord::friction_ratio},
+    Column{"stiffness_ratio", &DiagnosisRecord::stiffness_ratio},
+    Column{"pretension_ratio", &DiagnosisRecord::pretension_ratio},
+    Column{"misfit_before_ratio", &DiagnosisRecord::misfit_before_ratio},
+    Column{"misfit_after_ratio", &DiagnosisRecord::misfit_after_ratio},
+    Column{"independent_samples_count", &DiagnosisRecord::independent_samples_count},
+    Column{"sentence", &DiagnosisRecord::sentence},
+    Column{"gap_sentence", &DiagnosisRecord::gap_sentence},
 };
 
 template <>
-struct Columns<DiagnosisEffectRecord> {
-    static constexpr std::string_view names = "effect, probability_fraction";
-    static auto fields(auto& row) { return std::tie(row.effect, row.probability_fraction); }
+inline constexpr auto columns<DiagnosisEffectRecord> = std::tuple{
+    Column{"effect", &DiagnosisEffectRecord::effect},
+    Column{"probability_fraction", &DiagnosisEffectRecord::probability_fraction},
 };
 
 template <>
-struct Columns<DiagnosisCauseRecord> {
-    static constexpr std::string_view names = "effect, variant, component, cable_end, position_m";
-    static auto fields(auto& row) {
-        return std::tie(row.effect, row.variant, row.component, row.cable_end, row.position_m);
-    }
+inline constexpr auto columns<DiagnosisCauseRecord> = std::tuple{
+    Column{"effect", &DiagnosisCauseRecord::effect},
+    Column{"variant", &DiagnosisCauseRecord::variant},
+    Column{"component", &DiagnosisCauseRecord::component},
+    Column{"cable_end", &DiagnosisCauseRecord::cable_end},
+    Column{"position_m", &DiagnosisCauseRecord::position_m},
 };
 
 template <>
-struct Columns<DiagnosisNumberRecord> {
-    static constexpr std::string_view names = "name, value_in_unit, unit";
-    static auto fields(auto& row) { return std::tie(row.name, row.value_in_unit, row.unit); }
+inline constexpr auto columns<DiagnosisNumberRecord> = std::tuple{
+    Column{"name", &DiagnosisNumberRecord::name},
+    Column{"value_in_unit", &DiagnosisNumberRecord::value_in_unit},
+    Column{"unit", &DiagnosisNumberRecord::unit},
 };
 
 template <>
-struct Columns<DiagnosisCandidateRecord> {
-    static constexpr std::string_view names =
-        "effects, variants, open_numbers, misfit_ratio, nominal_penalty_log, visibility_ratios, evidence_log";
-    static auto fields(auto& row) {
-        return std::tie(row.effects, row.variants, row.open_numbers, row.misfit_ratio,
-                        row.nominal_penalty_log, row.visibility_ratios, row.evidence_log);
-    }
+inline constexpr auto columns<DiagnosisCandidateRecord> = std::tuple{
+    Column{"effects", &DiagnosisCandidateRecord::effects},
+    Column{"variants", &DiagnosisCandidateRecord::variants},
+    Column{"open_numbers", &DiagnosisCandidateRecord::open_numbers},
+    Column{"misfit_ratio", &DiagnosisCandidateRecord::misfit_ratio},
+    Column{"nominal_penalty_log", &DiagnosisCandidateRecord::nominal_penalty_log},
+    Column{"visibility_ratios", &DiagnosisCandidateRecord::visibility_ratios},
+    Column{"evidence_log", &DiagnosisCandidateRecord::evidence_log},
 };
 
 template <>
-struct Columns<DiagnosisChannelRecord> {
-    static constexpr std::string_view names =
-        "channel, unit, noise_in_unit, rms_before_in_unit, rms_after_in_unit, rms_held_out_in_unit, "
-        "rms_runner_up_in_unit, closed_fraction, closed_low_fraction, closed_high_fraction";
-    static auto fields(auto& row) {
-        return std::tie(row.channel, row.unit, row.noise_in_unit, row.rms_before_in_unit,
-                        row.rms_after_in_unit, row.rms_held_out_in_unit, row.rms_runner_up_in_unit,
-                        row.closed_fraction, row.closed_low_fraction, row.closed_high_fraction);
-    }
+inline constexpr auto columns<DiagnosisChannelRecord> = std::tuple{
+    Column{"channel", &DiagnosisChannelRecord::channel},
+    Column{"unit", &DiagnosisChannelRecord::unit},
+    Column{"noise_in_unit", &DiagnosisChannelRecord::noise_in_unit},
+    Column{"rms_before_in_unit", &DiagnosisChannelRecord::rms_before_in_unit},
+    Column{"rms_after_in_unit", &DiagnosisChannelRecord::rms_after_in_unit},
+    Column{"rms_held_out_in_unit", &DiagnosisChannelRecord::rms_held_out_in_unit},
+    Column{"rms_runner_up_in_unit", &DiagnosisChannelRecord::rms_runner_up_in_unit},
+    Column{"closed_fraction", &DiagnosisChannelRecord::closed_fraction},
+    Column{"closed_low_fraction", &DiagnosisChannelRecord::closed_low_fraction},
+    Column{"closed_high_fraction", &DiagnosisChannelRecord::closed_high_fraction},
 };
 
 template <>
-struct Columns<DiagnosisGapRecord> {
-    static constexpr std::string_view names =
-        "divided_by, part, energy_fraction, low_fraction, high_fraction, samples_fraction";
-    static auto fields(auto& row) {
-        return std::tie(row.divided_by, row.part, row.energy_fraction, row.low_fraction, row.high_fraction,
-                        row.samples_fraction);
-    }
+inline constexpr auto columns<DiagnosisGapRecord> = std::tuple{
+    Column{"divided_by", &DiagnosisGapRecord::divided_by},
+    Column{"part", &DiagnosisGapRecord::part},
+    Column{"energy_fraction", &DiagnosisGapRecord::energy_fraction},
+    Column{"low_fraction", &DiagnosisGapRecord::low_fraction},
+    Column{"high_fraction", &DiagnosisGapRecord::high_fraction},
+    Column{"samples_fraction", &DiagnosisGapRecord::samples_fraction},
 };
 
 }  // namespace capstan::storage

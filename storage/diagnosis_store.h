@@ -28,7 +28,7 @@ std::vector<DiagnosisSummary> list_diagnoses(Database& database);  // oldest fir
 // All of them with everything that belongs to them, oldest first.
 std::vector<DiagnosisRecord> load_diagnoses(Database& database);
 
-// One of them; an Error when there is none of that number.
+// One diagnosis. An Error if its number does not exist.
 DiagnosisRecord load_diagnosis(Database& database, std::int64_t diagnosis_id);
 
 }  // namespace capstan::storage

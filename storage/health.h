@@ -1,5 +1,5 @@
 #pragma once
-// Whether a results file is whole, and what it holds.
+// The integrity check of a results file, and what the file holds.
 
 #include <filesystem>
 #include <string>
@@ -10,7 +10,7 @@
 namespace capstan::storage {
 
 struct Health {
-    std::vector<std::string> problems;  // in words; none: the file is whole
+    std::vector<std::string> problems;  // in words; none: the file is intact
     int studies = 0;
     int running_studies = 0;  // begun and not complete
     int diagnoses = 0;

@@ -1,9 +1,8 @@
 #include "capstan/storage/migration.h"
 
+#include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/file_identity.h"
-#include "capstan/storage/migration_to_3.h"
-#include "capstan/storage/migration_to_4.h"
 #include "capstan/storage/statement.h"
 #include "capstan/storage/transaction.h"
 
@@ -16,7 +15,7 @@ int version_of(Database& database) {
     return statement.get<int>(0);
 }
 
-// Written under another name first: a copy that carries the final name is whole.
+// Written under another name first: a copy that carries the final name is complete and on the disk.
 void leave_copy(Database& database, int version) {
     const std::string copy = database.path().string() + ".version" + std::to_string(version);
     const std::string unfinished = copy + ".unfinished";
@@ -24,7 +23,7 @@ void leave_copy(Database& database, int version) {
     Statement statement(database, "VACUUM INTO ?1");
     statement.bind(1, unfinished);
     statement.run("copy the file before its migration");
-    std::filesystem::rename(unfinished, copy);
+    rename_durably(unfinished, copy);
 }
 
 const Migration& step_from(std::span<const Migration> steps, int version, const Database& database) {
@@ -35,7 +34,7 @@ const Migration& step_from(std::span<const Migration> steps, int version, const 
                 ", from which this program knows no way to its own. Use the capstan that wrote it.");
 }
 
-void require_whole_references(Database& database) {
+void require_intact_references(Database& database) {
     Statement statement(database, "PRAGMA foreign_key_check");
     if (statement.step()) {
         throw Error(database.path().string() + " was not migrated: a row of table " +
@@ -46,15 +45,7 @@ void require_whole_references(Database& database) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-    static const Migration steps[] = {
-        // 2: files of shards say which one they are.
-        {1,
-         "CREATE TABLE shard (shard INTEGER PRIMARY KEY CHECK (shard > 0), "
-         "shards INTEGER NOT NULL CHECK (shards >= shard)) STRICT;"},
-        {2, migration_to_3},
-        {3, migration_to_4},
-    };
-    return steps;
+    return {};  // version 1 is the first; {1, "ALTER TABLE ..."} will lead to version 2
 }
 
 void migrate(Database& database, std::span<const Migration> steps, int target_version) {
@@ -70,7 +61,7 @@ void migrate(Database& database, std::span<const Migration> steps, int target_ve
             database.execute(step_from(steps, version, database).sql, "migrate the tables");
         }
         database.execute("PRAGMA user_version = " + std::to_string(target_version), "migrate the tables");
-        require_whole_references(database);
+        require_intact_references(database);
         transaction.commit();
     }
     database.execute("PRAGMA foreign_keys = ON", "end the migration");

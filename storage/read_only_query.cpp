@@ -4,7 +4,6 @@
 
 #include "capstan/storage/error.h"
 #include "capstan/storage/query_guard.h"
-#include "capstan/storage/visited_rows.h"
 
 namespace capstan::storage {
 namespace {
@@ -61,8 +60,8 @@ bool only_blanks_follow(sqlite3* connection, const char* tail, const char* end) 
 }
 
 void bind(sqlite3_stmt* statement, int position, const QueryValue& value) {
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) {
-        sqlite3_bind_int64(statement, position, *whole);
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        sqlite3_bind_int64(statement, position, *integer);
     } else if (const auto* real = std::get_if<double>(&value)) {
         sqlite3_bind_double(statement, position, *real);
     } else if (const auto* text = std::get_if<std::string>(&value)) {

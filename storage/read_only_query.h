@@ -2,6 +2,7 @@
 // The query box: anyone's SQL, which may read everything and change nothing.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,5 +38,15 @@ struct QueryResult {
 // A blob comes out as a text of its bytes; no table of ours has one.
 QueryResult run_read_only(Database& database, std::string_view sql,
                           const std::vector<QueryValue>& parameters = {}, const QueryLimits& limits = {});
+
+// For an answer that is larger than memory: its rows one by one.
+struct RowVisitor {
+    std::function<void(const std::vector<std::string>& columns)> begin;
+    std::function<bool(std::vector<QueryValue>& row)> visit;  // false: that is enough
+};
+
+// As run_read_only, without keeping the rows.
+void visit_read_only(Database& database, std::string_view sql, const RowVisitor& visitor,
+                     const std::vector<QueryValue>& parameters = {}, double time_limit_s = 10);
 
 }  // namespace capstan::storage

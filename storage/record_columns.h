@@ -1,6 +1,7 @@
 #pragma once
-// Which fields of a record are which columns: the one list that both writing and reading follow.
-// Keys and references are missing here; a record holds them as positions or not at all.
+// The columns of each record, one row per column: its name in SQL and the member that holds its value.
+// Writing and reading both follow this list. Keys and references are not in it; a record holds them as
+// positions or not at all.
 
 #include <string_view>
 #include <tuple>
@@ -9,164 +10,184 @@
 
 namespace capstan::storage {
 
-// names: as SQL wants them. fields(record): the same, in the same order, as references.
+template <class Record, class Value>
+struct Column {
+    std::string_view name;
+    Value Record::*member;
+};
+template <class Record, class Value>
+Column(const char*, Value Record::*) -> Column<Record, Value>;
+
 template <class Record>
-struct Columns;
+inline constexpr auto columns = nullptr;
 
 template <>
-struct Columns<StudyRecord> {
-    static constexpr std::string_view names =
-        "name, config_toml, program_version, seed, repetitions, segments, status";
-    static auto fields(auto& row) {
-        return std::tie(row.name, row.config_toml, row.program_version, row.seed, row.repetitions,
-                        row.segments, row.status);
-    }
+inline constexpr auto columns<StudyRecord> = std::tuple{
+    Column{"name", &StudyRecord::name},
+    Column{"config_toml", &StudyRecord::config_toml},
+    Column{"program_version", &StudyRecord::program_version},
+    Column{"seed", &StudyRecord::seed},
+    Column{"repetitions", &StudyRecord::repetitions},
+    Column{"segments", &StudyRecord::segments},
+    Column{"status", &StudyRecord::status},
 };
 
 template <>
-struct Columns<CableSegmentRecord> {
-    static constexpr std::string_view names = "segment, start_m, length_m, bend_radius_m, wrap_angle_rad";
-    static auto fields(auto& row) {
-        return std::tie(row.segment, row.start_m, row.length_m, row.bend_radius_m, row.wrap_angle_rad);
-    }
+inline constexpr auto columns<CableSegmentRecord> = std::tuple{
+    Column{"segment", &CableSegmentRecord::segment},
+    Column{"start_m", &CableSegmentRecord::start_m},
+    Column{"length_m", &CableSegmentRecord::length_m},
+    Column{"bend_radius_m", &CableSegmentRecord::bend_radius_m},
+    Column{"wrap_angle_rad", &CableSegmentRecord::wrap_angle_rad},
 };
 
 template <>
-struct Columns<RegimeRecord> {
-    static constexpr std::string_view names = "regime, duty_fraction";
-    static auto fields(auto& row) { return std::tie(row.regime, row.duty_fraction); }
+inline constexpr auto columns<RegimeRecord> = std::tuple{
+    Column{"regime", &RegimeRecord::regime},
+    Column{"duty_fraction", &RegimeRecord::duty_fraction},
 };
 
 template <>
-struct Columns<ScenarioRecord> {
-    static constexpr std::string_view names =
-        "regime, sample, time_s, motion, proximal_displacement_m, proximal_increment_m";
-    static auto fields(auto& row) {
-        return std::tie(row.regime, row.sample, row.time_s, row.motion, row.proximal_displacement_m,
-                        row.proximal_increment_m);
-    }
+inline constexpr auto columns<ScenarioRecord> = std::tuple{
+    Column{"regime", &ScenarioRecord::regime},
+    Column{"sample", &ScenarioRecord::sample},
+    Column{"time_s", &ScenarioRecord::time_s},
+    Column{"motion", &ScenarioRecord::motion},
+    Column{"proximal_displacement_m", &ScenarioRecord::proximal_displacement_m},
+    Column{"proximal_increment_m", &ScenarioRecord::proximal_increment_m},
 };
 
 template <>
-struct Columns<ScenarioNodeRecord> {
-    static constexpr std::string_view names =
-        "node, arc_length_m, true_tension_N, true_displacement_m, previous_tension_N, "
-        "previous_displacement_m, direction";
-    static auto fields(auto& row) {
-        return std::tie(row.node, row.arc_length_m, row.true_tension_N, row.true_displacement_m,
-                        row.previous_tension_N, row.previous_displacement_m, row.direction);
-    }
+inline constexpr auto columns<ScenarioNodeRecord> = std::tuple{
+    Column{"node", &ScenarioNodeRecord::node},
+    Column{"arc_length_m", &ScenarioNodeRecord::arc_length_m},
+    Column{"true_tension_N", &ScenarioNodeRecord::true_tension_N},
+    Column{"true_displacement_m", &ScenarioNodeRecord::true_displacement_m},
+    Column{"previous_tension_N", &ScenarioNodeRecord::previous_tension_N},
+    Column{"previous_displacement_m", &ScenarioNodeRecord::previous_displacement_m},
+    Column{"direction", &ScenarioNodeRecord::direction},
 };
 
 template <>
-struct Columns<NoiseLevelRecord> {
-    static constexpr std::string_view names =
-        "label, multiplicative_ratio, additive_N, bias_N, quantisation_N, range_N";
-    static auto fields(auto& row) {
-        return std::tie(row.label, row.multiplicative_ratio, row.additive_N, row.bias_N, row.quantisation_N,
-                        row.range_N);
-    }
+inline constexpr auto columns<NoiseLevelRecord> = std::tuple{
+    Column{"label", &NoiseLevelRecord::label},
+    Column{"multiplicative_ratio", &NoiseLevelRecord::multiplicative_ratio},
+    Column{"additive_N", &NoiseLevelRecord::additive_N},
+    Column{"bias_N", &NoiseLevelRecord::bias_N},
+    Column{"quantisation_N", &NoiseLevelRecord::quantisation_N},
+    Column{"range_N", &NoiseLevelRecord::range_N},
 };
 
 template <>
-struct Columns<FusionMethodRecord> {
-    static constexpr std::string_view names = "method, title, knowledge, meaning";
-    static auto fields(auto& row) { return std::tie(row.method, row.title, row.knowledge, row.meaning); }
+inline constexpr auto columns<FusionMethodRecord> = std::tuple{
+    Column{"method", &FusionMethodRecord::method},
+    Column{"title", &FusionMethodRecord::title},
+    Column{"knowledge", &FusionMethodRecord::knowledge},
+    Column{"meaning", &FusionMethodRecord::meaning},
 };
 
 template <>
-struct Columns<LayoutRecord> {
-    static constexpr std::string_view names = "family, start, sensor_count, label";
-    static auto fields(auto& row) { return std::tie(row.family, row.start, row.sensor_count, row.label); }
+inline constexpr auto columns<LayoutRecord> = std::tuple{
+    Column{"family", &LayoutRecord::family},
+    Column{"start", &LayoutRecord::start},
+    Column{"sensor_count", &LayoutRecord::sensor_count},
+    Column{"label", &LayoutRecord::label},
 };
 
 template <>
-struct Columns<SingleSensorRecord> {
-    static constexpr std::string_view names =
-        "knowledge, sensor_node, mean_abs_error_N, standard_error_N, unverified_fraction, "
-        "ambiguous_fraction, at_rest_fraction";
-    static auto fields(auto& row) {
-        return std::tie(row.knowledge, row.sensor_node, row.mean_abs_error_N, row.standard_error_N,
-                        row.unverified_fraction, row.ambiguous_fraction, row.at_rest_fraction);
-    }
+inline constexpr auto columns<SingleSensorRecord> = std::tuple{
+    Column{"knowledge", &SingleSensorRecord::knowledge},
+    Column{"sensor_node", &SingleSensorRecord::sensor_node},
+    Column{"mean_abs_error_N", &SingleSensorRecord::mean_abs_error_N},
+    Column{"standard_error_N", &SingleSensorRecord::standard_error_N},
+    Column{"unverified_fraction", &SingleSensorRecord::unverified_fraction},
+    Column{"ambiguous_fraction", &SingleSensorRecord::ambiguous_fraction},
+    Column{"at_rest_fraction", &SingleSensorRecord::at_rest_fraction},
 };
 
 template <>
-struct Columns<SingleSensorNodeRecord> {
-    static constexpr std::string_view names =
-        "node, mean_abs_error_N, mean_tension_N, tension_q025_N, tension_q975_N";
-    static auto fields(auto& row) {
-        return std::tie(row.node, row.mean_abs_error_N, row.mean_tension_N, row.tension_q025_N,
-                        row.tension_q975_N);
-    }
+inline constexpr auto columns<SingleSensorNodeRecord> = std::tuple{
+    Column{"node", &SingleSensorNodeRecord::node},
+    Column{"mean_abs_error_N", &SingleSensorNodeRecord::mean_abs_error_N},
+    Column{"mean_tension_N", &SingleSensorNodeRecord::mean_tension_N},
+    Column{"tension_q025_N", &SingleSensorNodeRecord::tension_q025_N},
+    Column{"tension_q975_N", &SingleSensorNodeRecord::tension_q975_N},
 };
 
 template <>
-struct Columns<SensorWeightRecord> {
-    static constexpr std::string_view names = "sensor_node, weight_fraction";
-    static auto fields(auto& row) { return std::tie(row.sensor_node, row.weight_fraction); }
+inline constexpr auto columns<SensorWeightRecord> = std::tuple{
+    Column{"sensor_node", &SensorWeightRecord::sensor_node},
+    Column{"weight_fraction", &SensorWeightRecord::weight_fraction},
 };
 
 template <>
-struct Columns<KnownDirectionBoundRecord> {
-    static constexpr std::string_view names = "mean_abs_error_N";
-    static auto fields(auto& row) { return std::tie(row.mean_abs_error_N); }
+inline constexpr auto columns<KnownDirectionBoundRecord> = std::tuple{
+    Column{"mean_abs_error_N", &KnownDirectionBoundRecord::mean_abs_error_N},
 };
 
 template <>
-struct Columns<CellRecord> {
-    static constexpr std::string_view names =
-        "method, repetitions, mean_abs_error_N, standard_error_N, interval_low_N, interval_high_N, "
-        "rms_error_N, bias_N, worst_node, worst_node_error_N, error_q05_N, error_q50_N, "
-        "error_q95_N, unverified_fraction, ambiguous_fraction";
-    static auto fields(auto& row) {
-        return std::tie(row.method, row.repetitions, row.mean_abs_error_N, row.standard_error_N,
-                        row.interval_low_N, row.interval_high_N, row.rms_error_N, row.bias_N, row.worst_node,
-                        row.worst_node_error_N, row.error_q05_N, row.error_q50_N, row.error_q95_N,
-                        row.unverified_fraction, row.ambiguous_fraction);
-    }
+inline constexpr auto columns<CellRecord> = std::tuple{
+    Column{"method", &CellRecord::method},
+    Column{"repetitions", &CellRecord::repetitions},
+    Column{"mean_abs_error_N", &CellRecord::mean_abs_error_N},
+    Column{"standard_error_N", &CellRecord::standard_error_N},
+    Column{"interval_low_N", &CellRecord::interval_low_N},
+    Column{"interval_high_N", &CellRecord::interval_high_N},
+    Column{"rms_error_N", &CellRecord::rms_error_N},
+    Column{"bias_N", &CellRecord::bias_N},
+    Column{"worst_node", &CellRecord::worst_node},
+    Column{"worst_node_error_N", &CellRecord::worst_node_error_N},
+    Column{"error_q05_N", &CellRecord::error_q05_N},
+    Column{"error_q50_N", &CellRecord::error_q50_N},
+    Column{"error_q95_N", &CellRecord::error_q95_N},
+    Column{"unverified_fraction", &CellRecord::unverified_fraction},
+    Column{"ambiguous_fraction", &CellRecord::ambiguous_fraction},
 };
 
 template <>
-struct Columns<CellNodeRecord> {
-    static constexpr std::string_view names = "node, mean_abs_error_N, bias_N";
-    static auto fields(auto& row) { return std::tie(row.node, row.mean_abs_error_N, row.bias_N); }
+inline constexpr auto columns<CellNodeRecord> = std::tuple{
+    Column{"node", &CellNodeRecord::node},
+    Column{"mean_abs_error_N", &CellNodeRecord::mean_abs_error_N},
+    Column{"bias_N", &CellNodeRecord::bias_N},
 };
 
 template <>
-struct Columns<RecommendationRecord> {
-    static constexpr std::string_view names =
-        "scope, regime, method, sensor_count, error_N, interval_low_N, interval_high_N, sentence";
-    static auto fields(auto& row) {
-        return std::tie(row.scope, row.regime, row.method, row.sensor_count, row.error_N, row.interval_low_N,
-                        row.interval_high_N, row.sentence);
-    }
+inline constexpr auto columns<RecommendationRecord> = std::tuple{
+    Column{"scope", &RecommendationRecord::scope},
+    Column{"regime", &RecommendationRecord::regime},
+    Column{"method", &RecommendationRecord::method},
+    Column{"sensor_count", &RecommendationRecord::sensor_count},
+    Column{"error_N", &RecommendationRecord::error_N},
+    Column{"interval_low_N", &RecommendationRecord::interval_low_N},
+    Column{"interval_high_N", &RecommendationRecord::interval_high_N},
+    Column{"sentence", &RecommendationRecord::sentence},
 };
 
 template <>
-struct Columns<RecommendationCountRecord> {
-    static constexpr std::string_view names =
-        "sensor_count, method, error_N, interval_low_N, interval_high_N";
-    static auto fields(auto& row) {
-        return std::tie(row.sensor_count, row.method, row.error_N, row.interval_low_N, row.interval_high_N);
-    }
+inline constexpr auto columns<RecommendationCountRecord> = std::tuple{
+    Column{"sensor_count", &RecommendationCountRecord::sensor_count},
+    Column{"method", &RecommendationCountRecord::method},
+    Column{"error_N", &RecommendationCountRecord::error_N},
+    Column{"interval_low_N", &RecommendationCountRecord::interval_low_N},
+    Column{"interval_high_N", &RecommendationCountRecord::interval_high_N},
 };
 
 template <>
-struct Columns<RecommendationAlternativeRecord> {
-    static constexpr std::string_view names = "method, difference_N, interval_low_N, interval_high_N";
-    static auto fields(auto& row) {
-        return std::tie(row.method, row.difference_N, row.interval_low_N, row.interval_high_N);
-    }
+inline constexpr auto columns<RecommendationAlternativeRecord> = std::tuple{
+    Column{"method", &RecommendationAlternativeRecord::method},
+    Column{"difference_N", &RecommendationAlternativeRecord::difference_N},
+    Column{"interval_low_N", &RecommendationAlternativeRecord::interval_low_N},
+    Column{"interval_high_N", &RecommendationAlternativeRecord::interval_high_N},
 };
 
 template <>
-struct Columns<PaperComparisonRecord> {
-    static constexpr std::string_view names = "quantity, paper_N, ours_N, standard_error_N, relation, reason";
-    static auto fields(auto& row) {
-        return std::tie(row.quantity, row.paper_N, row.ours_N, row.standard_error_N, row.relation,
-                        row.reason);
-    }
+inline constexpr auto columns<PaperComparisonRecord> = std::tuple{
+    Column{"quantity", &PaperComparisonRecord::quantity},
+    Column{"paper_N", &PaperComparisonRecord::paper_N},
+    Column{"ours_N", &PaperComparisonRecord::ours_N},
+    Column{"standard_error_N", &PaperComparisonRecord::standard_error_N},
+    Column{"relation", &PaperComparisonRecord::relation},
+    Column{"reason", &PaperComparisonRecord::reason},
 };
 
 }  // namespace capstan::storage

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "capstan/storage/record_columns.h"
@@ -11,9 +12,21 @@
 
 namespace capstan::storage {
 
+/// "name, seed, ..." as SQL lists them.
 template <class Record>
 std::string column_names() {
-    return std::string(Columns<Record>::names);
+    std::string names;
+    std::apply(
+        [&](const auto&... column) { ((names += names.empty() ? "" : ", ", names += column.name), ...); },
+        columns<Record>);
+    return names;
+}
+
+/// References to the members that the columns stand for, in their order.
+template <class Record>
+auto fields_of(Record& record) {
+    return std::apply([&](const auto&... column) { return std::tie(record.*column.member...); },
+                      columns<std::remove_const_t<Record>>);
 }
 
 // Inserts records into one table: key columns first, then the record's own. Prepared once, used for many
@@ -53,7 +66,7 @@ class RowWriter {
     template <class... Keys>
     static int bind_row(Statement& insert, int bound, const Record& record, const Keys&... keys) {
         std::apply([&](const auto&... fields) { (insert.bind(++bound, fields), ...); },
-                   std::tuple_cat(std::tie(keys...), Columns<Record>::fields(record)));
+                   std::tuple_cat(std::tie(keys...), fields_of(record)));
         return bound;
     }
 
@@ -82,7 +95,7 @@ Record read_record(const Statement& statement, int first_column = 0) {
         [&](auto&... fields) {
             ((fields = statement.get<std::remove_reference_t<decltype(fields)>>(column++)), ...);
         },
-        Columns<Record>::fields(record));
+        fields_of(record));
     return record;
 }
 

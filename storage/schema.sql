@@ -1,6 +1,6 @@
--- The results database of capstan, version 4. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 1. One home: everything that stores or reads goes through this text.
 --
--- Rules: every physical column ends in its unit (N, m, rad, s); a share or a ratio has no unit and says so in its
+-- Rules: every physical column ends in its unit (N, m, rad, s); a fraction or a ratio has no unit and says so in its
 -- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
 -- segments + 1 (distal, load); there is no clock in any table, so the same program, configuration and seed give the
 -- same bits.
@@ -66,7 +66,7 @@ CREATE TABLE scenario_node (
 ) STRICT, WITHOUT ROWID;
 
 -- reading = tension * (1 + multiplicative_ratio * e1) + additive_N * e2 + bias_N * e3, e1, e2, e3 standard normal;
--- e3 is drawn once per sensor and repetition, and is the same at every instant. The reading is then rounded to whole
+-- e3 is drawn once per sensor and repetition, and is the same at every instant. The reading is then rounded to integer
 -- steps of quantisation_N and ends at range_N.
 CREATE TABLE noise_level (
     noise_level_id       INTEGER PRIMARY KEY,      -- its number in the file

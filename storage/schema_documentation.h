@@ -10,7 +10,7 @@ namespace capstan::storage {
 struct DocumentedColumn {
     std::string name;
     std::string type;     // 'INTEGER', 'REAL', 'TEXT'; '' for what a view computes
-    std::string unit;     // 'N', 'm', ...; '' where there is none
+    std::string unit;     // 'N', 'm', ...; '' for a number without a unit
     std::string meaning;  // a column without words of its own has those of the first column of its name
     bool is_key = false;
     bool may_be_null = false;

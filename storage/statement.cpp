@@ -55,12 +55,7 @@ void Statement::bind(int position, const std::optional<double>& value) {
 }
 
 bool Statement::step(std::string_view doing) {
-    int code = sqlite3_step(statement_.get());
-    // json_valid() takes a lack of memory for text that is no JSON; what breaks a rule breaks it again.
-    if ((code & 0xff) == SQLITE_CONSTRAINT) {
-        sqlite3_reset(statement_.get());
-        code = sqlite3_step(statement_.get());
-    }
+    const int code = sqlite3_step(statement_.get());
     if (code == SQLITE_ROW) return true;
     if (code == SQLITE_DONE) return false;
     throw_sqlite_error(sqlite3_db_handle(statement_.get()), doing);

@@ -22,7 +22,7 @@ struct StudyIds {
     std::vector<std::string> methods;        // method_index -> method
 };
 
-// Throws an Error when there is no such study.
+// Throws an Error if the study does not exist.
 StudyIds load_study_ids(Database& database, std::int64_t study_id);
 
 // The id at a position; an Error names what is missing.

@@ -101,9 +101,10 @@ FusionResult read_fusion(Database& database, std::int64_t study_id, int scenario
         result.cells.push_back(std::move(cell));
     }
 
-    Statement bounds(database, "SELECT sensor_set_id, " + column_names<KnownDirectionBoundRecord>() +
-                                   " FROM known_direction_bound WHERE scenario_id = ?1 AND noise_level_id = ?2 "
-                                   "ORDER BY sensor_set_id");
+    Statement bounds(database,
+                     "SELECT sensor_set_id, " + column_names<KnownDirectionBoundRecord>() +
+                         " FROM known_direction_bound WHERE scenario_id = ?1 AND noise_level_id = ?2 "
+                         "ORDER BY sensor_set_id");
     bounds.bind_all(scenario_id, noise_level_id);
     while (bounds.step()) {
         auto bound = read_record<KnownDirectionBoundRecord>(bounds, 1);
@@ -144,9 +145,10 @@ std::vector<CellSummary> read_cell_summaries(Database& database, std::int64_t st
 std::vector<LayoutErrorSummary> read_errors_by_layout(Database& database, std::int64_t study_id,
                                                       int noise_index) {
     const StudyIds ids = load_study_ids(database, study_id);
-    Statement rows(database, "SELECT regime, family, sensor_count, method, mean_abs_error_N, standard_error_N "
-                             "FROM v_error_by_layout WHERE study_id = ?1 AND noise_level_id = ?2 "
-                             "ORDER BY regime, family, sensor_count, method");
+    Statement rows(database,
+                   "SELECT regime, family, sensor_count, method, mean_abs_error_N, standard_error_N "
+                   "FROM v_error_by_layout WHERE study_id = ?1 AND noise_level_id = ?2 "
+                   "ORDER BY regime, family, sensor_count, method");
     rows.bind_all(study_id, id_at(ids.noise_levels, noise_index, "noise level"));
     std::vector<LayoutErrorSummary> errors;
     while (rows.step()) {

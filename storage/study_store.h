@@ -21,8 +21,8 @@ namespace capstan::storage {
 std::int64_t begin_study(Database& database, const StudyDescription& description);
 
 // The same for the file of a shard, all studies in one transaction: a file is marked as a shard from its
-// first row on. Returns the study_ids in the order of the descriptions, or nothing, and writes nothing, when the
-// file holds a study already.
+// first row on. Returns the study_ids in the order of the descriptions, or nothing, and writes nothing, when
+// the file holds a study already.
 std::optional<std::vector<std::int64_t>> begin_shard(Database& database, const ShardRecord& shard,
                                                      const std::vector<StudyDescription>& descriptions);
 
@@ -57,7 +57,7 @@ std::vector<StudySummary> list_studies(Database& database);  // oldest first
 // name. No such study: an Error that lists what there is.
 std::int64_t find_study(Database& database, std::string_view id_or_name_or_latest);
 
-// Which shard the file is; nothing for a file of whole studies.
+// Which shard the file is; nothing for a file of complete studies.
 std::optional<ShardRecord> read_shard(Database& database);
 
 std::vector<int> pending_units(Database& database, std::int64_t study_id);  // unit_index, ascending

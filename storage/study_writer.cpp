@@ -15,9 +15,9 @@ struct CellBlockRow {
 };
 
 template <>
-struct Columns<CellBlockRow> {
-    static constexpr std::string_view names = "block, mean_abs_error_N";
-    static auto fields(auto& row) { return std::tie(row.block, row.mean_abs_error_N); }
+inline constexpr auto columns<CellBlockRow> = std::tuple{
+    Column{"block", &CellBlockRow::block},
+    Column{"mean_abs_error_N", &CellBlockRow::mean_abs_error_N},
 };
 
 namespace {

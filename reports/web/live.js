@@ -1,6 +1,6 @@
 "use strict";
-// A study's page in `capstan serve`: how far it is, filters, sensors placed by hand. Reads what the report page has
-// (capstanPage) and asks the service for the rest.
+// The page of a study in `capstan serve`: progress, filters, layouts drawn by hand. Reads the data of the report page
+// (capstanPage) and requests the rest from the service.
 (() => {
   const id = Number(location.pathname.split("/").pop());
   const api = "/api/studies/" + id;
@@ -27,8 +27,8 @@
   const live = element("div", { id: "live" });
   document.getElementById("content").before(live);
 
-  // ---- how far it is
-  const watch = section("watch", "How far it is");
+  // ---- progress
+  const watch = section("watch", "Progress");
   const words = element("p", { role: "status" });
   const cells = element("div", { className: "cells", role: "img" });
   const button = element("button", { type: "button", className: "plain", hidden: true });
@@ -57,7 +57,7 @@
     return done + " " + study.status;
   }
 
-  // The report as it is now, put in the place of what was; the reader's choices stay.
+  // Replaces the report by its current version and keeps the reader's settings.
   async function refreshReport() {
     const text = await (await fetch(location.pathname)).text();
     const fresh = new DOMParser().parseFromString(text, "text/html");
@@ -72,13 +72,13 @@
   }
 
   // ---- filters
-  const filters = section("filters", "What is shown");
+  const filters = section("filters", "Filters");
   const boxes = element("form", { className: "filters card" });
   boxes.addEventListener("submit", (event) => event.preventDefault());
   filters.append(boxes);
   live.append(filters);
   const hidden = { regime: new Set(), method_title: new Set() };
-  const counts = { least: 1, most: Infinity };
+  const counts = { min: 1, max: Infinity };
 
   function choice(title, column, values) {
     const set = element("fieldset", {}, element("legend", { textContent: title }));
@@ -93,7 +93,7 @@
   function countInput(which, name, value) {
     const input = element("input", { type: "number", min: 1, max: 999, value: Number.isFinite(value) ? value : "" });
     input.dataset.filter = which;
-    input.addEventListener("change", () => { counts[which] = input.value === "" ? (which === "least" ? 1 : Infinity) : Number(input.value); applyFilters(); });
+    input.addEventListener("change", () => { counts[which] = input.value === "" ? (which === "min" ? 1 : Infinity) : Number(input.value); applyFilters(); });
     return element("label", {}, name + " ", input);
   }
   function showFilters() {
@@ -103,7 +103,7 @@
       boxes.dataset.key = key;
       boxes.replaceChildren(choice("Regimes", "regime", (tables.regime ?? []).map((row) => [row.regime, titles[row.regime] ?? row.regime])),
         choice("Methods", "method_title", (tables.fusion_method ?? []).map((row) => [row.title, row.title])),
-        element("fieldset", {}, element("legend", { textContent: "Number of sensors" }), countInput("least", "from", counts.least), countInput("most", "to", counts.most)));
+        element("fieldset", {}, element("legend", { textContent: "Number of sensors" }), countInput("min", "from", counts.min), countInput("max", "to", counts.max)));
     }
     applyFilters();
   }
@@ -111,12 +111,12 @@
     for (const part of document.querySelectorAll("main figure[data-regime]")) part.hidden = hidden.regime.has(part.dataset.regime);
     return window.capstanPage.setFilter((row) =>
       !("regime" in row && hidden.regime.has(row.regime)) && !("method_title" in row && hidden.method_title.has(row.method_title)) &&
-      !("sensor_count" in row && (row.sensor_count < counts.least || row.sensor_count > counts.most)));
+      !("sensor_count" in row && (row.sensor_count < counts.min || row.sensor_count > counts.max)));
   }
 
-  // ---- sensors by hand
+  // ---- layouts drawn by hand
   const hand = section("hand", "Place sensors by hand");
-  hand.append(element("p", { className: "intro", textContent: "Choose a node to put a sensor there or take it away; with a node in focus, Shift and an arrow key move its sensor. The expected error comes from the study's own instants and draws." }));
+  hand.append(element("p", { className: "intro", textContent: "Select a node to add or remove a sensor. When a node has the focus, Shift and an arrow key move its sensor. The expected error uses the instants and noise draws of the study." }));
   const place = element("div", { className: "hand card" });
   hand.append(place);
   live.append(hand);
@@ -210,7 +210,7 @@
     try {
       const nodes = [...placed].sort((a, b) => a - b);
       const answer = await post(api + "/layout", { nodes, method: value("method"), regime: value("regime"), noise: Number(value("noise")) });
-      if (mine !== asked) return;  // the reader has moved on
+      if (mine !== asked) return;  // a newer question replaced this one
       expected.textContent = `Expected error ${answer.mean_abs_error_N.toPrecision(4)} N`;
       detail.textContent = `95% interval ${answer.interval_low_N.toPrecision(4)} to ${answer.interval_high_N.toPrecision(4)} N, mean over the cable, ${answer.instants} instant${answer.instants === 1 ? "" : "s"}, ${answer.repetitions} repetitions; ${nodes.length} sensor${nodes.length === 1 ? "" : "s"} at node${nodes.length === 1 ? "" : "s"} ${nodes.join(", ")}.`;
       await drawErrors(answer);
@@ -270,7 +270,7 @@
     }
   }
 
-  // ---- watching
+  // ---- polling
   async function begin() {
     document.querySelector("nav ul").prepend(element("li", {}, element("a", { href: "/", textContent: "All studies" })));
     let seen = "";

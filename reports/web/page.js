@@ -1,11 +1,11 @@
 "use strict";
 // Draws the page's figures from its tables; redraws them for another noise level, theme or width.
 (() => {
-  let study, tables;  // as load() finds them on the page
+  let study, tables;  // set by load()
   const dark = matchMedia("(prefers-color-scheme: dark)");
 
-  // ---- colours and shapes: one place for the whole page, so a method looks the same in every figure.
-  // Okabe-Ito, told apart with any colour vision; lightened where a dark ground asks for it.
+  // ---- colours and shapes: one place for all figures of the page, so that a method always looks the same.
+  // Okabe-Ito, distinguishable with any colour vision; lighter on a dark background.
   const METHODS = {  // [on white, on dark, shape]
     known_direction_bound: ["#7b818b", "#98a0ad", "stroke"],
     mean_known: ["#7b818b", "#98a0ad", "circle"],
@@ -29,7 +29,7 @@
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // ---- the study's rows. A column is unpacked when a figure first asks for it, a row when it is drawn: a page may
-  // hold some ten thousand rows, of which few are seen.
+  // hold ten thousand rows, of which few are visible.
   function unpacked({ words, index, runs }) {
     if (!runs) return index.map((k) => words[k]);
     const values = [];
@@ -61,7 +61,7 @@
       Object.defineProperty(tables, name, { enumerable: true, get: () => rows ??= rowsAt(table, allOf(table)) });
     }
   }
-  let passes = () => true;  // a reader's filter, where the page has one
+  let passes = () => true;  // the filter of the page, if it has one
   const chosenNoise = () => {
     const box = document.querySelector('input[name="noise"]:checked');
     return box ? Number(box.value) : tables.noise_level?.[0]?.noise_level_id;
@@ -86,7 +86,7 @@
   const about = (figure) => study.figures[figure.dataset.figure].usermeta.capstan;
   const distinct = (rows, column) => [...new Set(rows.map((row) => row[column]))];
 
-  const place = (family) => Object.keys(FAMILIES).indexOf(family) >>> 0;  // unknown ones last
+  const place = (family) => Object.keys(FAMILIES).indexOf(family) >>> 0;  // unknown families come last
   const familyOrder = (rows) => distinct(rows, "family").filter(Boolean).sort((a, b) => place(a) - place(b));
 
   // ---- named scales and @words of the specs
@@ -116,7 +116,7 @@
     };
   }
 
-  // The bench in ink, the model that is judged in blue, the one it is compared with in orange.
+  // The bench is black, the model under test blue, the model it is compared with orange.
   function bench_and_models(rows) {
     const names = distinct(rows, "series").filter(Boolean);
     const look = (name) => /^(bench|measured)/.test(name) ? css("--quiet") : /without/.test(name) ? css("--unknown") : css("--known");
@@ -182,8 +182,8 @@
     };
   }
 
-  // ---- drawing: what is in view first, the rest in the browser's idle moments, so that a long page opens at once and
-  // is whole when it is printed.
+  // ---- drawing: visible figures first, the rest while the browser is idle, so that a long page opens at once and
+  // is complete when it is printed.
   let drawing = 0;
   const idle = () => new Promise((go) => (window.requestIdleCallback ?? setTimeout)(go, { timeout: 300 }));
   function distanceFromView(figure) {
@@ -211,7 +211,7 @@
     figure.view?.finalize();
     const place = chart.firstElementChild ?? chart.appendChild(document.createElement("div"));
     let done = await vegaEmbed(place, spec, options);
-    // Long tick labels and legends take more width than a figure's frame allows for: draw again by as much narrower.
+    // If long tick labels or legends exceed the width of the figure, it is drawn again, narrower by the excess.
     const excess = Math.ceil(chart.querySelector("svg").getBoundingClientRect().width) - chart.clientWidth;
     if (excess > 0) {
       done.finalize();
@@ -222,7 +222,7 @@
     if (data.open) showRows(figure);
   }
 
-  // Without waiting for anything, as a print does not wait; for paper, in its width and in ink.
+  // For printing: synchronous, in black, at the width of the paper.
   function drawForPaper() {
     ++drawing;
     document.documentElement.dataset.paper = "";
@@ -257,7 +257,7 @@
         state.shown = "yes";
         await idle();
       }
-      if (mine !== drawing) return;  // a newer wish came in
+      if (mine !== drawing) return;  // a newer request replaced this one
       const next = nearest(waiting).figure;  // the reader may have scrolled on
       waiting.delete(next);
       await draw(next);
@@ -277,7 +277,7 @@
     link.textContent = name + ".csv";
     link.download = name + ".csv";
     link.href = "#";
-    link.addEventListener("click", () => {  // made when asked for, so that an open page holds no copies
+    link.addEventListener("click", () => {  // made on demand, so that the page holds no copies
       const address = URL.createObjectURL(new Blob([csv(columns, rows())], { type: "text/csv" }));
       link.href = address;
       setTimeout(() => URL.revokeObjectURL(address), 60000);
@@ -361,7 +361,7 @@
     }
   }
 
-  // ---- what the words of the page do
+  // ---- controls in the text of the page
   function attach() {
     for (const figure of document.querySelectorAll("figure[data-figure]")) {
       figure.querySelector("details.data").before(saveButtons(figure));
@@ -378,7 +378,7 @@
     for (const box of document.querySelectorAll('input[name="noise"]')) box.addEventListener("change", drawAll);
   }
 
-  // ---- when to draw again
+  // ---- events that redraw
   dark.addEventListener("change", drawAll);
   let lastWidth = document.documentElement.clientWidth, timer = 0;
   addEventListener("resize", () => {

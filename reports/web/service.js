@@ -1,9 +1,9 @@
 "use strict";
-// The front page of `capstan serve`: studies, their queue, diagnoses, the query box.
+// The front page of `capstan serve`: studies, the queue, diagnoses, the query box.
 (() => {
   const at = (id) => document.getElementById(id);
 
-  // ---- talking to the service
+  // ---- requests
   async function ask(path, options = {}) {
     const answer = await fetch(path, options);
     if (answer.ok) return answer;
@@ -24,8 +24,8 @@
   // ---- studies and queue
   const seconds = (s) => s < 90 ? Math.max(1, Math.round(s)) + " s" : s < 5400 ? Math.round(s / 60) + " min" : (s / 3600).toFixed(1) + " h";
 
-  function bar(share, words) {
-    return [element("progress", { max: 1, value: share, ariaLabel: "done" }), " " + words];
+  function bar(fraction, words) {
+    return [element("progress", { max: 1, value: fraction, ariaLabel: "done" }), " " + words];
   }
 
   function showStudies(studies, jobs) {
@@ -73,7 +73,7 @@
     refresh();
   }
 
-  // ---- starting
+  // ---- starting a study
   async function listConfigs() {
     for (const name of await get("/api/configs")) at("config-name").append(element("option", { value: name, textContent: name }));
   }
@@ -96,7 +96,7 @@
   });
 
   // ---- diagnoses
-  const percent = (share) => share == null ? "" : Math.round(100 * share) + "%";
+  const percent = (fraction) => fraction == null ? "" : Math.round(100 * fraction) + "%";
   const digits = (value) => value == null ? "" : Number(value).toPrecision(3);
 
   function diagnosisCard(row) {

@@ -15,9 +15,9 @@
 #include "capstan/platform/nearest_name.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/reports/parquet_file.h"
+#include "capstan/reports/plain_tables.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/schema_documentation.h"
-#include "capstan/storage/visited_rows.h"
 
 namespace capstan::cli {
 
@@ -47,9 +47,9 @@ std::vector<DocumentedTable> chosen_tables(const Invocation& invocation) {
 // As declared; a view's computed column says by its values.
 reports::ParquetType type_of(storage::Database& database, const DocumentedTable& table,
                              const storage::DocumentedColumn& column) {
-    if (column.type == "INTEGER") return reports::ParquetType::whole;
-    if (column.type == "REAL") return reports::ParquetType::real;
-    if (column.type == "TEXT") return reports::ParquetType::text;
+    if (column.type == "INTEGER") return reports::ParquetType::integer;
+    if (column.type == "REAL") return reports::ParquetType::number;
+    if (column.type == "TEXT") return reports::ParquetType::string;
     const auto found = storage::run_read_only(
         database,
         fmt::format(
@@ -57,8 +57,8 @@ reports::ParquetType type_of(storage::Database& database, const DocumentedTable&
             column.name, table.name),
         {}, patient);
     const auto holds = [&](std::size_t k) { return std::get<std::int64_t>(found.rows.at(0).at(k)) == 1; };
-    if (holds(0)) return reports::ParquetType::text;
-    return holds(1) ? reports::ParquetType::whole : reports::ParquetType::real;
+    if (holds(0)) return reports::ParquetType::string;
+    return holds(1) ? reports::ParquetType::integer : reports::ParquetType::number;
 }
 
 // The rows on their way into a file, in a format.
@@ -68,9 +68,9 @@ struct RowsToFile {
 };
 
 RowsToFile as_csv_file(AtomicFile& file) {
-    return {{[&](const std::vector<std::string>& columns) { file.append(csv_head(columns)); },
+    return {{[&](const std::vector<std::string>& columns) { file.append(reports::csv_head(columns)); },
              [&](std::vector<storage::QueryValue>& row) {
-                 file.append(csv_line(row));
+                 file.append(reports::csv_line(row));
                  return true;
              }},
             [] {}};

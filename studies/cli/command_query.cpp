@@ -7,6 +7,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/text_table.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/reports/plain_tables.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/schema.h"
@@ -25,7 +26,7 @@ storage::QueryResult answer(storage::Database& database, const std::string& sql)
 }
 
 std::string formatted(const storage::QueryResult& result, const std::string& format) {
-    if (format == "csv") return as_csv(result);
+    if (format == "csv") return reports::csv_text(result.columns, result.rows);
     return format == "json" ? as_json(result) : as_table(result);
 }
 

@@ -10,6 +10,7 @@
 #include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/placement/stored_study.h"
+#include "capstan/reports/plain_tables.h"
 #include "capstan/service/bad_request.h"
 #include "capstan/storage/error.h"
 
@@ -42,7 +43,7 @@ service::Answers service_answers() {
     return {study_json,
             recommendation_json,
             as_json,
-            as_csv,
+            [](const storage::QueryResult& rows) { return reports::csv_text(rows.columns, rows.rows); },
             studies_of,
             [](storage::Database& database, std::int64_t study_id) {
                 return load_stored_study(database, study_id).plan;

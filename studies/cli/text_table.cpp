@@ -33,18 +33,6 @@ struct ForPeople {
     std::string operator()(const std::string& value) const { return on_one_line(value); }
 };
 
-struct ForCsv {
-    std::string operator()(std::monostate) const { return ""; }
-    std::string operator()(std::int64_t value) const { return std::to_string(value); }
-    std::string operator()(double value) const { return fmt::format("{}", value); }
-    std::string operator()(const std::string& value) const {
-        if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
-        std::string quoted = "\"";
-        for (const char c : value) quoted += c == '"' ? "\"\"" : std::string(1, c);
-        return quoted + "\"";
-    }
-};
-
 struct ForJson {
     nlohmann::ordered_json operator()(std::monostate) const { return nullptr; }
     nlohmann::ordered_json operator()(const auto& value) const { return value; }
@@ -86,24 +74,6 @@ std::string as_table(const QueryResult& result) {
         body += without_trailing_blanks(std::move(line));
     }
     return without_trailing_blanks(std::move(head)) + without_trailing_blanks(std::move(rule)) + body;
-}
-
-std::string csv_head(const std::vector<std::string>& columns) {
-    std::string text;
-    for (std::size_t c = 0; c < columns.size(); ++c) text += (c == 0 ? "" : ",") + ForCsv{}(columns[c]);
-    return text + "\n";
-}
-
-std::string csv_line(const std::vector<storage::QueryValue>& row) {
-    std::string text;
-    for (std::size_t c = 0; c < row.size(); ++c) text += (c == 0 ? "" : ",") + std::visit(ForCsv{}, row[c]);
-    return text + "\n";
-}
-
-std::string as_csv(const QueryResult& result) {
-    std::string text = csv_head(result.columns);
-    for (const auto& row : result.rows) text += csv_line(row);
-    return text;
 }
 
 std::string json_object(const std::vector<std::string>& columns,

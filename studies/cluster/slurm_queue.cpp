@@ -3,7 +3,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "capstan/cluster/slurm_scripts.h"
 #include "capstan/platform/child_process.h"
 
 namespace capstan::cluster {

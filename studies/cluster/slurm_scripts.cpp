@@ -1,4 +1,4 @@
-#include "capstan/cluster/slurm_scripts.h"
+#include "capstan/cluster/slurm_queue.h"
 
 namespace capstan::cluster {
 
@@ -16,7 +16,7 @@ std::string quoted(const std::string& text) {
     return result + "'";
 }
 
-// sbatch reads its lines by itself and replaces %a and the like; a doubled % is one.
+// sbatch parses its lines itself and replaces %a and similar patterns; %% stands for one %.
 std::string for_sbatch(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) {

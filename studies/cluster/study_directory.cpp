@@ -21,7 +21,7 @@ fs::path StudyDirectory::shard_log(int number) const {
     return path / ("logs/shard-" + std::to_string(number) + ".log");
 }
 
-// From the folder, so that two studies never answer to one name: 32-bit FNV-1a of its path.
+// From the folder, so that two studies never share a name: the 32-bit FNV-1a hash of its path.
 std::string StudyDirectory::job_name() const {
     std::uint32_t hash = 2166136261u;
     for (const char c : path.string()) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;

@@ -14,8 +14,8 @@ namespace capstan::cluster {
 ///     config.toml            the configuration, every key written out
 ///     submission.json        name, number of shards, processors of each, program
 ///     shards.sbatch          the array job; merge.sbatch the job that follows it
-///     shard-3-of-8.db        what shard 3 has done
-///     logs/shard-3.log       what it said
+///     shard-3-of-8.db        the results of shard 3
+///     logs/shard-3.log       its messages
 ///     study.db               the merged result
 struct StudyDirectory {
     std::filesystem::path path;  ///< absolute
@@ -38,15 +38,15 @@ struct StudyDirectory {
 
 std::string submission_text(const StudyDirectory& directory);
 
-/// Throws std::runtime_error that says what to try if there is no submission in the folder.
+/// Throws std::runtime_error that says what to try if the folder holds no submission.
 StudyDirectory read_directory(const std::filesystem::path& path);
 
-/// How far a shard is, by its file and log alone.
+/// The progress of a shard, from its file and log alone.
 struct ShardProgress {
     int units_done = 0;
-    int units = 0;           ///< 0: not known, there is no file yet
+    int units = 0;           ///< 0: unknown, because the file does not exist yet
     bool was_begun = false;  ///< it left a file or a log
-    std::string problem;     ///< why its file cannot be read now; a task that writes may be the reason
+    std::string problem;     ///< why its file cannot be read now; a task may be writing it
 
     bool is_done() const { return units > 0 && units_done == units; }
 };

@@ -64,7 +64,9 @@ std::filesystem::path TrialFolder::reference(const std::string& name) const {
 }
 
 std::string TrialFolder::seal() const {
-    const std::string text = read_file(path_ / "labels.sha256");
+    const std::filesystem::path file = path_ / "labels.sha256";
+    if (!std::filesystem::exists(file)) return "";
+    const std::string text = read_file(file);
     return text.substr(0, text.find(' '));
 }
 

@@ -10,7 +10,6 @@
 #include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
-#include "capstan/storage/write_ahead_log.h"
 
 namespace capstan {
 

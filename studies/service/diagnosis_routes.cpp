@@ -1,4 +1,4 @@
-// Recordings to be diagnosed, and the diagnoses that are stored.
+// Queuing the diagnosis of a recording, and reading stored diagnoses.
 #include "capstan/reports/diagnosis_report.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
@@ -9,7 +9,7 @@ namespace capstan::service {
 
 namespace {
 
-// For people only: the files in the queue's folder have names of their own.
+// For display only: the files in the folder of the queue have other names.
 std::string title_of(const httplib::Request& request) {
     const std::string name = request.get_file_value("log").filename;
     const std::string title = name.substr(name.find_last_of("/\\") + 1);
@@ -28,8 +28,8 @@ Job start(RouteContext& context, const httplib::Request& request) {
     return context.queue.add_diagnosis(title_of(request), request.get_file_value("log").content, sidecar);
 }
 
-// As the command wrote it, where the diagnosis was made here; else what the database holds of it, which is
-// all but the experiments that would tell its explanations apart.
+// What the command wrote, if the diagnosis was made here. Otherwise what the database holds, which lacks the
+// experiments that would distinguish its explanations.
 std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
     for (const Job& job : context.queue.jobs()) {
         if (job.kind != JobKind::diagnosis || job.state != JobState::done || job.result_id != diagnosis_id)
@@ -48,20 +48,45 @@ std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
 
 }  // namespace
 
-void add_diagnosis_routes(httplib::Server& server, RouteContext& context) {
-    server.Get("/api/diagnoses", [&](const httplib::Request&, httplib::Response& response) {
+std::vector<Route> diagnosis_routes(RouteContext& context) {
+    const auto list = [&](const httplib::Request&, httplib::Response& response) {
         storage::Database database = context.open();
         send_text(
             response,
             context.options.answers.rows_json(storage::run_read_only(database, storage::diagnoses_query)),
             "application/json");
-    });
-    server.Post("/api/diagnoses", [&](const httplib::Request& request, httplib::Response& response) {
+    };
+    const auto start_diagnosis = [&](const httplib::Request& request, httplib::Response& response) {
         send_json(response, job_json(start(context, request)), 202);
-    });
-    server.Get(R"(/api/diagnoses/(\d+))", [&](const httplib::Request& request, httplib::Response& response) {
+    };
+    const auto show = [&](const httplib::Request& request, httplib::Response& response) {
         send_text(response, answer_of(context, number_in_path(request)), "application/json");
-    });
+    };
+    return {
+        {"get", "/api/diagnoses", "listDiagnoses", "The stored diagnoses, newest first: v_diagnosis",
+         "Diagnoses", json_of("[object]"), list},
+        {"post",
+         "/api/diagnoses",
+         "startDiagnosis",
+         "Queue the diagnosis of a recording",
+         "Its job",
+         json_of("Job"),
+         start_diagnosis,
+         202,
+         {400, 413},
+         {{"log", "binary", "NAME.csv"}, {"sidecar", "binary", "NAME.json"}},
+         "multipart/form-data"},
+        {"get",
+         "/api/diagnoses/{diagnosis_id}",
+         "showDiagnosis",
+         "As `capstan diagnose --json` writes it. A diagnosis that was not made by this service lacks "
+         "`non_identifiable`, which the database does not keep",
+         "The diagnosis",
+         json_of("object"),
+         show,
+         200,
+         {404}},
+    };
 }
 
 }  // namespace capstan::service

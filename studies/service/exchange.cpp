@@ -7,13 +7,13 @@ namespace capstan::service {
 
 namespace {
 
-int whole_number(const nlohmann::json& value, const char* name) {
+int integer_of(const nlohmann::json& value, const char* name) {
     using Limits = std::numeric_limits<int>;
     const bool fits = value.is_number_unsigned()
                           ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max())
                           : value.is_number_integer() && value.get<std::int64_t>() >= Limits::min() &&
                                 value.get<std::int64_t>() <= Limits::max();
-    if (!fits) throw BadRequest(std::string("'") + name + "' needs whole numbers of ordinary size");
+    if (!fits) throw BadRequest(std::string("'") + name + "' must be an integer of 32 bits");
     return value.get<int>();
 }
 
@@ -48,7 +48,7 @@ nlohmann::json body_of(const httplib::Request& request) {
 
 template <>
 int member<int>(const nlohmann::json& body, const char* name) {
-    return whole_number(found_in(body, name), name);
+    return integer_of(found_in(body, name), name);
 }
 
 template <>
@@ -56,7 +56,7 @@ std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char
     const nlohmann::json& list = found_in(body, name);
     if (!list.is_array()) throw BadRequest(std::string("'") + name + "' is of another type than expected");
     std::vector<int> numbers;
-    for (const nlohmann::json& value : list) numbers.push_back(whole_number(value, name));
+    for (const nlohmann::json& value : list) numbers.push_back(integer_of(value, name));
     return numbers;
 }
 

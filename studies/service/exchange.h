@@ -21,7 +21,7 @@ void send_text(httplib::Response& response, const std::string& text, const char*
 /// {"error": message}
 void send_error(httplib::Response& response, int status, const std::string& message);
 
-/// The body as a JSON object; a BadRequest if it is none.
+/// The body as a JSON object; a BadRequest if it is not one.
 nlohmann::json body_of(const httplib::Request& request);
 
 /// A member of the body; a BadRequest that names it if it is missing or of another type.
@@ -36,13 +36,13 @@ Value member(const nlohmann::json& body, const char* name) {
     }
 }
 
-/// Whole numbers as they stand: 1.5 or 4294967297 is none, and not another that it could be cut down to.
+/// Integers exactly as written: 1.5 and 4294967297 are refused, not truncated.
 template <>
 int member<int>(const nlohmann::json& body, const char* name);
 template <>
 std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char* name);
 
-/// The number that a path's pattern has caught, from 1.
+/// The number in the path, matched by its pattern; patterns count from 1.
 std::int64_t number_in_path(const httplib::Request& request, std::size_t match = 1);
 
 }  // namespace capstan::service

@@ -42,7 +42,7 @@ struct Job {
 /// A job as the service's clients see it.
 nlohmann::ordered_json job_json(const Job& job);
 
-/// The kept part of jobs as JSON, and back. Throws std::runtime_error if the text is none of `jobs_text`.
+/// The kept part of jobs as JSON, and back. Throws std::runtime_error if the text is not from `jobs_text`.
 std::string jobs_text(const std::vector<Job>& jobs);
 std::vector<Job> read_jobs(const std::string& text);
 

@@ -12,7 +12,7 @@ namespace capstan::service {
 /// service at a time has it.
 class JobFolder {
   public:
-    /// Makes the folder where there is none. Throws std::runtime_error if another service has it.
+    /// Makes the folder if it does not exist. Throws std::runtime_error if another service uses it.
     explicit JobFolder(std::filesystem::path path);
     ~JobFolder();
     JobFolder(const JobFolder&) = delete;
@@ -21,7 +21,7 @@ class JobFolder {
     const std::filesystem::path& path() const { return path_; }
 
     std::vector<Job> read() const;  ///< none in a new folder
-    /// Whole or not at all, and on the disk when it returns.
+    /// Complete or not at all, and on the disk when it returns.
     void write(const std::vector<Job>& jobs) const;
     void write_file(const std::string& name, const std::string& bytes) const;
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int nice_increment = 5;  // the service answers requests before a job goes on
 constexpr int signal_code = 128;   // above: ended by a signal, or by a request to end (the program's 130)
-constexpr std::size_t max_jobs = 1000;  // that the list tells of; the oldest that have ended are forgotten
+constexpr std::size_t max_jobs = 1000;  // in the list; the oldest finished jobs are dropped
 
 std::int64_t last_id(const JobCommands& commands, JobKind kind) {
     storage::Database database = storage::Database::open_read_only(commands.database);
@@ -31,7 +31,7 @@ std::int64_t last_id(const JobCommands& commands, JobKind kind) {
     return last;
 }
 
-// A recording is called as its file is; no name leads out of the job's folder, or hides in it.
+// The name of the file without anything that could lead out of the folder of the job or hide the file in it.
 std::string safe_stem(const std::string& name) {
     std::string stem;
     for (const char letter : name.substr(0, name.rfind('.'))) {
@@ -168,7 +168,7 @@ void JobQueue::change(int number, const std::function<void(Job&)>& to) {
 void JobQueue::work() {
     std::unique_lock lock(mutex_);
     while (!ending_) {
-        // One that was under way when the service ended goes first.
+        // A job that was running when the service ended comes first.
         auto next = std::find_if(jobs_.begin(), jobs_.end(),
                                  [](const Job& job) { return job.state == JobState::running; });
         if (next == jobs_.end())
@@ -196,7 +196,7 @@ void JobQueue::work() {
     }
 }
 
-// What the job has begun, if it has: a study of the same configuration, or a diagnosis of the same log.
+// The result that the job has begun: a study of the same configuration, or a diagnosis of the same log.
 std::optional<std::int64_t> JobQueue::result_of(const Job& job) const {
     if (job.result_id) return job.result_id;
     storage::Database database = storage::Database::open_read_only(commands_.database);

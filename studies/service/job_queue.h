@@ -13,16 +13,16 @@
 
 namespace capstan::service {
 
-/// How the queue does its work: with the program's own commands, each in a process of its own, so that a
-/// study under a service ends with the bits of one without, and no job can take the service down.
+/// The commands that the queue runs, each in a process of its own: a study gives the same bits as in a shell,
+/// and no job can end the service.
 struct JobCommands {
     std::string program;   ///< path of capstan
     std::string database;  ///< path of the results database
     int threads = 0;       ///< of a job; 0: all processors
 };
 
-/// Jobs one after the other, in the order they came. Every change of the list is on the disk before anybody
-/// is told of it; a job that was under way when the service was killed goes on at the next start.
+/// Runs jobs one after the other, in the order they came. Every change of the list is on the disk before a
+/// client sees it. A job that was running when the service was killed is resumed at the next start.
 class JobQueue {
   public:
     JobQueue(std::filesystem::path folder, JobCommands commands);
@@ -44,7 +44,7 @@ class JobQueue {
     bool stop(int number);
     bool resume(int number);
 
-    /// What a finished diagnosis wrote with --json; empty if there is none.
+    /// What a finished diagnosis wrote with --json; empty if it wrote nothing.
     std::string answer_of(const Job& job) const;
 
   private:

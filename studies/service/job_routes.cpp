@@ -1,11 +1,10 @@
-// Studies to be run: from a text, from a folder of configurations; watched, stopped, resumed.
+// Running studies: starting them from a text or a named configuration, watching, stopping and resuming them.
 #include <algorithm>
 
 #include "capstan/config/config_writer.h"
 #include "capstan/platform/files.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
-#include "capstan/service/study_state.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::service {
@@ -23,7 +22,7 @@ std::vector<std::string> config_names(const ServiceOptions& options) {
     return names;
 }
 
-// Only by a name that the folder lists: no path leads out of it.
+// Accepts only names that are in the folder, so that no path leads out of it.
 std::string config_named(const ServiceOptions& options, const std::string& name) {
     const auto names = config_names(options);
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -68,39 +67,91 @@ Job job_of(RouteContext& context, const httplib::Request& request) {
 
 }  // namespace
 
-void add_job_routes(httplib::Server& server, RouteContext& context) {
-    server.Get("/api/configs", [&](const httplib::Request&, httplib::Response& response) {
+std::vector<Route> job_routes(RouteContext& context) {
+    const auto list_configs = [&](const httplib::Request&, httplib::Response& response) {
         send_json(response, config_names(context.options));
-    });
-    server.Get(R"(/api/configs/([^/]+))", [&](const httplib::Request& request, httplib::Response& response) {
+    };
+    const auto show_config = [&](const httplib::Request& request, httplib::Response& response) {
         send_text(response, config_named(context.options, request.matches[1]), "text/plain; charset=utf-8");
-    });
-    server.Post("/api/studies", [&](const httplib::Request& request, httplib::Response& response) {
+    };
+    const auto start_studies = [&](const httplib::Request& request, httplib::Response& response) {
         send_json(response, start(context, body_of(request)), 202);
-    });
-    server.Post(R"(/api/studies/(\d+)/resume)",
-                [&](const httplib::Request& request, httplib::Response& response) {
-                    send_json(response, resume_study(context, number_in_path(request)), 202);
-                });
-    server.Get("/api/jobs", [&](const httplib::Request&, httplib::Response& response) {
+    };
+    const auto resume_stored = [&](const httplib::Request& request, httplib::Response& response) {
+        send_json(response, resume_study(context, number_in_path(request)), 202);
+    };
+    const auto list_jobs = [&](const httplib::Request&, httplib::Response& response) {
         ordered_json list = ordered_json::array();
         for (const Job& job : context.queue.jobs()) list.push_back(job_json(job));
         send_json(response, list);
-    });
-    server.Get(R"(/api/jobs/(\d+))", [&](const httplib::Request& request, httplib::Response& response) {
+    };
+    const auto show_job = [&](const httplib::Request& request, httplib::Response& response) {
         send_json(response, job_json(job_of(context, request)));
-    });
-    server.Post(R"(/api/jobs/(\d+)/stop)", [&](const httplib::Request& request, httplib::Response& response) {
+    };
+    const auto stop_job = [&](const httplib::Request& request, httplib::Response& response) {
         const Job job = job_of(context, request);
         require(context.queue.stop(job.number), "only a queued or running job can be stopped");
         send_json(response, job_json(*context.queue.find(job.number)), 202);
-    });
-    server.Post(R"(/api/jobs/(\d+)/resume)",
-                [&](const httplib::Request& request, httplib::Response& response) {
-                    const Job job = job_of(context, request);
-                    require(context.queue.resume(job.number), "only a stopped or failed job can be resumed");
-                    send_json(response, job_json(*context.queue.find(job.number)), 202);
-                });
+    };
+    const auto resume_job = [&](const httplib::Request& request, httplib::Response& response) {
+        const Job job = job_of(context, request);
+        require(context.queue.resume(job.number), "only a stopped or failed job can be resumed");
+        send_json(response, job_json(*context.queue.find(job.number)), 202);
+    };
+    return {
+        {"get", "/api/configs", "listConfigs",
+         "Names of the configurations in the folder that `capstan serve --configs` named", "Names",
+         json_of("[string]"), list_configs},
+        {"get",
+         "/api/configs/{name}",
+         "showConfig",
+         "The text of a configuration",
+         "TOML",
+         {{"text/plain", "string"}},
+         show_config,
+         200,
+         {404}},
+        {"post",
+         "/api/studies",
+         "startStudy",
+         "Queue the studies that a configuration describes",
+         "One job for each study",
+         json_of("[Job]"),
+         start_studies,
+         202,
+         {400, 404},
+         {{"config", "string", "A name of /api/configs; or", false},
+          {"config_toml", "string", "the text of a configuration", false}}},
+        {"post",
+         "/api/studies/{study_id}/resume",
+         "resumeStudy",
+         "Resume a study that was stopped or killed",
+         "Its job",
+         json_of("Job"),
+         resume_stored,
+         202,
+         {404, 409}},
+        {"get", "/api/jobs", "listJobs", "The queue, oldest first", "Jobs", json_of("[Job]"), list_jobs},
+        {"get", "/api/jobs/{job}", "showJob", "One job", "The job", json_of("Job"), show_job, 200, {404}},
+        {"post",
+         "/api/jobs/{job}/stop",
+         "stopJob",
+         "Stop a queued job, or a running one after its current unit",
+         "The job",
+         json_of("Job"),
+         stop_job,
+         202,
+         {404, 409}},
+        {"post",
+         "/api/jobs/{job}/resume",
+         "resumeJob",
+         "Queue a stopped or failed job again; stored results stay",
+         "The job",
+         json_of("Job"),
+         resume_job,
+         202,
+         {404, 409}},
+    };
 }
 
 }  // namespace capstan::service

@@ -1,8 +1,7 @@
-// Sensors placed by hand.
+// The expected error of layouts that a user draws.
 #include "capstan/cable/invalid_input.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
-#include "capstan/service/study_state.h"
 
 namespace capstan::service {
 
@@ -28,7 +27,7 @@ LayoutQuestion question_of(const nlohmann::json& body) {
             member<std::string>(body, "regime"), noise - 1};
 }
 
-ordered_json json_of(const LayoutScore& score) {
+ordered_json score_json(const LayoutScore& score) {
     ordered_json json = {{"mean_abs_error_N", score.mean_abs_error_N},
                          {"interval_low_N", score.interval_low_N},
                          {"interval_high_N", score.interval_high_N},
@@ -43,16 +42,28 @@ ordered_json json_of(const LayoutScore& score) {
 
 }  // namespace
 
-void add_layout_routes(httplib::Server& server, RouteContext& context) {
-    server.Post(
-        R"(/api/studies/(\d+)/layout)", [&](const httplib::Request& request, httplib::Response& response) {
-            const LayoutQuestion question = question_of(body_of(request));
-            try {
-                send_json(response, json_of(scorer_of(context, number_in_path(request))->score(question)));
-            } catch (const InvalidInput& error) {
-                throw BadRequest(error.what());
-            }
-        });
+std::vector<Route> layout_routes(RouteContext& context) {
+    const auto score = [&](const httplib::Request& request, httplib::Response& response) {
+        const LayoutQuestion question = question_of(body_of(request));
+        try {
+            send_json(response, score_json(scorer_of(context, number_in_path(request))->score(question)));
+        } catch (const InvalidInput& error) {
+            throw BadRequest(error.what());
+        }
+    };
+    return {{"post",
+             "/api/studies/{study_id}/layout",
+             "scoreLayout",
+             "The expected error with sensors at these nodes, from the study's instants and draws",
+             "The error, and the error at each node",
+             json_of("LayoutScore"),
+             score,
+             200,
+             {400, 404},
+             {{"nodes", "[integer]", "From 1 at the motor"},
+              {"method", "string", "As in fusion_method.method"},
+              {"regime", "string"},
+              {"noise", "integer", "Which of the study's noise levels, from 1"}}}};
 }
 
 }  // namespace capstan::service

@@ -15,7 +15,7 @@ namespace capstan::service {
 namespace {
 
 constexpr int max_repetitions = 2000;
-constexpr int one_thread = 1;  // a study may be under way beside
+constexpr int one_thread = 1;  // a study may be running at the same time
 
 StudyPlan short_enough(StudyPlan plan) {
     plan.repetitions = std::min(plan.repetitions, max_repetitions);

@@ -27,7 +27,7 @@ struct NodeError {
     double bias_N = 0.0;
 };
 
-/// What they would err, over the regime's instants.
+/// Their expected error, over the regime's instants.
 struct LayoutScore {
     double mean_abs_error_N = 0.0;
     double interval_low_N = 0.0;  ///< 95%, over draws

@@ -1,8 +1,7 @@
-// The pages and the files they are made of.
+// The pages, and the scripts and styles that they load.
 #include "capstan/reports/embedded_files.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/service/exchange.h"
-#include "capstan/service/openapi_text.h"
 #include "capstan/service/routes.h"
 
 namespace capstan::service {
@@ -29,7 +28,8 @@ constexpr WebFile web_files[] = {
 
 void add_page_routes(httplib::Server& server, RouteContext& context) {
     server.Get("/", [&context](const httplib::Request& request, httplib::Response& response) {
-        // The address that `capstan serve` prints carries the token once; from then on a cookie does.
+        // The address that `capstan serve` prints carries the token once; later requests carry it in a
+        // cookie.
         if (request.has_param("token")) {
             if (!same_secret(request.get_param_value("token"), context.options.access.token))
                 throw BadRequest("The token is wrong.", 401);
@@ -54,9 +54,6 @@ void add_page_routes(httplib::Server& server, RouteContext& context) {
         const auto page =
             context.about_study("page", database, id, [&] { return reports::study_live_html(database, id); });
         response.set_content(*page, "text/html; charset=utf-8");
-    });
-    server.Get("/openapi.json", [](const httplib::Request&, httplib::Response& response) {
-        send_text(response, openapi_text(), "application/json");
     });
 }
 

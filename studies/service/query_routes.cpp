@@ -1,4 +1,4 @@
-// The query box: anyone's SQL, which may read everything and change nothing.
+// The query box: SQL of any user, which can read everything and change nothing.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace capstan::service {
 
 namespace {
 
-constexpr std::ptrdiff_t at_once = 4;             // queries; more would only wait for the processor
+constexpr std::ptrdiff_t at_once = 4;             // queries; more would only compete for the processor
 constexpr std::chrono::seconds longest_wait{10};  // for a turn
 constexpr std::size_t max_rows = 100'000;         // of an answer; `capstan query` has no limit
 
@@ -43,7 +43,7 @@ storage::QueryResult answer(const RouteContext& context, const std::string& sql)
     }
 }
 
-// When the database was last written to, and how large it is: what every answer depends on.
+// The time of the last write and the size of the database: every answer depends on them.
 std::string database_state(const RouteContext& context) {
     std::string state;
     for (const char* part : {"", "-wal"}) {
@@ -56,7 +56,8 @@ std::string database_state(const RouteContext& context) {
     return state;
 }
 
-// An answer as it is sent. Many ask the same while a study goes on: it is worked out once a moment.
+// An answer as it is sent. Many clients ask the same while a study runs, so it is computed at most once a
+// moment.
 struct SentAnswer {
     bool truncated = false;
     std::string text;
@@ -75,8 +76,8 @@ SentAnswer sent(RouteContext& context, const std::string& sql, const std::string
 
 }  // namespace
 
-void add_query_routes(httplib::Server& server, RouteContext& context) {
-    server.Post("/api/query", [&](const httplib::Request& request, httplib::Response& response) {
+std::vector<Route> query_routes(RouteContext& context) {
+    const auto query = [&](const httplib::Request& request, httplib::Response& response) {
         const auto body = body_of(request);
         const std::string format = body.contains("format") ? member<std::string>(body, "format") : "json";
         if (format != "json" && format != "csv") throw BadRequest("'format' must be json or csv");
@@ -85,10 +86,31 @@ void add_query_routes(httplib::Server& server, RouteContext& context) {
         if (format == "csv")
             response.set_header("Content-Disposition", "attachment; filename=\"capstan-query.csv\"");
         send_text(response, answer.text, format == "csv" ? "text/csv; charset=utf-8" : "application/json");
-    });
-    server.Get("/api/schema", [](const httplib::Request&, httplib::Response& response) {
+    };
+    const auto schema = [](const httplib::Request&, httplib::Response& response) {
         send_text(response, storage::schema_text(), "text/plain; charset=utf-8");
-    });
+    };
+    return {
+        {"post",
+         "/api/query",
+         "query",
+         fmt::format("One SELECT, as `capstan query`, for a limited time. An answer has at most {} rows; a "
+                     "longer one is cut and has the header X-Truncated",
+                     max_rows),
+         "Rows",
+         {{"application/json", "[object]"}, {"text/csv", "string"}},
+         query,
+         200,
+         {400, 408, 503},
+         {{"sql", "string"}, {"format", "json|csv", "json if absent", false}}},
+        {"get",
+         "/api/schema",
+         "schema",
+         "Tables, columns, units and views, as `capstan query --schema`",
+         "SQL with comments",
+         {{"text/plain", "string"}},
+         schema},
+    };
 }
 
 }  // namespace capstan::service

@@ -23,7 +23,7 @@ std::shared_ptr<ReportShelf::Place> ReportShelf::place(const std::string& name) 
     return place;
 }
 
-// For a text that is about to be kept there. Whoever still reads one that goes has it for as long.
+// For a text that is about to be stored. A dropped text lives on while somebody reads it.
 void ReportShelf::make_room(const std::string& name, std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     const auto own = places_.find(name);

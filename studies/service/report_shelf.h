@@ -10,18 +10,18 @@
 
 namespace capstan::service {
 
-/// Texts that take a while to make, kept as long as what they were made from is the same. While one is made
-/// again, others who ask for no exact one get the one before; and such a text is made again no sooner than a
-/// moment after the last time, however fast its study goes. Where there are too many texts to keep, or too
-/// long ones, the one goes that nobody has asked for the longest.
+/// A cache of texts that are expensive to make. A text is kept until the state that it was made from changes.
+/// While a new text is made, a request that accepts an older one gets the previous text; such a text is made
+/// again no sooner than a moment after the last time. When the cache is full, the least recently used text is
+/// dropped.
 class ReportShelf {
   public:
     using Maker = std::function<std::string()>;
 
     enum class Freshness {
         exact,         ///< made from this very state
-        just_made,     ///< or less than a moment ago: whoever comes sooner after one waits for it
-        a_moment_old,  ///< or the one before, while another is made
+        just_made,     ///< or less than a moment ago; a request that comes sooner waits
+        a_moment_old,  ///< or the previous one, while a new one is made
     };
 
     /// `state`: what the text depends on, as "12 of 40 units".

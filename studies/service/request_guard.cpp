@@ -24,7 +24,7 @@ bool writes(const RequestHead& request) {
     return request.method != "GET" && request.method != "HEAD";
 }
 
-// Names that can only mean this service. Where a token is asked for, the name proves nothing and may be any.
+// Names that can only mean this service. If a token is required, any name is accepted.
 bool host_is_ours(const RequestHead& request, const Access& access) {
     if (!access.token.empty()) return true;
     const std::string given = lower(request.host);

@@ -7,15 +7,14 @@
 
 namespace capstan::service {
 
-/// Whom the service listens to.
+/// Which requests the service accepts.
 struct Access {
     std::string host = "127.0.0.1";  ///< as it was told to bind to
     int port = 0;
     std::string token;  ///< every request must carry it; empty: none needed, on loopback only
 };
 
-/// What is known of a request before its body is read. Header values are as they came, empty where there is
-/// none.
+/// The part of a request that is known before its body is read. A missing header is empty.
 struct RequestHead {
     std::string method;
     std::string path;
@@ -34,23 +33,23 @@ struct Refusal {
     std::string message;
 };
 
-/// Whether an address is this machine talking to itself.
+/// Whether an address is a loopback address.
 bool is_loopback(std::string_view host);
 
 inline constexpr std::size_t largest_upload_bytes = 64 << 20;  // an hour of a bench at 1 kHz as CSV
 inline constexpr std::size_t largest_text_bytes = 1 << 20;     // a configuration, a query
 
-/// Why a request is not to be answered; nothing if it may be.
+/// Why a request is rejected; nothing if it is accepted.
 ///
 /// A page of another site must not reach a service on the reader's own machine: neither by a name that was
 /// made to point here (Host), nor by a script or form of its own (Origin, Sec-Fetch-Site, content type).
 /// Without a length a body could have any size.
 std::optional<Refusal> refuse(const RequestHead& request, const Access& access);
 
-/// Compares without telling by its time how much is alike.
+/// Compares in constant time.
 bool same_secret(std::string_view given, std::string_view expected);
 
-/// The token in a cookie header; empty if there is none.
+/// The token in a cookie header; empty if it has none.
 std::string token_of_cookie(std::string_view cookie);
 
 }  // namespace capstan::service

@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <vector>
 
 #include "capstan/service/layout_scorer.h"
 #include "capstan/service/report_shelf.h"
@@ -29,12 +31,57 @@ struct RouteContext {
     storage::Database open() const { return storage::Database::open_read_only(options.commands.database); }
 };
 
-// One file each; openapi.json describes them all.
+/// A value of the interface: its name, its type and what it means. Types are those of OpenAPI ("integer",
+/// "string", "object", "binary"), the name of a component ("Job"), "[T]" for an array, "T?" for T or null,
+/// and "a|b" for one of two words.
+struct ApiField {
+    std::string name;
+    std::string type;
+    std::string meaning{};
+    bool is_required = true;
+};
+
+/// One row of the interface: what a client may ask, and who answers. The service and /openapi.json read it.
+struct Route {
+    std::string method;        ///< "get" or "post"
+    std::string path;          ///< with {study_id} and the like, which are numbers from 1, or {name}
+    std::string operation_id;  ///< of OpenAPI
+    std::string summary;
+    std::string answer;                               ///< what comes back
+    std::map<std::string, std::string> answer_types;  ///< by content type, as ApiField::type
+    httplib::Server::Handler handler;
+    int status = 200;              ///< of a success
+    std::vector<int> failures{};   ///< other statuses
+    std::vector<ApiField> body{};  ///< of a post
+    std::string body_type = "application/json";
+};
+
+inline std::map<std::string, std::string> json_of(std::string type) {
+    return {{"application/json", std::move(type)}};
+}
+
+std::vector<Route> study_routes(RouteContext& context);
+std::vector<Route> layout_routes(RouteContext& context);
+std::vector<Route> job_routes(RouteContext& context);
+std::vector<Route> diagnosis_routes(RouteContext& context);
+std::vector<Route> query_routes(RouteContext& context);
+
+/// All of them, and /openapi.json, which describes them.
+std::vector<Route> api_routes(RouteContext& context);
+
+/// The rows as OpenAPI 3 (JSON).
+std::string openapi_text(const std::vector<Route>& routes);
+
+/// The pages for people, which are no part of the interface.
 void add_page_routes(httplib::Server& server, RouteContext& context);
-void add_study_routes(httplib::Server& server, RouteContext& context);
-void add_layout_routes(httplib::Server& server, RouteContext& context);
-void add_job_routes(httplib::Server& server, RouteContext& context);
-void add_diagnosis_routes(httplib::Server& server, RouteContext& context);
-void add_query_routes(httplib::Server& server, RouteContext& context);
+
+/// What every answer about a study depends on: its status and how many units are done.
+struct StudyState {
+    std::string words;
+    bool is_complete = false;
+};
+
+/// A BadRequest (404) if the study does not exist.
+StudyState study_state(storage::Database& database, std::int64_t study_id);
 
 }  // namespace capstan::service

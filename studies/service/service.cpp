@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <charconv>
+#include <regex>
 
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
@@ -15,13 +16,12 @@ namespace capstan::service {
 
 namespace {
 
-constexpr int request_threads = 64;  // they mostly wait; more people than that queue
+constexpr int request_threads = 64;  // they mostly wait; further requests queue
 constexpr int patience_s = 10;       // for a slow sender or reader
 
-// Left to itself, the C library gives 64 threads up to eight heaps for each processor, and each grows as far
-// as the largest answers that happened to be made in it. Two are enough for threads that mostly wait, and
-// soon as large as they get.
-void fraction_memory_among_threads() {
+// By default the C library gives 64 threads up to eight heaps for each processor, and each heap grows to the
+// size of the largest answers made in it. Two heaps are enough for threads that mostly wait.
+void limit_heaps() {
     ::mallopt(M_ARENA_MAX, 2);
 }
 
@@ -40,14 +40,14 @@ RequestHead head_of(const httplib::Request& request) {
     std::size_t bytes = 0;
     const auto [end, error] = std::from_chars(length.data(), length.data() + length.size(), bytes);
     if (!length.empty()) {
-        const bool whole = error == std::errc() && end == length.data() + length.size();
-        head.content_length = whole ? bytes : static_cast<std::size_t>(-1);
+        const bool is_integer = error == std::errc() && end == length.data() + length.size();
+        head.content_length = is_integer ? bytes : static_cast<std::size_t>(-1);
     }
     return head;
 }
 
-// Nothing but what this service sends may run or be loaded by its pages, and nobody may frame them. The
-// charts compile their expressions, which needs 'unsafe-eval'.
+// The pages run and load only files of this service, and no other page can frame them. The charts compile
+// their expressions, which needs 'unsafe-eval'.
 const httplib::Headers safe_headers{
     {"Content-Security-Policy",
      "default-src 'none'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; connect-src 'self'; "
@@ -56,6 +56,19 @@ const httplib::Headers safe_headers{
     {"Referrer-Policy", "no-referrer"},
     {"Cross-Origin-Resource-Policy", "same-origin"},
 };
+
+// /api/jobs/{job} as the regular expression that the server matches.
+std::string pattern_of(const std::string& path) {
+    const std::regex name(R"(\{name\})"), number(R"(\{\w+\})");
+    return std::regex_replace(std::regex_replace(path, name, "([^/]+)"), number, R"((\d+))");
+}
+
+void add_route(httplib::Server& server, const Route& route) {
+    if (route.method == "get")
+        server.Get(pattern_of(route.path), route.handler);
+    else
+        server.Post(pattern_of(route.path), route.handler);
+}
 
 void explain(httplib::Response& response, const std::exception_ptr& problem) {
     try {
@@ -85,17 +98,17 @@ struct Service::Parts {
 };
 
 Service::Service(ServiceOptions options) : parts_(std::make_unique<Parts>(std::move(options))) {
-    fraction_memory_among_threads();
+    limit_heaps();
     httplib::Server& server = parts_->server;
     Access& access = parts_->options.access;
     server.new_task_queue = [] { return new httplib::ThreadPool(request_threads); };
-    // One request a connection: nobody holds a thread while idle, and what follows a refused head is never
-    // taken for another request.
+    // One request per connection: no idle client holds a thread, and the bytes after a rejected head are
+    // never read as another request.
     server.set_keep_alive_max_count(1);
     server.set_read_timeout(patience_s);
     server.set_write_timeout(patience_s);
     server.set_payload_max_length(largest_upload_bytes);
-    server.set_socket_options([this](socket_t socket) {  // the port is ours alone
+    server.set_socket_options([this](socket_t socket) {  // no second service may share the port
         const int yes = 1;
         ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
         parts_->listening = socket;
@@ -121,11 +134,7 @@ Service::Service(ServiceOptions options) : parts_(std::make_unique<Parts>(std::m
             send_error(response, response.status, fmt::format("{} {}", request.method, request.path));
     });
     add_page_routes(server, parts_->context);
-    add_study_routes(server, parts_->context);
-    add_layout_routes(server, parts_->context);
-    add_job_routes(server, parts_->context);
-    add_diagnosis_routes(server, parts_->context);
-    add_query_routes(server, parts_->context);
+    for (const Route& route : api_routes(parts_->context)) add_route(server, route);
 
     if (access.port == 0) {
         access.port = server.bind_to_any_port(access.host);
@@ -135,7 +144,7 @@ Service::Service(ServiceOptions options) : parts_(std::make_unique<Parts>(std::m
     if (access.port < 0)
         throw std::runtime_error(fmt::format("cannot listen on {}: is the port taken? Try another --port",
                                              parts_->options.access.host));
-    // The library lets five wait to be accepted; who comes sixth at the same moment would wait for a second.
+    // By default the library lets five connections wait; a sixth would be delayed by a second.
     ::listen(parts_->listening, SOMAXCONN);
 }
 

@@ -1,8 +1,7 @@
-// Studies as they are stored: what there is, how far each has come, what follows from it.
+// Stored studies: the list, the progress of each, and its conclusions.
 #include "capstan/reports/study_report.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
-#include "capstan/service/study_state.h"
 #include "capstan/storage/live_queries.h"
 
 namespace capstan::service {
@@ -24,17 +23,13 @@ Handler of_study(const RouteContext& context, const StudyHandler& answer) {
 
 }  // namespace
 
-void add_study_routes(httplib::Server& server, RouteContext& context) {
+std::vector<Route> study_routes(RouteContext& context) {
     const Answers& answers = context.options.answers;
-    server.Get("/api/studies", [&](const httplib::Request&, httplib::Response& response) {
+    const auto list = [&](const httplib::Request&, httplib::Response& response) {
         storage::Database database = context.open();
         send_text(response, answers.rows_json(storage::run_read_only(database, storage::studies_query)),
                   "application/json");
-    });
-    server.Get(R"(/api/studies/(\d+))", of_study(context, [&](storage::Database& database, std::int64_t id,
-                                                              httplib::Response& response) {
-                   send_text(response, answers.study(database, id), "application/json");
-               }));
+    };
     const auto rows_of = [&](std::string_view query) {
         return of_study(context, [&answers, query](storage::Database& database, std::int64_t id,
                                                    httplib::Response& response) {
@@ -42,20 +37,66 @@ void add_study_routes(httplib::Server& server, RouteContext& context) {
                       "application/json");
         });
     };
-    server.Get(R"(/api/studies/(\d+)/units)", rows_of(storage::units_query));
-    server.Get(R"(/api/studies/(\d+)/cable)", rows_of(storage::cable_query));
-    server.Get(
-        R"(/api/studies/(\d+)/recommendation)",
-        of_study(context, [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
-            send_text(response, answers.recommendation(database, id), "application/json");
-        }));
-    server.Get(
-        R"(/api/studies/(\d+)/report)",
-        of_study(context, [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
-            const auto report = context.about_study("report", database, id,
-                                                    [&] { return reports::study_report_json(database, id); });
-            send_text(response, *report, "application/json");
-        }));
+    const auto show = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
+        send_text(response, answers.study(database, id), "application/json");
+    };
+    const auto recommend = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
+        send_text(response, answers.recommendation(database, id), "application/json");
+    };
+    const auto report = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
+        const auto text = context.about_study("report", database, id,
+                                              [&] { return reports::study_report_json(database, id); });
+        send_text(response, *text, "application/json");
+    };
+    return {
+        {"get", "/api/studies", "listStudies", "The studies, oldest first; as `capstan study list --json`",
+         "Studies", json_of("[Study]"), list},
+        {"get",
+         "/api/studies/{study_id}",
+         "showStudy",
+         "As `capstan study show --json`",
+         "The study",
+         json_of("object"),
+         of_study(context, show),
+         200,
+         {404}},
+        {"get",
+         "/api/studies/{study_id}/units",
+         "listUnits",
+         "The work units, done or not",
+         "Units",
+         json_of("[object]"),
+         rows_of(storage::units_query),
+         200,
+         {404}},
+        {"get",
+         "/api/studies/{study_id}/cable",
+         "showCable",
+         "The cable, segment by segment from the motor",
+         "Segments",
+         json_of("[object]"),
+         rows_of(storage::cable_query),
+         200,
+         {404}},
+        {"get",
+         "/api/studies/{study_id}/recommendation",
+         "recommend",
+         "As `capstan recommend --json`",
+         "The recommendation",
+         json_of("object"),
+         of_study(context, recommend),
+         200,
+         {404, 409}},
+        {"get",
+         "/api/studies/{study_id}/report",
+         "report",
+         "Every table of the report, as `capstan report --format json`",
+         "Tables",
+         json_of("object"),
+         of_study(context, report),
+         200,
+         {404}},
+    };
 }
 
 }  // namespace capstan::service

@@ -20,8 +20,11 @@ class CapstanTest(unittest.TestCase):
 
     def run_capstan(self, *words, expect=0, **options):
         """The finished process; fails unless it ends with the expected exit code."""
-        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, **options)
-        self.assertEqual(done.returncode, expect, f"capstan {' '.join(map(str, words))}\n{done.stdout}\n{done.stderr}")
+        return self.run_program(PROGRAM, *words, expect=expect, **options)
+
+    def run_program(self, program, *words, expect=0, **options):
+        done = subprocess.run([program, *map(str, words)], cwd=self.folder, capture_output=True, text=True, **options)
+        self.assertEqual(done.returncode, expect, f"{program} {' '.join(map(str, words))}\n{done.stdout}\n{done.stderr}")
         return done
 
     def start_capstan(self, *words):

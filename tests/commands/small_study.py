@@ -2,9 +2,6 @@
 
 import sqlite3
 
-from capstan_program import CONFIGS
-
-BACK_TO_VERSION_3 = CONFIGS.parent / "tests" / "storage" / "back_to_version_3.sql"
 UNITS = 24  # of the study below: two stages, twelve pairs of an instant and a noise level
 
 SMALL_STUDY = """
@@ -48,22 +45,6 @@ additive_N = 0.2
 families = "all"
 counts = [1, 2, 3]
 """
-
-
-def to_version_1(path):
-    """What the first schema had, with the rows as they are: an older file to be migrated."""
-    connection = sqlite3.connect(path)
-    connection.executescript("PRAGMA foreign_keys = OFF;" + BACK_TO_VERSION_3.read_text())
-    connection.execute("DROP VIEW v_diagnosis")
-    for (table,) in connection.execute("SELECT name FROM sqlite_schema WHERE type = 'table' AND name LIKE 'diagnosis%'").fetchall():
-        connection.execute(f"DROP TABLE {table}")
-    connection.execute("DROP TABLE shard")
-    for column in ("quantisation_N", "range_N"):
-        connection.execute(f"ALTER TABLE noise_level DROP COLUMN {column}")
-    connection.execute("PRAGMA user_version = 1")
-    connection.commit()
-    connection.execute("PRAGMA journal_mode = DELETE")
-    connection.close()
 
 
 def integrity(path):

@@ -169,6 +169,18 @@ class BadPlace(CapstanTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("cannot write to standard output", done.stderr)
 
+    def test_a_study_survives_the_loss_of_standard_error(self):
+        """Full, closed, or a pipe whose reader has gone: the messages are lost, the study is not."""
+        command = [PROGRAM, "study", "run", str(CONFIGS / "quick.toml"), "--db"]
+        self.run_capstan("study", "run", CONFIGS / "quick.toml", "--db", "whole.db")
+        for name, redirection in (("full", "2>/dev/full"), ("closed", "2>&-"), ("gone", "2> >(:)")):
+            with self.subTest(name):
+                database = f"{name}.db"
+                done = subprocess.run(["bash", "-c", f'sleep 0.1; "$@" {redirection}', "bash", *command, database],
+                                      cwd=self.folder, stdout=subprocess.DEVNULL)
+                self.assertEqual(done.returncode, 0)
+                self.assert_same_bits(self.tables("whole.db"), self.tables(database))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -29,14 +29,14 @@ class FaultyTest(CapstanTest):
     def environment(self, **more):
         return {**os.environ, "LD_PRELOAD": self.shim, "CAPSTAN_FAULT_COUNT": "count", **more}
 
-    def count_of(self, *words):
+    def count_of(self, *words, program=PROGRAM):
         """How many requests the command makes that may fail, and its answer."""
-        done = self.run_capstan(*words, env=self.environment(CAPSTAN_FAULT_AT="0"))
+        done = self.run_program(program, *words, env=self.environment(CAPSTAN_FAULT_AT="0"))
         return int((self.folder / "count").read_text()), done.stdout
 
-    def start_faulty(self, *words):
+    def start_faulty(self, *words, program=PROGRAM):
         """A program that runs the command for every fault it is told of."""
-        process = subprocess.Popen([PROGRAM, *map(str, words)], cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        process = subprocess.Popen([program, *map(str, words)], cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                    text=True, bufsize=1, env=self.environment(CAPSTAN_FAULT_SERVER="1"))
         self.addCleanup(self.end, process)
         return process

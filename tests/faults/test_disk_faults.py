@@ -5,16 +5,27 @@ CAPSTAN_DISK_FAULTS says how many of them are tried in each case, spread evenly 
 
 import os
 import shutil
+import sqlite3
 import unittest
 
+from capstan_program import PROGRAM
 from faulty_program import FaultyTest
-from small_study import SMALL_STUDY, to_version_1
+from small_study import SMALL_STUDY
 
+MIGRATE_FILE = os.environ["CAPSTAN_MIGRATE_FILE"]  # the migration of no release, tests/storage/migrate_file.cpp
 TRIED = os.environ.get("CAPSTAN_DISK_FAULTS", "8")
 # A full disk refuses to be written; where a sync or a truncation is the one that fails, it is an error of the disk.
 FULL = "disk is full|disk reports an error"
 KINDS = {"full": FULL, "error": "disk reports an error", "short": FULL, "stays_full": "disk is full"}
 FEW_UNITS = SMALL_STUDY.replace("samples = [15, 18, 21, 39, 42, 45]", "samples = [15, 45]")
+
+
+def columns_of(path, table):
+    connection = sqlite3.connect(path)
+    try:
+        return [row[1] for row in connection.execute(f"PRAGMA table_info({table})")]
+    finally:
+        connection.close()
 
 
 class DiskFaults(FaultyTest):
@@ -24,9 +35,9 @@ class DiskFaults(FaultyTest):
         super().setUp()
         self.write("small.toml", FEW_UNITS.format(seed=1))
 
-    def places(self, *words):
+    def places(self, *words, program):
         """Which of the operations that the command makes are to fail."""
-        count, _ = self.count_of(*words)
+        count, _ = self.count_of(*words, program=program)
         self.assertGreater(count, 20)
         if TRIED == "all":
             return count, range(1, count + 1)
@@ -41,11 +52,11 @@ class DiskFaults(FaultyTest):
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, f"{kind} at {at}: {done.stderr}")
         return done.returncode != 0
 
-    def try_all(self, what, files, prepare, words, look, go_on):
+    def try_all(self, what, files, prepare, words, look, go_on, program=PROGRAM):
         """`look` at the files that each fault leaves; `go_on` from them, where none before has left the same."""
         prepare()
-        count, places = self.places(*words)
-        process = self.start_faulty(*words)
+        count, places = self.places(*words, program=program)
+        process = self.start_faulty(*words, program=program)
         tried, failed = 0, 0
         for kind in KINDS:
             print(f"  {what}: {kind}", flush=True)
@@ -107,12 +118,10 @@ class DiskFaults(FaultyTest):
 
     def test_a_migration(self):
         self.run_capstan("study", "run", "small.toml", "--db", "old.db")
-        to_version_1(self.folder / "old.db")
         old = self.tables("old.db")
         shutil.copy(self.folder / "old.db", self.folder / "whole.db")
-        self.run_capstan("study", "resume", "all", "--db", "whole.db")
+        self.run_program(MIGRATE_FILE, "whole.db")
         expected = self.tables("whole.db")
-        words = ("study", "resume", "all", "--db", "older.db")
 
         def prepare():
             self.remove("older.db*")
@@ -121,17 +130,17 @@ class DiskFaults(FaultyTest):
         def look(succeeded):
             self.assert_whole("older.db")
             found = self.tables("older.db")
-            self.assert_same_bits(expected if succeeded or sorted(found) == sorted(expected) else old, found)
+            self.assert_same_bits(expected if succeeded or "author" in columns_of(self.folder / "older.db", "study") else old, found)
             copy = self.folder / "older.db.version1"
             if copy.exists():
                 self.assert_whole(copy.name)
                 self.assert_same_bits(old, self.tables(copy.name))
 
         def go_on():
-            self.run_capstan(*words)
+            self.run_program(MIGRATE_FILE, "older.db")
             look(True)
 
-        self.try_all("migration", "older.db*", prepare, words, look, go_on)
+        self.try_all("migration", "older.db*", prepare, ("older.db",), look, go_on, program=MIGRATE_FILE)
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ TEST(ExperimentPage, LeavesOutFiguresWithoutRowsAndSectionsWithoutFigures) {
     EXPECT_FALSE(holds(html, "href=\"#agreement\""));
 }
 
-TEST(ExperimentPage, CarriesNoFigureOfAnotherPage) {
+TEST(ExperimentPage, HasOnlyItsOwnFigures) {
     EXPECT_FALSE(holds(experiment_page_html(page_of("Solvers")), "\"error_by_count\""));
 }
 

@@ -18,7 +18,7 @@ using sample::SampleReport;
 double one_number(storage::Database& database, const std::string& sql) {
     const auto result = storage::run_read_only(database, sql);
     const auto& value = result.rows.at(0).at(0);
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
     return std::get<double>(value);
 }
 
@@ -77,7 +77,7 @@ TEST(ErrorCsv, QuotesTextWithCommas) {
               std::string::npos);
 }
 
-TEST(StudyMarkdown, SaysWhatToDoAndShowsTheTables) {
+TEST(StudyMarkdown, BeginsWithTheRecommendationAndShowsTheTables) {
     SampleReport sample;
     const std::string text = study_report_markdown(sample.database, sample.study_id);
     EXPECT_EQ(text.substr(0, 2), "# ");
@@ -97,7 +97,7 @@ TEST(StudyMarkdown, KeepsHostileNamesHarmless) {
     EXPECT_EQ(text.substr(0, text.find('\n')), "# a \\| b &lt;img src=x> # c");
 }
 
-TEST(StudyMarkdown, LeavesOutThePaperWhereThereIsNone) {
+TEST(StudyMarkdown, OmitsThePaperIfNothingIsCompared) {
     SampleReport sample({.with_paper_comparison = false});
     EXPECT_EQ(study_report_markdown(sample.database, sample.study_id).find("paper's numbers"),
               std::string::npos);

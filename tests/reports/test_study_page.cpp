@@ -40,7 +40,7 @@ nlohmann::json data_of(const std::string& page) {
     return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
-TEST(StudyPage, LoadsNothingFromElsewhere) {
+TEST(StudyPage, LoadsNothingFromTheNetwork) {
     const std::string page = page_of();
     const std::string own = own_part(page);
     for (const char* way :
@@ -98,7 +98,7 @@ TEST(StudyPage, HoldsTheDataOfEveryFigureOnce) {
     EXPECT_EQ(count_of(page, "\"error_by_instant\":{\"meaning\""), 1U);
 }
 
-TEST(StudyPage, KeepsRoomForEveryFigureAndSaysWhatToSee) {
+TEST(StudyPage, ReservesSpaceForEveryFigureAndHasItsCaption) {
     const std::string page = page_of();
     const std::size_t figure_count = count_of(page, "<figure id=");
     EXPECT_EQ(count_of(page, "style=\"min-height:"), figure_count);
@@ -107,7 +107,7 @@ TEST(StudyPage, KeepsRoomForEveryFigureAndSaysWhatToSee) {
     for (const Figure& figure : figures()) EXPECT_GT(figure.caption.size(), 40U) << figure.id;
 }
 
-TEST(StudyPage, LeavesOutWhatTheStudyDoesNotHave) {
+TEST(StudyPage, OmitsSectionsWithoutData) {
     const std::string page =
         page_of({.with_partial_regime = false, .with_paper_comparison = false, .with_node_errors = false});
     EXPECT_FALSE(holds(page, "<section id=\"paper\""));
@@ -126,7 +126,7 @@ TEST(StudyPage, OffersEveryNoiseLevel) {
     EXPECT_EQ(count_of(page, "<article class=\"advice\""), 12U);
 }
 
-TEST(StudyPage, RefusesAStudyThatIsNotThere) {
+TEST(StudyPage, RejectsAnUnknownStudy) {
     SampleReport sample;
     EXPECT_THROW(study_report_html(sample.database, 99), storage::Error);
 }

@@ -77,7 +77,7 @@ TEST(OpeningADatabase, AMissingFileIsOnlyCreatedWhenAsked) {
     expect_says(error_of([&] { Database::open_or_create(folder / "no/such/folder.db"); }), "folder exists");
 }
 
-TEST(OpeningADatabase, AFileThatIsNoDatabaseIsRefusedUntouched) {
+TEST(OpeningADatabase, AFileThatIsNotADatabaseIsRefusedUntouched) {
     const TemporaryFolder folder;
     write_bytes(folder / "letter.txt", "Dear reader,\n" + std::string(5000, 'x'));
     expect_refused_untouched(folder, "letter.txt", "is not a database");
@@ -107,7 +107,8 @@ TEST(OpeningADatabase, ANewerSchemaIsRefusedUntouchedAndBothVersionsAreNamed) {
     const TemporaryFolder folder;
     Database::open_or_create(folder / "results.db");
     run_plain_sqlite(folder / "results.db", "PRAGMA user_version = 42");
-    expect_refused_untouched(folder, "results.db", "version 42, newer than version 4");
+    expect_refused_untouched(folder, "results.db",
+                             "version 42, newer than version " + std::to_string(schema_version));
 }
 
 TEST(OpeningADatabase, AFolderIsRefused) {
@@ -115,7 +116,7 @@ TEST(OpeningADatabase, AFolderIsRefused) {
     for (const Opener open : all_openers) expect_says(error_of([&] { open(folder.path()); }), "folder");
 }
 
-TEST(OpeningADatabase, AKilledCreationIsHealedByTheNext) {
+TEST(OpeningADatabase, TheNextOpeningRepairsAKilledCreation) {
     const TemporaryFolder folder;
     write_bytes(folder / "results.db", "");
     expect_says(error_of([&] { Database::open_existing(folder / "results.db"); }), "holds no study yet");
@@ -137,7 +138,7 @@ void run_and_die(const std::function<void()>& call) {
     ASSERT_TRUE(WIFSIGNALED(status));
 }
 
-TEST(AKilledProcess, InTheMiddleOfCreationIsHealedByTheNext) {
+TEST(KilledProcess, DuringCreationIsRepairedByTheNext) {
     const TemporaryFolder folder;
     run_and_die([&] {
         sqlite3* connection = nullptr;
@@ -151,7 +152,7 @@ TEST(AKilledProcess, InTheMiddleOfCreationIsHealedByTheNext) {
     EXPECT_EQ(begin_study(database, example_study()), 1);
 }
 
-TEST(AKilledProcess, InTheMiddleOfAUnitLeavesTheUnitsBefore) {
+TEST(KilledProcess, DuringAUnitKeepsTheEarlierUnits) {
     const TemporaryFolder folder;
     run_and_die([&] {
         Database database = Database::open_or_create(folder / "results.db");
@@ -192,7 +193,7 @@ TEST(OpeningADatabase, SeveralProcessesMayCreateItAtOnce) {
     EXPECT_EQ(list_studies(database).size(), 4u);
 }
 
-TEST(OpeningADatabase, AnOddNameIsOnlyAName) {
+TEST(OpeningADatabase, AcceptsFileNamesWithSpecialCharacters) {
     const TemporaryFolder folder;
     const auto path = folder / "50% of what? #1 it's.db";
     {
@@ -214,7 +215,7 @@ TEST(OpeningADatabase, AReaderSeesTheStateBeforeAnOpenTransaction) {
     EXPECT_EQ(list_studies(reader).at(0).name, "renamed");
 }
 
-TEST(OpeningADatabase, ASecondWriterThatWaitedInVainIsToldSo) {
+TEST(OpeningADatabase, ASecondWriterGetsAnErrorWhenItWaitedTooLong) {
     const TemporaryFolder folder;
     Database first = Database::open_or_create(folder / "results.db");
     Database second = Database::open_existing(folder / "results.db");

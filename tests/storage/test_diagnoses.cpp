@@ -62,7 +62,7 @@ TEST_F(Diagnoses, ComeBackAsTheyWereWritten) {
     EXPECT_EQ(load_diagnosis(database, 2), second);
 }
 
-TEST_F(Diagnoses, OfAnUnknownNumberAreRefused) {
+TEST_F(Diagnoses, RejectAnUnknownNumber) {
     expect_says(error_of([&] { load_diagnosis(database, 7); }), "holds no diagnosis 7");
 }
 
@@ -78,14 +78,14 @@ TEST_F(Diagnoses, AreJudgedByTheLoadTorqueInTheirView) {
                                                                  {std::string("motor_angle"), {}}}));
 }
 
-TEST_F(Diagnoses, WithAValueThatIsNotANumberLeaveNothing) {
+TEST_F(Diagnoses, StoreNothingIfAValueIsNotANumber) {
     DiagnosisRecord record = example_diagnosis();
     record.gap.back().energy_fraction = std::numeric_limits<double>::quiet_NaN();
     expect_says(error_of([&] { write_diagnosis(database, record); }), "diagnosis_gap.energy_fraction");
     EXPECT_TRUE(load_diagnoses(database).empty());
 }
 
-TEST_F(Diagnoses, StandBesideStudies) {
+TEST_F(Diagnoses, ShareTheFileWithStudies) {
     write_diagnosis(database, example_diagnosis());
     delete_study(database, begin_study(database, example_study()));
     EXPECT_EQ(load_diagnoses(database).size(), 1u);

@@ -38,7 +38,7 @@ class SmallDisk {
 
 const ExampleSize many_rows{.scenarios = 8, .noise_levels = 2, .sensor_sets = 20, .nodes = 11, .blocks = 40};
 
-TEST(FullDisk, KeepsWhatWasFinishedAndResumesWhenThereIsRoom) {
+TEST(FullDisk, KeepsFinishedUnitsAndResumesWhenSpaceIsFree) {
     SmallDisk disk("2m");
     if (!disk.mounted()) GTEST_SKIP() << disk.reason();
     const std::string ballast(800 * 1024, 'x');
@@ -70,7 +70,7 @@ TEST(FullDisk, KeepsWhatWasFinishedAndResumesWhenThereIsRoom) {
     EXPECT_EQ(pending_units(database, 1).size(), 31 - finished);
 }
 
-TEST(FullDisk, ACreationWithoutRoomSaysSoAndTheNextHealsIt) {
+TEST(FullDisk, AFailedCreationIsReportedAndRepairedByTheNext) {
     SmallDisk disk("512k");
     if (!disk.mounted()) GTEST_SKIP() << disk.reason();
     std::ofstream(disk / "ballast", std::ios::binary) << std::string(400 * 1024, 'x');
@@ -96,7 +96,7 @@ TEST(ReadOnlyDisk, IsReadAndNotWritten) {
     expect_says(error_of([&] { Database::open_or_create(disk / "new.db"); }), "write there");
 }
 
-TEST(ReadOnlyDisk, AnUnfinishedLogIsNotPassedOver) {
+TEST(ReadOnlyDisk, AnUnfinishedLogIsNotIgnored) {
     SmallDisk disk("4m");
     if (!disk.mounted()) GTEST_SKIP() << disk.reason();
     {

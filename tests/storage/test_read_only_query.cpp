@@ -54,7 +54,7 @@ TEST_F(QueryBox, ReadsEveryViewWithJoinsWindowsAndRecursion) {
     EXPECT_EQ(run_read_only(database(), "SELECT value FROM sensor_set, json_each(nodes)").rows.size(), 6u);
 }
 
-TEST_F(QueryBox, RefusesWhateverIsNotReading) {
+TEST_F(QueryBox, RefusesEveryStatementThatWrites) {
     const std::string before = bytes_of(folder / "results.db");
     const std::string other = (folder / "other.db").string();
     for (const std::string& sql : {

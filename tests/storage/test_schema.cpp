@@ -64,7 +64,7 @@ TEST(Schema, EveryViewRunsOnADatabaseWithoutStudies) {
     }
 }
 
-TEST(Schema, TheTextInTheProgramSaysTheVersionThatTheProgramKnows) {
+TEST(Schema, ItsTextNamesTheVersionOfTheProgram) {
     EXPECT_NE(schema_text().find("of capstan, version " + std::to_string(schema_version) + "."),
               std::string::npos);
 }

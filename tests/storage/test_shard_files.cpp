@@ -20,7 +20,7 @@ TEST(ShardFile, SaysWhichShardItIs) {
     EXPECT_EQ(list_studies(database).size(), 2u);
 }
 
-TEST(ShardFile, HoldsTheSameStudiesAsWholeOnesBegunOneByOne) {
+TEST(ShardFile, HoldsTheSameStudiesAsACompleteFile) {
     const TemporaryFolder folder;
     Database shard = Database::open_or_create(folder / "shard.db", Journal::rollback);
     Database whole = Database::open_or_create(folder / "whole.db");
@@ -31,7 +31,7 @@ TEST(ShardFile, HoldsTheSameStudiesAsWholeOnesBegunOneByOne) {
     }
 }
 
-TEST(ShardFile, IsNotMadeOfAFileWithStudies) {
+TEST(ShardFile, CannotReplaceAFileWithStudies) {
     const TemporaryFolder folder;
     Database database = Database::open_or_create(folder / "results.db");
     begin_study(database, example_study());
@@ -40,7 +40,7 @@ TEST(ShardFile, IsNotMadeOfAFileWithStudies) {
     EXPECT_EQ(list_studies(database).size(), 1u);
 }
 
-TEST(ShardFile, IsMadeWholeOrNotAtAll) {
+TEST(ShardFile, IsCreatedCompletelyOrNotAtAll) {
     const TemporaryFolder folder;
     Database database = Database::open_or_create(folder / "shard.db", Journal::rollback);
     StudyDescription broken = example_study();
@@ -53,7 +53,7 @@ TEST(ShardFile, IsMadeWholeOrNotAtAll) {
 }
 
 // A write-ahead log needs memory that only one machine sees.
-TEST(ShardFile, KeepsNoLogBesideIt) {
+TEST(ShardFile, LeavesNoWriteAheadLog) {
     const TemporaryFolder folder;
     Database database = Database::open_or_create(folder / "shard.db", Journal::rollback);
     begin_shard(database, {1, 2}, {example_study()});

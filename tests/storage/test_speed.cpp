@@ -11,7 +11,7 @@ namespace {
 
 // The paper's study: about 1200 cells of 11 nodes and 40 blocks, 62,400 rows. The limit is ten times what an
 // idle 2-core machine takes, so that only a lost prepared statement or a transaction per row breaks it.
-TEST(Speed, APapersStudyIsWrittenInNoTime) {
+TEST(Speed, ThePaperStudyIsWrittenWithinTheTimeLimit) {
     const TemporaryFolder folder;
     const ExampleSize paper{.scenarios = 12, .noise_levels = 1, .sensor_sets = 50, .nodes = 11, .blocks = 40};
     Database database = Database::open_or_create(folder / "results.db");

@@ -114,7 +114,7 @@ TEST_F(StudyLife, AStudyIsFinishedWhenEveryUnitIsDoneAndOnlyOnce) {
                 "already");
 }
 
-TEST_F(StudyLife, WhatIsKeptWhenItIsFinishedIsWhatTheViewsSaidWhileItRan) {
+TEST_F(StudyLife, StoredAveragesEqualThoseOfTheRunningStudy) {
     complete_study();  // another one, so that there is something to confuse it with
     const auto study_id = begin_study(database, example_study());
     for (const int unit : pending_units(database, study_id)) write_unit(database, study_id, unit);
@@ -137,7 +137,7 @@ TEST_F(StudyLife, WhatIsKeptWhenItIsFinishedIsWhatTheViewsSaidWhileItRan) {
     EXPECT_EQ(number_from(database, "SELECT count(*) FROM v_running_sensor_matrix"), 0);
 }
 
-TEST_F(StudyLife, TheBestMethodNeedNotKnowTheDirectionAndThereIsOneOfEach) {
+TEST_F(StudyLife, ThereIsOneBestMethodPerCountAndItNeedsNoKnownDirection) {
     complete_study();
     EXPECT_EQ(
         number_from(database, "SELECT count(*) FROM v_best_method"),
@@ -157,7 +157,7 @@ TEST_F(StudyLife, TheBestMethodNeedNotKnowTheDirectionAndThereIsOneOfEach) {
               0);
 }
 
-TEST_F(StudyLife, DeletingAStudyLeavesNothingOfItAndAllOfTheOthers) {
+TEST_F(StudyLife, DeletingAStudyRemovesItsRowsOnly) {
     const auto kept = complete_study();
     const auto before = tables_of(database);
     const auto gone = complete_study();
@@ -169,7 +169,7 @@ TEST_F(StudyLife, DeletingAStudyLeavesNothingOfItAndAllOfTheOthers) {
     expect_says(error_of([&] { delete_study(database, kept); }), "no study");
 }
 
-TEST_F(StudyLife, TheSameStudyMakesTheSameTablesWhateverTheOrderOfItsUnits) {
+TEST_F(StudyLife, TheOrderOfTheUnitsDoesNotChangeTheTables) {
     complete_study();
     Database other = Database::open_or_create(folder / "other.db");
     const auto study_id = begin_study(other, example_study());
@@ -178,7 +178,7 @@ TEST_F(StudyLife, TheSameStudyMakesTheSameTablesWhateverTheOrderOfItsUnits) {
     EXPECT_EQ(tables_of(other), tables_of(database));
 }
 
-TEST_F(StudyLife, TwoStudiesWrittenInTurnMakeTheTablesOfOneAfterTheOther) {
+TEST_F(StudyLife, InterleavedStudiesGiveTheSameTablesAsConsecutiveOnes) {
     complete_study();
     complete_study();
     Database other = Database::open_or_create(folder / "other.db");

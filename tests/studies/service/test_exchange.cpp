@@ -6,13 +6,13 @@
 namespace capstan::service {
 namespace {
 
-TEST(ABody, GivesWholeNumbersAsTheyStand) {
+TEST(RequestBody, GivesIntegersExactly) {
     const auto body = nlohmann::json::parse(R"({"noise": 2, "nodes": [1, -3, 2147483647]})");
     EXPECT_EQ(member<int>(body, "noise"), 2);
     EXPECT_EQ(member<std::vector<int>>(body, "nodes"), (std::vector{1, -3, 2147483647}));
 }
 
-TEST(ABody, IsRefusedWhereANumberWouldHaveToBeCutDown) {
+TEST(RequestBody, RejectsNumbersThatAreNotIntegersOf32Bits) {
     for (const char* number : {"1.5", "1e300", "4294967297", "-2147483649", "18446744073709551615", "true",
                                "\"1\"", "null", "[]"}) {
         const auto body =
@@ -22,7 +22,7 @@ TEST(ABody, IsRefusedWhereANumberWouldHaveToBeCutDown) {
     }
 }
 
-TEST(ABody, IsRefusedWhereAMemberIsMissing) {
+TEST(RequestBody, RejectsMissingMembers) {
     const auto body = nlohmann::json::object();
     EXPECT_THROW(member<int>(body, "noise"), BadRequest);
     EXPECT_THROW(member<std::vector<int>>(body, "nodes"), BadRequest);

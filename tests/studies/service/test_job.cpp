@@ -1,14 +1,13 @@
-// What is kept of a job, and how a child's end is told.
+// What is stored of a job, and how long the text of a report is kept.
 #include <gtest/gtest.h>
 
-#include "capstan/service/child_process.h"
 #include "capstan/service/job.h"
 #include "capstan/service/report_shelf.h"
 
 namespace capstan::service {
 namespace {
 
-TEST(Jobs, ComeBackFromTheirText) {
+TEST(Jobs, SurviveTheirJson) {
     Job study;
     study.number = 3;
     study.title = "it's \"quoted\" – and more";
@@ -27,24 +26,7 @@ TEST(Jobs, ComeBackFromTheirText) {
         EXPECT_THROW(read_jobs(wrong), std::runtime_error);
 }
 
-TEST(AChildProcess, TellsItsWordsAndItsEnd) {
-    std::vector<std::string> lines;
-    ChildProcess child({"/bin/sh", "-c", "echo one >&2; echo unheard; printf 'two\\nthree' >&2; exit 7"});
-    EXPECT_EQ(child.wait([&](const std::string& line) { lines.push_back(line); }), 7);
-    EXPECT_EQ(lines, (std::vector<std::string>{"one", "two", "three"}));
-}
-
-TEST(AChildProcess, EndsWhenAskedTo) {
-    ChildProcess child({"/bin/sh", "-c", "echo ready >&2; exec sleep 1000"});
-    EXPECT_EQ(child.wait([&](const std::string&) { child.ask_to_stop(); }), 128 + 15);
-}
-
-TEST(AChildProcess, ThatCannotBeStartedSaysSo) {
-    ChildProcess child({"/no/such/program"});
-    EXPECT_EQ(child.wait([](const std::string&) {}), 127);
-}
-
-TEST(AReportShelf, KeepsATextAsLongAsItsStateIsTheSame) {
+TEST(ReportShelf, KeepsATextUntilItsStateChanges) {
     using enum ReportShelf::Freshness;
     ReportShelf shelf;
     int made = 0;
@@ -55,7 +37,7 @@ TEST(AReportShelf, KeepsATextAsLongAsItsStateIsTheSame) {
     EXPECT_EQ(*shelf.get("a", "2 of 2", exact, make), "3");
 }
 
-TEST(AReportShelf, HasRoomForSoMuchAndDropsWhatNobodyHasAskedForTheLongest) {
+TEST(ReportShelf, DropsTheLeastRecentlyUsedTexts) {
     using enum ReportShelf::Freshness;
     ReportShelf shelf;
     int made = 0;

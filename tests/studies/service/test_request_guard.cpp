@@ -1,4 +1,4 @@
-// Who is let in. The table of hard cases; tests/commands/test_serve_strangers.py asks the same of a running
+// Which requests are accepted: a table of hard cases. tests/commands/test_serve_strangers.py sends them to a running
 // service.
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 const Access here{"127.0.0.1", 8321, ""};
 const Access anywhere{"0.0.0.0", 8321, "0123456789abcdef"};
 
-RequestHead asked() {
+RequestHead get_request() {
     RequestHead head;
     head.method = "GET";
     head.path = "/api/studies";
@@ -18,8 +18,8 @@ RequestHead asked() {
     return head;
 }
 
-RequestHead told(std::size_t bytes) {
-    RequestHead head = asked();
+RequestHead post_request(std::size_t bytes) {
+    RequestHead head = get_request();
     head.method = "POST";
     head.path = "/api/query";
     head.content_type = "application/json";
@@ -32,40 +32,40 @@ int status(const RequestHead& head, const Access& access = here) {
     return refusal ? refusal->status : 200;
 }
 
-TEST(RequestGuard, LetsInWhatItsOwnPagesAndAShellSend) {
-    EXPECT_EQ(status(asked()), 200);
-    EXPECT_EQ(status(told(100)), 200);
-    RequestHead page = told(100);
+TEST(RequestGuard, AcceptsRequestsOfItsOwnPagesAndOfAShell) {
+    EXPECT_EQ(status(get_request()), 200);
+    EXPECT_EQ(status(post_request(100)), 200);
+    RequestHead page = post_request(100);
     page.host = "LocalHost:8321";
     page.origin = "http://localhost:8321";
     page.fetch_site = "same-origin";
     EXPECT_EQ(status(page), 200);
 }
 
-TEST(RequestGuard, RefusesNamesThatWereMadeToPointHere) {
+TEST(RequestGuard, RejectsForeignHostNames) {
     for (const char* host :
          {"", "evil.example:8321", "127.0.0.1", "127.0.0.1:8322", "127.0.0.1.evil.example:8321",
           "0.0.0.0:8321", "localhost", "user@127.0.0.1:8321"}) {
-        RequestHead head = asked();
+        RequestHead head = get_request();
         head.host = host;
         EXPECT_EQ(status(head), 403) << host;
     }
 }
 
-TEST(RequestGuard, RefusesPagesOfOtherSites) {
+TEST(RequestGuard, RejectsPagesOfOtherSites) {
     for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1:8321",
                                "http://127.0.0.1:8322", "http://127.0.0.1:8321.evil.example"}) {
-        RequestHead head = asked();
+        RequestHead head = get_request();
         head.origin = origin;
         EXPECT_EQ(status(head), 403) << origin;
     }
-    RequestHead head = asked();
+    RequestHead head = get_request();
     head.fetch_site = "cross-site";
     EXPECT_EQ(status(head), 403);
 }
 
-TEST(RequestGuard, WantsTheTokenFromEveryone) {
-    RequestHead head = asked();
+TEST(RequestGuard, RequiresTheTokenInEveryRequest) {
+    RequestHead head = get_request();
     EXPECT_EQ(status(head, anywhere), 401);
     head.authorization = "Bearer 0123456789abcdeF";
     EXPECT_EQ(status(head, anywhere), 401);
@@ -78,31 +78,31 @@ TEST(RequestGuard, WantsTheTokenFromEveryone) {
     EXPECT_EQ(status(head, anywhere), 401);
 }
 
-TEST(RequestGuard, LimitsBodies) {
-    EXPECT_EQ(status(told(largest_text_bytes)), 200);
-    EXPECT_EQ(status(told(largest_text_bytes + 1)), 413);
-    RequestHead upload = told(largest_upload_bytes);
+TEST(RequestGuard, LimitsTheLengthOfBodies) {
+    EXPECT_EQ(status(post_request(largest_text_bytes)), 200);
+    EXPECT_EQ(status(post_request(largest_text_bytes + 1)), 413);
+    RequestHead upload = post_request(largest_upload_bytes);
     upload.path = "/api/diagnoses";
     upload.content_type = "multipart/form-data; boundary=x";
     EXPECT_EQ(status(upload), 200);
     upload.content_length = largest_upload_bytes + 1;
     EXPECT_EQ(status(upload), 413);
-    RequestHead endless = told(0);
+    RequestHead endless = post_request(0);
     endless.content_length.reset();
     EXPECT_EQ(status(endless), 411);
     endless.transfer_encoding = "chunked";
     EXPECT_EQ(status(endless), 411);
 }
 
-TEST(RequestGuard, TakesNoFormOfAnotherPage) {
+TEST(RequestGuard, RejectsCrossSiteForms) {
     for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data"}) {
-        RequestHead head = told(10);
+        RequestHead head = post_request(10);
         head.content_type = type;
         EXPECT_EQ(status(head), 415) << type;
     }
 }
 
-TEST(RequestGuard, ComparesSecretsWhole) {
+TEST(RequestGuard, ComparesEveryCharacterOfASecret) {
     EXPECT_TRUE(same_secret("abc", "abc"));
     for (const char* wrong : {"", "ab", "abcd", "abd", "ABC"})
         EXPECT_FALSE(same_secret(wrong, "abc")) << wrong;
