@@ -1,6 +1,6 @@
 #include "capstan/bench/bench_run.h"
 
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan::bench {
 

@@ -11,7 +11,7 @@
 #include "capstan/gap/driven_inputs.h"
 #include "capstan/gap/recording.h"
 #include "capstan/gap/twin.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan::gap {
 

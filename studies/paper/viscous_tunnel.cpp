@@ -4,7 +4,7 @@
 
 #include "capstan/paper/error_reduction_tunnel.h"
 #include "capstan/sensing/random_stream.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan::paper {
 

@@ -3,7 +3,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/true_motion.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan {
 

@@ -1,4 +1,4 @@
-#include "capstan/solver/bench_pulleys.h"
+#include "capstan/rig/bench_pulleys.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
-#include "capstan/solver/bench_cables_kernel.h"
+#include "capstan/rig/bench_cables_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace capstan::bench::HWY_NAMESPACE {

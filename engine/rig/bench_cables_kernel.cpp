@@ -1,15 +1,15 @@
 // A bench a lane. No fused multiply-add, and what a lane holds never depends on its neighbours.
-#include "capstan/solver/bench_cables_kernel.h"
+#include "capstan/rig/bench_cables_kernel.h"
 
 #include "capstan/solver/chosen_target.h"
 
 // foreach_target.h comes before highway.h.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "capstan/solver/bench_cables_kernel.cpp"
+#define HWY_TARGET_INCLUDE "capstan/rig/bench_cables_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include "capstan/solver/bench_laws-inl.h"
+#include "capstan/rig/bench_laws-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();

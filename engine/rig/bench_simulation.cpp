@@ -1,4 +1,4 @@
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "capstan/solver/bench_cables.h"
+#include "capstan/rig/bench_cables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan {
 namespace {

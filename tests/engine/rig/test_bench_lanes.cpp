@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "capstan/effects/effect_catalogue.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "capstan/cable/cable.h"
 #include "capstan/effects/bench_effects.h"
-#include "capstan/solver/bench_cables_kernel.h"
+#include "capstan/rig/bench_cables_kernel.h"
 
 namespace capstan {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "capstan/solver/bench_lanes.h"
+#include "capstan/rig/bench_lanes.h"
 
 namespace capstan {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "capstan/solver/bench_cables.h"
-#include "capstan/solver/bench_pulleys.h"
+#include "capstan/rig/bench_cables.h"
+#include "capstan/rig/bench_pulleys.h"
 
 namespace capstan {
 
