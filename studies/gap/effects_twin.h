@@ -25,7 +25,7 @@ struct BenchNumbers {
     std::map<std::string, SensorFaults> sensor_faults;  // by channel
 
     /// A rotor that rings on its cables, at tens of hertz: it is moved sample by sample whatever the stride.
-    bool rings() const { return effects.inertia.motor_kg_m2 > 0.0; }
+    bool rings() const { return effects.of<Inertia>().motor_kg_m2 > 0.0; }
 };
 
 struct EffectsTwinOptions {
