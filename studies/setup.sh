@@ -2,11 +2,11 @@
 
 build_packages=(
     g++ cmake ninja-build ccache
-    libeigen3-dev liblapack-dev libtbb-dev libsqlite3-dev libboost-program-options-dev libboost-math-dev
+    libeigen3-dev libtbb-dev libsqlite3-dev libboost-program-options-dev libboost-math-dev
     librandom123-dev libhwy-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev
     nodejs npm
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev sqlite3 python3 chromium)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev liblapack-dev sqlite3 python3 chromium)
 # For the test on a Slurm of its own, which is skipped without them.
 slurm_packages=(slurmctld slurmd slurm-client munge)
 

@@ -1,5 +1,5 @@
-#pragma once
-
+// The one list of effects. The rig's kernel includes this file again for each instruction set, so that it
+// sees the law of every effect; the list itself is declared once.
 #include "capstan/effects/backlash.h"
 #include "capstan/effects/bending_stiffness.h"
 #include "capstan/effects/cable_stiffness_nonlinear.h"
@@ -17,28 +17,18 @@
 #include "capstan/effects/stribeck.h"
 #include "capstan/effects/viscous_friction.h"
 
+#ifndef CAPSTAN_EFFECTS_BENCH_EFFECTS_H
+#define CAPSTAN_EFFECTS_BENCH_EFFECTS_H
+#include "capstan/effects/effect_set.h"
+
 namespace capstan {
 
-/// Everything of a bench's mechanics that the ideal model leaves out; as it stands, nothing.
-struct BenchEffects {
-    ViscousFriction viscous_friction;
-    Stribeck stribeck;
-    Presliding presliding;
-    LoadDependentFriction load_dependent_friction;
-    BendingStiffness bending_stiffness;
-    LocalBend local_bend;
-    MovingBend moving_bend;
-    PulleyFriction motor_friction;
-    PulleyFriction load_friction;
-    MotorCogging motor_cogging;
-    Inertia inertia;
-    Backlash motor_backlash;
-    Backlash load_backlash;
-    ConduitCompliance conduit_compliance;
-    NonlinearStiffness nonlinear_stiffness;
-    Creep creep;
-    PretensionDrift pretension_drift;
-    EnvironmentCoupling environment_coupling;
-};
+/// All mechanics of a bench that the ideal model leaves out; by default every effect is absent. In the order
+/// of the catalogue.
+using BenchEffects =
+    EffectSet<ViscousFriction, Stribeck, Presliding, LoadDependentFriction, BendingStiffness, LocalBend,
+              MovingBend, PulleyFriction, MotorCogging, Inertia, Backlash, ConduitCompliance,
+              NonlinearStiffness, Creep, EnvironmentCoupling, PretensionDrift>;
 
 }  // namespace capstan
+#endif

@@ -15,4 +15,8 @@ struct Stretch {
     }
 };
 
+inline Stretch stretch_around(double middle_m, double length_m) {
+    return {middle_m - 0.5 * length_m, middle_m + 0.5 * length_m};
+}
+
 }  // namespace capstan

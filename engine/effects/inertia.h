@@ -1,5 +1,8 @@
 #pragma once
 
+#include "capstan/effects/effect_row.h"
+#include "capstan/effects/torque.h"
+
 namespace capstan {
 
 /// Moments of inertia that the quasi-static model leaves out (E35): of rotor and motor pulley, of load pulley
@@ -7,6 +10,37 @@ namespace capstan {
 struct Inertia {
     double motor_kg_m2 = 0.0;
     double load_kg_m2 = 0.0;
+
+    /// Implicit Euler.
+    static Torque torque(double inertia_kg_m2, double speed_rad_per_s, double speed_before_rad_per_s,
+                         double time_step_s) {
+        return {inertia_kg_m2 * (speed_rad_per_s - speed_before_rad_per_s) / time_step_s,
+                inertia_kg_m2 / (time_step_s * time_step_s)};
+    }
+
+    static std::vector<EffectRow<Inertia>> rows() {
+        return {{.about = {.name = "inertia",
+                           .variant = "motor",
+                           .title = "unmodelled inertia",
+                           .family = "actuator",
+                           .component = "motor",
+                           .end = "motor",
+                           .equation = "E35",
+                           .meaning = "inertia of rotor and motor pulley"},
+                 .parameters = {{{.name = "inertia", .unit = "kg m2", .high = 10.0, .typical = 1e-4},
+                                 &Inertia::motor_kg_m2}}},
+                {.about = {.name = "inertia",
+                           .variant = "load",
+                           .title = "unmodelled inertia",
+                           .family = "actuator",
+                           .component = "load_pulley",
+                           .end = "load",
+                           .equation = "E35",
+                           .meaning = "inertia of load pulley and handle",
+                           .needs_pair = true},
+                 .parameters = {{{.name = "inertia", .unit = "kg m2", .high = 10.0, .typical = 2e-3},
+                                 &Inertia::load_kg_m2}}}};
+    }
 };
 
 }  // namespace capstan

@@ -2,21 +2,42 @@
 
 #include <cmath>
 
+#include "capstan/effects/effect_row.h"
+#include "capstan/effects/torque.h"
+
 namespace capstan {
 
-/// Torque ripple of the motor, periodic in its angle (E28); adds to what the motor must give.
+/// Torque ripple of the motor, periodic in its angle (E28); adds to the torque that the motor must give.
 struct MotorCogging {
     double sine_Nm = 0.0;
     double cosine_Nm = 0.0;
     double periods_per_turn = 7.0;
 
-    double torque_Nm(double angle_rad) const {
+    Torque torque(double angle_rad) const {
         const double phase = periods_per_turn * angle_rad;
-        return sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase);
+        return {sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase),
+                periods_per_turn * (sine_Nm * std::cos(phase) - cosine_Nm * std::sin(phase))};
     }
-    double slope_Nm_per_rad(double angle_rad) const {
-        const double phase = periods_per_turn * angle_rad;
-        return periods_per_turn * (sine_Nm * std::cos(phase) - cosine_Nm * std::sin(phase));
+
+    static std::vector<EffectRow<MotorCogging>> rows() {
+        return {
+            {.about = {.name = "motor_cogging",
+                       .title = "motor cogging",
+                       .family = "actuator",
+                       .component = "motor",
+                       .end = "motor",
+                       .equation = "E28",
+                       .meaning = "torque ripple, periodic in the motor angle"},
+             .parameters = {{{.name = "sine", .unit = "N m", .low = -10.0, .high = 10.0, .typical = 0.005},
+                             &MotorCogging::sine_Nm},
+                            {{.name = "cosine", .unit = "N m", .low = -10.0, .high = 10.0, .typical = 0.005},
+                             &MotorCogging::cosine_Nm},
+                            {{.name = "periods_per_turn",
+                              .low = 1.0,
+                              .high = 200.0,
+                              .typical = 7.0,
+                              .role = ParameterRole::periods},
+                             &MotorCogging::periods_per_turn}}}};
     }
 };
 

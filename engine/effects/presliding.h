@@ -1,40 +1,82 @@
-#pragma once
-
-#include <cmath>
+#ifndef CAPSTAN_EFFECTS_PRESLIDING_H
+#include "capstan/effects/effect_row.h"
+#include "capstan/effects/law.h"
 
 namespace capstan {
 
-/// How far the bristles between cable and conduit are bent, in parts of full friction: -1 to 1.
+/// How far the bristles between cable and conduit are bent, as a fraction of full friction: -1 to 1.
+template <class Number>
 struct Bristle {
-    double bend = 0.0;
-    double bend_per_m = 0.0;  ///< slope with further sliding
+    Number bend;
+    Number bend_per_m;  ///< slope with further sliding
 };
 
 /// Friction that builds up over a small displacement before the cable slides (E22, Dahl):
 /// dz / du = (1 - z sign(du))^exponent / length, friction = z times full friction.
-struct Presliding {
-    double length_m = 0.0;  ///< 0: as stiff as numerics need
-    double exponent = 1.0;  ///< 0: straight to full friction, 1: ever more slowly
+template <class Number>
+struct PreslidingLaw {
+    Number length_m = 0.0;  ///< 0: as stiff as numerics allow
+    Number exponent = 1.0;  ///< 0: straight to full friction, 1: exponential approach
 
-    Bristle after(double bend, double slid_m) const {
-        // Not moved yet: on, the way the bristles are bent.
-        const double way = (slid_m == 0.0 ? bend : slid_m) < 0.0 ? -1.0 : 1.0;
-        const double gap = 1.0 - way * bend;  // to full friction this way
-        const double path = std::abs(slid_m) / length_m;
-        if (exponent == 0.0) {
-            return gap > path ? Bristle{bend + slid_m / length_m, 1.0 / length_m} : Bristle{way, 0.0};
-        }
-        if (exponent == 1.0) {
-            const double left = gap * std::exp(-path);
-            return {way * (1.0 - left), left / length_m};
-        }
-        // gap^(1 - n) falls linearly along the path.
-        const double power = 1.0 - exponent;
-        const double left_power = std::pow(gap, power) - power * path;
-        if (left_power <= 0.0) return {way, 0.0};
-        const double left = std::pow(left_power, 1.0 / power);
-        return {way * (1.0 - left), std::pow(left, exponent) / length_m};
+    bool is_active() const { return length_m != 0.0; }
+    static std::vector<EffectRow<PreslidingLaw>> rows() {
+        return {{.about = {.name = "presliding",
+                           .title = "presliding",
+                           .family = "friction law",
+                           .component = "conduit",
+                           .equation = "E22",
+                           .meaning = "friction that builds up over a small displacement",
+                           .changes_the_cable = true},
+                 .parameters = {{{.name = "length", .unit = "m", .high = 0.1, .typical = 5e-4},
+                                 &PreslidingLaw::length_m}}}};
     }
 };
+using Presliding = PreslidingLaw<double>;
 
 }  // namespace capstan
+#endif
+
+#if !defined(CAPSTAN_EFFECTS_PRESLIDING_H) || defined(CAPSTAN_LAWS_FOR_LANES)
+#define CAPSTAN_EFFECTS_PRESLIDING_H
+CAPSTAN_LAWS_BEGIN
+
+template <class Condition, class Number>
+CAPSTAN_LAW Bristle<Number> choose(Condition condition, const Bristle<Number>& a, const Bristle<Number>& b) {
+    return {select(condition, a.bend, b.bend), select(condition, a.bend_per_m, b.bend_per_m)};
+}
+
+/// The bristles after further sliding; exact over a step.
+template <class Number>
+CAPSTAN_LAW Bristle<Number> bristle_after(const PreslidingLaw<Number>& law, Number bend, Number slid_m) {
+    const Number zero = constant<Number>(0.0);
+    const Number one = constant<Number>(1.0);
+    // If the cable has not moved: the way that the bristles are bent.
+    const Number leaning = select(is_equal(slid_m, zero), bend, slid_m);
+    const Number way = select(is_greater(zero, leaning), constant<Number>(-1.0), one);
+    const Number gap = one - way * bend;  // to full friction this way
+    const Number path = quotient(abs(slid_m), law.length_m);
+
+    const auto builds_up = is_greater(gap, path);
+    const Bristle<Number> straight = {select(builds_up, bend + quotient(slid_m, law.length_m), way),
+                                      select(builds_up, quotient(one, law.length_m), zero)};
+    const auto is_straight = is_equal(law.exponent, zero);
+    if (all(is_straight)) return straight;
+
+    const Number decayed = gap * exp(negative(path));
+    const Bristle<Number> exponential = {way * (one - decayed), quotient(decayed, law.length_m)};
+    const auto is_exponential = is_equal(law.exponent, one);
+    const Bristle<Number> common = choose(is_straight, straight, exponential);
+    if (all(either(is_straight, is_exponential))) return common;
+
+    // gap^(1 - exponent) falls linearly along the path.
+    const Number power = select(is_exponential, one, one - law.exponent);
+    const Number left_power = pow(gap, power) - power * path;
+    const Number left = pow(max(left_power, zero), one / power);
+    const auto is_left = is_greater(left_power, zero);
+    const Bristle<Number> general = {select(is_left, way * (one - left), way),
+                                     select(is_left, quotient(pow(left, law.exponent), law.length_m), zero)};
+    return choose(either(is_straight, is_exponential), common, general);
+}
+
+CAPSTAN_LAWS_END
+#endif

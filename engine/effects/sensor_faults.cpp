@@ -11,12 +11,12 @@ namespace {
 
 // The elastic body of the cell drags friction along: the reading trails by a bristle as wide as the loop.
 void add_hysteresis(std::vector<double>& signal, double half_width) {
-    const Presliding bristles{half_width, 1.0};
+    const Presliding bristles{.length_m = half_width, .exponent = 1.0};
     double bend = 0.0;
     double before = signal.front();
     for (double& value : signal) {
         const double now = value;
-        bend = bristles.after(bend, now - before).bend;
+        bend = laws::bristle_after(bristles, bend, now - before).bend;
         before = now;
         value = now - half_width * bend;
     }
@@ -55,6 +55,49 @@ std::vector<double> sensed(std::vector<double> signal, const SensorFaults& fault
         if (faults.step > 0.0) value = faults.step * std::round(value / faults.step);
     }
     return signal;
+}
+
+const std::vector<SensorFault>& sensor_fault_catalogue() {
+    using Size = SensorFault::Size;
+    using TypicalOf = SensorFault::TypicalOf;
+    static const std::vector<SensorFault> all = {
+        {.name = "sensor_gain",
+         .title = "sensor gain error",
+         .size = Size::either_sign,
+         .typical = 1.1,
+         .value = &SensorFaults::gain},
+        {.name = "sensor_offset",
+         .title = "sensor offset",
+         .size = Size::either_sign,
+         .typical = 0.05,
+         .typical_of = TypicalOf::channel_span,
+         .value = &SensorFaults::offset},
+        {.name = "sensor_lag",
+         .title = "sensor lag",
+         .unit = "s",
+         .typical = 0.03,
+         .value = &SensorFaults::lag_s,
+         .confusable_with = {"time_misalignment"}},
+        {.name = "time_misalignment",
+         .title = "time misalignment",
+         .unit = "s",
+         .size = Size::either_sign,
+         .typical = 3.0,
+         .typical_of = TypicalOf::time_step,
+         .value = &SensorFaults::delay_s},
+        {.name = "sensor_quantization",
+         .title = "sensor quantisation",
+         .size = Size::lattice,
+         .typical = 0.05,
+         .typical_of = TypicalOf::channel_span,
+         .value = &SensorFaults::step},
+        {.name = "sensor_hysteresis",
+         .title = "sensor hysteresis",
+         .typical = 0.03,
+         .typical_of = TypicalOf::channel_span,
+         .value = &SensorFaults::hysteresis},
+    };
+    return all;
 }
 
 }  // namespace capstan

@@ -81,14 +81,14 @@ double PullPull::load_torque_Nm(const PullPullState& state) const {
 }
 
 PullPullReport PullPull::advance(PullPullState& state, const PullPullInputs& inputs) const {
-    PullPullState room = state;
-    return advance(state, inputs, room);
+    PullPullState workspace = state;
+    return advance(state, inputs, workspace);
 }
 
 PullPullReport PullPull::advance(PullPullState& state, const PullPullInputs& inputs,
-                                 PullPullState& room) const {
+                                 PullPullState& workspace) const {
     demand_solvable(inputs);
-    Trial trial{state, room, {}};
+    Trial trial{state, workspace, {}};
     std::visit(Overloaded{[&](const MotorAngle& motor) {
                               load_settles(trial, motor.angle_rad, inputs.load, torque_tolerance_Nm);
                           },
@@ -102,7 +102,7 @@ PullPullReport PullPull::advance(PullPullState& state, const PullPullInputs& inp
                                   });
                           }},
                inputs.motor);
-    std::swap(state, room);
+    std::swap(state, workspace);
     return trial.report;
 }
 

@@ -77,8 +77,9 @@ class PullPull {
     /// Advances `state` in place. Throws InvalidInput if a number is not finite, a stiffness is negative or
     /// a torque is prescribed at both pulleys (the angles would be undetermined); `state` is then unchanged.
     PullPullReport advance(PullPullState& state, const PullPullInputs& inputs) const;
-    /// The same without allocation: `room` is another state of this pair, and its values do not matter.
-    PullPullReport advance(PullPullState& state, const PullPullInputs& inputs, PullPullState& room) const;
+    /// The same without allocation: `workspace` is another state of this pair, and its values do not matter.
+    PullPullReport advance(PullPullState& state, const PullPullInputs& inputs,
+                           PullPullState& workspace) const;
 
     /// Torque that the motor must give; positive turns the motor pulley the positive way.
     double motor_torque_Nm(const PullPullState& state) const;

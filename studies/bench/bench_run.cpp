@@ -1,6 +1,6 @@
 #include "capstan/bench/bench_run.h"
 
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan::bench {
 
@@ -40,7 +40,7 @@ std::vector<double> node_tensions_N(const BenchSimulation& simulation, int cable
 }
 
 void simulate_with_effects(const BenchPlan& plan, const Cable& cable, const Each& each) {
-    BenchSimulation simulation({cable, true, plan.pulleys, {}}, effects_with(plan.effects));
+    BenchSimulation simulation({.cable = cable, .pulleys = plan.pulleys}, effects_with(plan.effects));
     const auto instant = [&](double time_s, bool solved) {
         return BenchInstant{time_s,
                             simulation.motor_torque_Nm(),

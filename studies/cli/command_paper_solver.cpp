@@ -14,7 +14,6 @@ namespace capstan::cli {
 namespace {
 
 using paper::Agreement;
-using paper::Solver;
 using paper::SolverRate;
 
 struct Comparison {
@@ -27,7 +26,7 @@ Comparison measured(double seconds_per_solver) {
     for (const int segments : {1, 2, 3, 5, 10, 20, 40, 60}) {
         comparison.rates.push_back(
             {segments, paper::race({paper::ComparedMotion::partial, segments, seconds_per_solver},
-                                   {Solver::closed_form, Solver::linear_assumed, Solver::generic})});
+                                   {paper::linear_assumed_peer(), paper::generic_peer()})});
     }
     return comparison;
 }
@@ -44,7 +43,7 @@ nlohmann::ordered_json in_json(const Comparison& comparison) {
     nlohmann::ordered_json rates = nlohmann::ordered_json::array();
     for (const RatesOfCable& cable : comparison.rates) {
         for (const SolverRate& rate : cable.rates) {
-            nlohmann::ordered_json row = {{"segments", cable.segments}, {"solver", name_of(rate.solver)}};
+            nlohmann::ordered_json row = {{"segments", cable.segments}, {"solver", rate.name}};
             row["steps_per_s"] = nullptr;
             if (rate.steps_per_s) row["steps_per_s"] = *rate.steps_per_s;
             rates.push_back(row);

@@ -13,8 +13,8 @@ const std::vector<Command>& commands() {
         export_command(),         serve_command(),        simulate_command(),
         calibrate_command(),      diagnose_command(),     gap_trial_command(),
         config_default_command(), config_check_command(), paper_exp1_command(),
-        paper_exp2_command(),     paper_solver_command(), bench_solver_command(),
-        doctor_command(),         completion_command(),   man_command(),
+        paper_exp2_command(),     paper_solver_command(), doctor_command(),
+        completion_command(),     man_command(),
     };
     return all;
 }

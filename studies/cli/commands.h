@@ -35,7 +35,6 @@ Command diagnose_command();
 Command gap_trial_command();
 Command config_default_command();
 Command config_check_command();
-Command bench_solver_command();
 Command paper_solver_command();
 Command paper_exp1_command();
 Command paper_exp2_command();

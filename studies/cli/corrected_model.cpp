@@ -40,7 +40,7 @@ std::string corrected_model_text(const Recording& recording, const gap::Diagnosi
                     absent_effects()};
     for (const gap::FittedCause& cause : diagnosis.causes) {
         const std::size_t index = catalogue_index(cause);
-        if (index < effect_catalogue().size() && is_of_the_cable(effect_catalogue()[index])) {
+        if (index < effect_catalogue().size() && effect_catalogue()[index].changes_the_cable) {
             truth.effects[index] = values_of(effect_catalogue()[index], cause);
         } else if (!cause.numbers.empty()) {
             comments.push_back(fmt::format("Not in here, for it is not of the cable: {}{}{}.", cause.effect,

@@ -14,29 +14,12 @@ using reports::Table;
 constexpr double papers_rate_Hz = 1000.0;
 constexpr std::int64_t papers_segments = 40;  // of its linear solver at that rate
 
-std::string title_of(paper::Solver solver) {
-    switch (solver) {
-        case paper::Solver::closed_form:
-            return "closed form (capstan)";
-        case paper::Solver::replicates:
-            return "closed form, many replicates";
-        case paper::Solver::band_lu:
-            return "banded linear system";
-        case paper::Solver::linear_assumed:
-            return "dense linear-assumed (paper's)";
-        case paper::Solver::generic:
-            return "generic root finder (MINPACK)";
-    }
-    return {};
-}
-
 Table rate_table(const std::vector<RatesOfCable>& cables) {
     Table table{"solver_rate", "Steps a second, measured", {"solver", "segments", "steps_per_s"}, {}};
     for (const RatesOfCable& cable : cables) {
         for (const paper::SolverRate& rate : cable.rates) {
             if (rate.steps_per_s)
-                table.rows.push_back(
-                    {title_of(rate.solver), std::int64_t{cable.segments}, *rate.steps_per_s});
+                table.rows.push_back({rate.title, std::int64_t{cable.segments}, *rate.steps_per_s});
         }
     }
     return table;

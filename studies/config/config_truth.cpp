@@ -32,7 +32,7 @@ std::vector<ConfigSection<StudyPlan>> truth_sections() {
          "How the true cable differs from the one above, in which the estimators believe; as by default, not at "
          "all. `capstan diagnose --corrected FILE` writes one from a recording, `capstan study run --truth FILE` "
          "takes it. Effects need both ends' positions to be given."}};
-    add_effect_sections(sections, "truth", is_of_the_cable);
+    add_effect_sections(sections, "truth", std::mem_fn(&Effect::changes_the_cable));
     return sections;
 }
 
@@ -42,7 +42,8 @@ std::vector<StudyKey> truth_keys() {
         ratio_key("stiffness_ratio", "the axial stiffness", &TrueCable::stiffness_ratio),
         ratio_key("pretension_ratio", "the pretension", &TrueCable::pretension_ratio)};
     add_effect_keys(
-        keys, "truth", is_of_the_cable, [](auto& plan) -> auto& { return plan.truth.effects; });
+        keys, "truth", std::mem_fn(&Effect::changes_the_cable),
+        [](auto& plan) -> auto& { return plan.truth.effects; });
     return keys;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "capstan/effects/effect_catalogue.h"
+#include "capstan/effects/known_causes.h"
 
 namespace capstan::gap {
 
@@ -14,13 +15,12 @@ using Values = std::span<const double>;
 
 // Wide enough to hold any wrong parameter that a laboratory would not notice otherwise.
 constexpr double wrong_log_std = 0.5;
-// Of the friction coefficient at a reference load that nobody measured.
-constexpr double loose_log_std = 0.1;
-
-CandidateCause plain(const std::string& effect, const std::string& family, const std::string& component) {
+// Without open numbers.
+CandidateCause plain(const std::string& effect, const std::string& component) {
     CandidateCause cause;
     cause.effect = effect;
-    cause.family = family;
+    const KnownCause* known = find_cause(effect);
+    cause.family = known != nullptr ? known->family : effect;
     cause.component = component;
     cause.apply = [](BenchNumbers&, Values) {};
     cause.friction_std = cause.stiffness_std = cause.pretension_std = nominal_log_std;
@@ -28,9 +28,17 @@ CandidateCause plain(const std::string& effect, const std::string& family, const
 }
 
 OpenNumber::Kind kind_of(const EffectParameter& parameter, double absent) {
-    if (parameter.name == "middle") return OpenNumber::Kind::place;
-    if (parameter.name == "periods_per_turn") return OpenNumber::Kind::periods;
-    if (parameter.typical == absent || (absent != 0.0 && absent != 1.0)) return OpenNumber::Kind::shape;
+    switch (parameter.role) {
+        case ParameterRole::shape:
+        case ParameterRole::normal_force:
+            return OpenNumber::Kind::shape;
+        case ParameterRole::place:
+            return OpenNumber::Kind::place;
+        case ParameterRole::periods:
+            return OpenNumber::Kind::periods;
+        case ParameterRole::size:
+            break;
+    }
     return parameter.low < absent ? OpenNumber::Kind::signed_size : OpenNumber::Kind::size;
 }
 
@@ -45,73 +53,74 @@ double usual_normal_force_N_per_m(const Recording& recording) {
     return pretension_N / radius_m;
 }
 
-// A power law's reference and its factor say the same; the factor is friction's own, so the reference is
-// given.
-CandidateCause load_dependent_friction(CandidateCause cause, double reference_N_per_m) {
-    cause.numbers.resize(1);
-    cause.given = {{"reference", "N/m", reference_N_per_m}};
-    cause.apply = [reference_N_per_m](BenchNumbers& numbers, Values values) {
-        numbers.effects.load_dependent_friction = {values[0], reference_N_per_m};
-    };
-    cause.friction_std = loose_log_std;
-    return cause;
-}
-
-CandidateCause cause_of(const Effect& effect, double length_m) {
-    CandidateCause cause = plain(effect.name, effect.family, effect.component);
+CandidateCause cause_of(const Effect& effect, double length_m, double normal_force_N_per_m) {
+    CandidateCause cause = plain(effect.name, effect.component);
     cause.variant = effect.variant;
     cause.end = effect.end;
+    std::vector<double> values = effect.absent;
+    std::vector<std::size_t> open;  // parameters
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
         const EffectParameter& parameter = effect.parameters[k];
+        if (parameter.role == ParameterRole::normal_force) {
+            // A power law's reference and its factor say the same, and the factor is friction's own.
+            values[k] = normal_force_N_per_m;
+            cause.given.push_back({parameter.name, parameter.unit, normal_force_N_per_m});
+            continue;
+        }
         OpenNumber number{parameter.name,    parameter.unit,   kind_of(parameter, effect.absent[k]),
                           parameter.typical, effect.absent[k], parameter.low,
                           parameter.high};
         if (number.kind == OpenNumber::Kind::place) number.typical = length_m;
         cause.numbers.push_back(number);
+        open.push_back(k);
     }
-    cause.apply = [apply = effect.apply](BenchNumbers& numbers, Values values) {
-        apply(numbers.effects, values);
+    cause.apply = [apply = effect.apply, values, open](BenchNumbers& numbers, Values fitted) {
+        std::vector<double> all = values;
+        for (std::size_t k = 0; k < open.size(); ++k) all[open[k]] = fitted[k];
+        apply(numbers.effects, all);
     };
+    cause.friction_std = std::max(nominal_log_std, effect.friction_log_std);
+    cause.stiffness_std = std::max(nominal_log_std, effect.stiffness_log_std);
     return cause;
 }
 
-// Faults of one channel's sensor; sizes in parts of what the channel spans.
-// `lattice`: the step on which all its values lie, where that shows.
+// Faults of one channel's sensor. `lattice`: the step on which all its values lie, where that shows.
 std::vector<CandidateCause> sensor_causes(const std::string& channel, double span, double time_step_s,
                                           const std::optional<double>& lattice) {
-    using Setter = void (*)(SensorFaults&, double);
-    struct Fault {
-        const char* name;
-        const char* unit;
-        OpenNumber::Kind kind;
-        double typical;
-        double absent;
-        Setter set;
+    const auto kind_of_fault = [](SensorFault::Size size) {
+        switch (size) {
+            case SensorFault::Size::either_sign:
+                return OpenNumber::Kind::signed_size;
+            case SensorFault::Size::lattice:
+                return OpenNumber::Kind::step;
+            case SensorFault::Size::positive:
+                break;
+        }
+        return OpenNumber::Kind::size;
     };
-    const Fault faults[] = {
-        {"sensor_gain", "", OpenNumber::Kind::signed_size, 1.1, 1.0,
-         [](SensorFaults& f, double v) { f.gain = v; }},
-        {"sensor_offset", "", OpenNumber::Kind::signed_size, 0.05 * span, 0.0,
-         [](SensorFaults& f, double v) { f.offset = v; }},
-        {"sensor_lag", "s", OpenNumber::Kind::size, 0.03, 0.0,
-         [](SensorFaults& f, double v) { f.lag_s = v; }},
-        {"time_misalignment", "s", OpenNumber::Kind::signed_size, 3.0 * time_step_s, 0.0,
-         [](SensorFaults& f, double v) { f.delay_s = v; }},
-        {"sensor_quantization", "", OpenNumber::Kind::step, 0.05 * span, 0.0,
-         [](SensorFaults& f, double v) { f.step = v; }},
-        {"sensor_hysteresis", "", OpenNumber::Kind::size, 0.03 * span, 0.0,
-         [](SensorFaults& f, double v) { f.hysteresis = v; }},
+    const auto unit_of_typical = [&](SensorFault::TypicalOf what) {
+        switch (what) {
+            case SensorFault::TypicalOf::channel_span:
+                return span;
+            case SensorFault::TypicalOf::time_step:
+                return time_step_s;
+            case SensorFault::TypicalOf::absolute:
+                break;
+        }
+        return 1.0;
     };
     std::vector<CandidateCause> causes;
-    for (const Fault& fault : faults) {
-        CandidateCause cause = plain(fault.name, "sensor", "sensor:" + channel);
+    for (const SensorFault& fault : sensor_fault_catalogue()) {
+        CandidateCause cause = plain(fault.name, "sensor:" + channel);
         cause.variant = channel;
-        cause.numbers = {{"size", fault.unit, fault.kind, fault.typical, fault.absent, -1e3, 1e3}};
-        if (fault.kind == OpenNumber::Kind::step && lattice) {
+        cause.numbers = {{"size", fault.unit, kind_of_fault(fault.size),
+                          fault.typical * unit_of_typical(fault.typical_of), SensorFaults().*fault.value,
+                          -1e3, 1e3}};
+        if (fault.size == SensorFault::Size::lattice && lattice) {
             cause.numbers.front().low = cause.numbers.front().high = *lattice;
         }
-        cause.apply = [channel, set = fault.set](BenchNumbers& numbers, Values values) {
-            set(numbers.sensor_faults[channel], values[0]);
+        cause.apply = [channel, value = fault.value](BenchNumbers& numbers, Values values) {
+            numbers.sensor_faults[channel].*value = values[0];
         };
         causes.push_back(cause);
     }
@@ -231,25 +240,17 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
     double length_m = 0.0;
     for (const CurvaturePiece& piece : recording.nominal->curvature) length_m += piece.length_m;
 
-    std::vector<CandidateCause> causes = {plain("none", "none", "none")};
-    CandidateCause friction = plain("param_mu", "friction place", "parameter");
+    std::vector<CandidateCause> causes = {plain("none", "none")};
+    CandidateCause friction = plain("param_mu", "parameter");
     friction.friction_std = wrong_log_std;
-    CandidateCause stiffness = plain("param_K", "compliance", "parameter");
+    CandidateCause stiffness = plain("param_K", "parameter");
     stiffness.stiffness_std = wrong_log_std;
-    CandidateCause pretension = plain("param_T0", "pretension", "parameter");
+    CandidateCause pretension = plain("param_T0", "parameter");
     pretension.pretension_std = wrong_log_std;
     causes.insert(causes.end(), {friction, stiffness, pretension});
     for (const Effect& effect : effect_catalogue()) {
-        const bool needs_a_pair = effect.name == "moving_bend" || effect.variant == "cable B" ||
-                                  effect.variant == "cable A" || effect.end == "load";
-        if (recording.mode == BenchMode::single_cable && needs_a_pair && effect.name != "conduit_compliance")
-            continue;
-        CandidateCause cause = cause_of(effect, length_m);
-        // Nobody knows at which tension the stated stiffness of a cable that stiffens was measured.
-        if (effect.name == "cable_stiffness_nonlinear") cause.stiffness_std = wrong_log_std;
-        causes.push_back(effect.name == "load_dependent_friction"
-                             ? load_dependent_friction(cause, usual_normal_force_N_per_m(recording))
-                             : cause);
+        if (effect.needs_pair && recording.mode == BenchMode::single_cable) continue;
+        causes.push_back(cause_of(effect, length_m, usual_normal_force_N_per_m(recording)));
     }
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;

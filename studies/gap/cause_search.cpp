@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <string_view>
 #include <utility>
+
+#include "capstan/effects/known_causes.h"
 
 namespace capstan::gap {
 
@@ -16,31 +17,11 @@ constexpr std::size_t max_fitted = 8;
 constexpr std::size_t max_first_causes = 2;
 constexpr std::size_t max_second_causes = 3;
 constexpr int max_exchanges = 2;
-// Effects whose residuals look much alike (a cosine of 0.95 and more over all protocols).
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> confusable_pairs = {{
-    {"conduit_compliance", "environment_coupling"},
-    {"pretension_drift", "param_T0"},
-    {"pretension_drift", "param_mu"},
-    {"pretension_drift", "creep"},
-    {"sensor_lag", "time_misalignment"},
-    {"cable_stiffness_nonlinear", "conduit_compliance"},
-    {"local_bend", "pulley_friction"},
-    {"bending_stiffness", "load_dependent_friction"},
-}};
 // A search that promises a misfit this many times the best so far is given up.
 constexpr double pruned_factor = 2.5;
 // The quick look does with fewer segments and samples.
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
-
-std::vector<std::string> confusable_with(std::string_view effect) {
-    std::vector<std::string> found;
-    for (const auto& [one, other] : confusable_pairs) {
-        if (effect == one) found.emplace_back(other);
-        if (effect == other) found.emplace_back(one);
-    }
-    return found;
-}
 
 double min_sum(const std::vector<ScoredFit>& fits) {
     double least = std::numeric_limits<double>::infinity();
@@ -143,7 +124,7 @@ void CauseSearch::fit_confusable(const std::vector<Screened>& screened, std::vec
             return single.fit.causes.front()->effect == effect;
         });
     };
-    for (const std::string& rival : confusable_with(best)) {
+    for (const std::string& rival : confusable_causes(best)) {
         if (is_fitted(rival)) continue;
         const auto found = std::find_if(screened.begin(), screened.end(),
                                         [&](const Screened& each) { return each.cause->effect == rival; });

@@ -21,10 +21,11 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
     cable.axial_stiffness_N = numbers.stiffness_ratio * bench.axial_stiffness_N;
     cable.dynamic_friction = cable.static_friction = numbers.friction_ratio * bench.dynamic_friction;
     cable.pretension_N = numbers.pretension_ratio * *run.pretension_N;
-    return {Cable(cable),
-            recording.mode == BenchMode::pull_pull,
-            {bench.motor_radius_m, bench.load_radius_m},
-            {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2}};
+    return {.cable = Cable(cable),
+            .arrangement = recording.mode == BenchMode::pull_pull ? CableArrangement::pull_pull
+                                                                  : CableArrangement::single,
+            .pulleys = {bench.motor_radius_m, bench.load_radius_m},
+            .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2}};
 }
 
 void demand_motion(const Recording& recording) {

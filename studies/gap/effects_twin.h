@@ -11,7 +11,7 @@
 #include "capstan/gap/twin.h"
 #include "capstan/recording/driven_inputs.h"
 #include "capstan/recording/recording.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan::gap {
 
@@ -25,7 +25,7 @@ struct BenchNumbers {
     std::map<std::string, SensorFaults> sensor_faults;  // by channel
 
     /// A rotor that rings on its cables, at tens of hertz: it is moved sample by sample whatever the stride.
-    bool rings() const { return effects.inertia.motor_kg_m2 > 0.0; }
+    bool rings() const { return effects.of<Inertia>().motor_kg_m2 > 0.0; }
 };
 
 struct EffectsTwinOptions {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "capstan/effects/known_causes.h"
+
 namespace capstan::gap_trial {
 
 bool fits(const EffectMaker& maker, const TrialBench& bench, const std::vector<TrialRun>& runs) {
@@ -12,35 +14,8 @@ bool fits(const EffectMaker& maker, const TrialBench& bench, const std::vector<T
 }
 
 std::string effect_family(const std::string& effect) {
-    static const std::map<std::string, std::string> families = {
-        {"viscous_friction", "friction law"},
-        {"stribeck", "friction law"},
-        {"presliding", "friction law"},
-        {"load_dependent_friction", "friction law"},
-        {"bending_stiffness", "friction law"},
-        {"local_bend", "friction place"},
-        {"moving_bend", "friction place"},
-        {"param_mu", "friction place"},
-        {"pulley_friction", "end friction"},
-        {"motor_cogging", "actuator"},
-        {"inertia", "actuator"},
-        {"backlash", "lost motion"},
-        {"conduit_compliance", "compliance"},
-        {"cable_stiffness_nonlinear", "compliance"},
-        {"creep", "compliance"},
-        {"environment_coupling", "compliance"},
-        {"param_K", "compliance"},
-        {"pretension_drift", "pretension"},
-        {"param_T0", "pretension"},
-        {"sensor_gain", "sensor"},
-        {"sensor_offset", "sensor"},
-        {"sensor_lag", "sensor"},
-        {"time_misalignment", "sensor"},
-        {"sensor_quantization", "sensor"},
-        {"sensor_hysteresis", "sensor"},
-    };
-    const auto found = families.find(effect);
-    return found == families.end() ? effect : found->second;
+    const KnownCause* known = find_cause(effect);
+    return known != nullptr ? known->family : effect;
 }
 
 }  // namespace capstan::gap_trial

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double preload_N = 40.0;
 
-EndConditions ends_at(const Cable& cable, ComparedMotion motion, int step, double amplitude) {
+EndConditions ends_at(const Cable& cable, ComparedMotion motion, int step) {
     const double angle = 2.0 * std::numbers::pi * step / steps_per_cycle;
     const auto proximal = [&](double stroke_m) {
         const double rest_m = -preload_N * cable.length_m() / cable.axial_stiffness_N();
-        return EndCondition::position_m(rest_m + amplitude * stroke_m * std::sin(angle));
+        return EndCondition::position_m(rest_m + stroke_m * std::sin(angle));
     };
     const EndCondition spring = distal_spring({40.0, preload_N, 0.0});
     switch (motion) {
@@ -43,9 +43,9 @@ Cable preloaded_cable(int segments) {
     return Cable(specification);
 }
 
-std::vector<EndConditions> cycle_of(const Cable& cable, ComparedMotion motion, double amplitude) {
+std::vector<EndConditions> cycle_of(const Cable& cable, ComparedMotion motion) {
     std::vector<EndConditions> cycle;
-    for (int n = 1; n <= steps_per_cycle; ++n) cycle.push_back(ends_at(cable, motion, n, amplitude));
+    for (int n = 1; n <= steps_per_cycle; ++n) cycle.push_back(ends_at(cable, motion, n));
     return cycle;
 }
 

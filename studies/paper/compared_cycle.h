@@ -13,7 +13,7 @@ inline constexpr int steps_per_cycle = 1000;
 /// Table I with the preload of Sec. III.B.
 Cable preloaded_cable(int segments);
 
-/// What the ends of that cable do, step by step; an amplitude of 1 is the motion's own.
-std::vector<EndConditions> cycle_of(const Cable& cable, ComparedMotion motion, double amplitude = 1.0);
+/// What the ends of that cable do, step by step.
+std::vector<EndConditions> cycle_of(const Cable& cable, ComparedMotion motion);
 
 }  // namespace capstan::paper

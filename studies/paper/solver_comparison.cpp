@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 #include "capstan/paper/compared_cycle.h"
-#include "capstan/paper/compared_solvers.h"
 #include "capstan/reference/generic_solver.h"
-#include "capstan/solver/replicate_step.h"
+#include "capstan/reference/linear_assumed.h"
+#include "capstan/solver/quasi_static_step.h"
 
 namespace capstan::paper {
 
@@ -34,7 +35,7 @@ struct Lap {
     double steps_per_s() const { return static_cast<double>(steps) / seconds; }
 };
 
-// Whole laps of `steps` steps each, until the time is over.
+// Complete laps of `steps` steps each, until the time is over.
 template <class TakeSteps>
 Lap laps_of(long steps, double at_least_s, TakeSteps&& take_steps) {
     Lap lap;
@@ -47,7 +48,7 @@ Lap laps_of(long steps, double at_least_s, TakeSteps&& take_steps) {
     return lap;
 }
 
-// The step goes round whole cycles in place.
+// The step goes round complete cycles in place.
 class ClosedFormRunner {
   public:
     ClosedFormRunner(const Cable& cable, const std::vector<EndConditions>& cycle)
@@ -77,39 +78,9 @@ class ClosedFormRunner {
     CableState state_;
 };
 
-// Replicates go round the same cycle together, each with a stroke of its own. A lap counts each one's steps.
-class ReplicatesRunner {
-  public:
-    ReplicatesRunner(const Cable& cable, ComparedMotion motion)
-        : step_(cable, ModelRules::consistent()),
-          cycle_(steps_per_cycle, ReplicateEnds(replicates)),
-          states_(pretensioned(cable), replicates) {
-        for (int replicate = 0; replicate < replicates; ++replicate) {
-            const double fraction = (replicate + 0.5) / replicates;
-            const auto cycle = cycle_of(cable, motion, 1.0 + stroke_spread * (2.0 * fraction - 1.0));
-            for (int n = 0; n < steps_per_cycle; ++n) cycle_[n].set(replicate, cycle[n]);
-        }
-        run(0.0);
-    }
-
-    Lap run(double at_least_s) {
-        return laps_of(replicates * steps_per_cycle, at_least_s, [&] {
-            for (const ReplicateEnds& ends : cycle_) step_.advance(states_, ends);
-        });
-    }
-
-  private:
-    static constexpr int replicates = 64;
-    static constexpr double stroke_spread = 0.1;
-
-    ReplicateStep step_;
-    std::vector<ReplicateEnds> cycle_;
-    ReplicateStates states_;
-};
-
 class PeerRunner {
   public:
-    PeerRunner(Advance advance, const std::vector<EndConditions>& cycle,
+    PeerRunner(Peer::Advance advance, const std::vector<EndConditions>& cycle,
                const std::vector<CableState>& before)
         : advance_(std::move(advance)), cycle_(cycle), before_(before), state_(before.front()) {
         // In mass motion, and behind a turn, where a front is on its way.
@@ -140,11 +111,11 @@ class PeerRunner {
 
     void take(int step) {
         state_ = before_[step];
-        converged_ += advance_(state_, cycle_[step]).converged;
+        converged_ += advance_(state_, cycle_[step]) ? 1 : 0;
         ++taken_;
     }
 
-    Advance advance_;
+    Peer::Advance advance_;
     const std::vector<EndConditions>& cycle_;
     const std::vector<CableState>& before_;
     CableState state_;
@@ -154,7 +125,22 @@ class PeerRunner {
     bool too_slow_ = false;
 };
 
+template <class Solver>
+Peer::Advance advance_with(const Cable& cable) {
+    return [solver = std::make_shared<Solver>(cable)](CableState& state, const EndConditions& ends) {
+        return solver->advance(state, ends).converged;
+    };
+}
+
 }  // namespace
+
+Peer linear_assumed_peer() {
+    return {"linear_assumed", "dense linear-assumed (paper's)", advance_with<reference::LinearAssumedSolver>};
+}
+
+Peer generic_peer() {
+    return {"generic", "generic root finder (MINPACK)", advance_with<reference::GenericSolver>};
+}
 
 std::vector<Agreement> compare_with_generic_solver() {
     std::vector<Agreement> rows;
@@ -183,87 +169,47 @@ std::vector<Agreement> compare_with_generic_solver() {
     return rows;
 }
 
-std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Solver>& solvers) {
+std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Peer>& peers) {
     const Cable cable = preloaded_cable(settings.segments);
     const std::vector<EndConditions> cycle = cycle_of(cable, settings.motion);
     ClosedFormRunner closed_form(cable, cycle);
     const std::vector<CableState> before = closed_form.states_of_a_cycle();
 
     struct Entrant {
-        Solver solver;
-        std::optional<PeerRunner> peer{};
-        std::optional<ReplicatesRunner> replicates{};
-        std::vector<double> steps_per_s{};
-        std::vector<double> ratio{};
+        PeerRunner runner;
+        std::vector<double> steps_per_s;
+        std::vector<double> ratio;
     };
     std::vector<Entrant> entrants;
-    for (const Solver solver : solvers) {
-        entrants.push_back({solver});
-        if (solver == Solver::replicates) {
-            entrants.back().replicates.emplace(cable, settings.motion);
-        } else if (solver != Solver::closed_form) {
-            entrants.back().peer.emplace(advance_of(solver, cable), cycle, before);
-        }
-    }
+    for (const Peer& peer : peers) entrants.push_back({{peer.solver_for(cable), cycle, before}, {}, {}});
 
     const double slot_s = settings.seconds_per_solver / rounds;
+    std::vector<double> closed_form_steps_per_s;
     for (int round = 0; round < rounds; ++round) {
         const double ours = closed_form.run(slot_s).steps_per_s();
+        closed_form_steps_per_s.push_back(ours);
         for (Entrant& entrant : entrants) {
-            if (entrant.peer && entrant.peer->too_slow()) continue;
-            entrant.steps_per_s.push_back(entrant.peer         ? entrant.peer->run(slot_s).steps_per_s()
-                                          : entrant.replicates ? entrant.replicates->run(slot_s).steps_per_s()
-                                                               : ours);
+            if (entrant.runner.too_slow()) continue;
+            entrant.steps_per_s.push_back(entrant.runner.run(slot_s).steps_per_s());
             entrant.ratio.push_back(ours / entrant.steps_per_s.back());
         }
     }
 
-    std::vector<SolverRate> rates;
-    for (const Entrant& entrant : entrants) {
-        SolverRate rate{entrant.solver, {}, {}, 1.0};
+    std::vector<SolverRate> rates = {{.name = "closed_form",
+                                      .title = "closed form (capstan)",
+                                      .steps_per_s = median(closed_form_steps_per_s),
+                                      .closed_form_is_faster_by = 1.0}};
+    for (std::size_t k = 0; k < peers.size(); ++k) {
+        const Entrant& entrant = entrants[k];
+        SolverRate rate{.name = peers[k].name, .title = peers[k].title};
         if (!entrant.steps_per_s.empty()) {
             rate.steps_per_s = median(entrant.steps_per_s);
             rate.closed_form_is_faster_by = median(entrant.ratio);
-            if (entrant.peer) rate.converged_fraction = entrant.peer->converged_fraction();
+            rate.converged_fraction = entrant.runner.converged_fraction();
         }
         rates.push_back(rate);
     }
     return rates;
-}
-
-double slowest_step_s(int segments) {
-    const Cable cable = preloaded_cable(segments);
-    const QuasiStaticStep step(cable, ModelRules::consistent());
-    const std::vector<EndConditions> cycle = cycle_of(cable, ComparedMotion::mass);
-    CableState state = pretensioned(cable);
-    for (const EndConditions& ends : cycle) step.advance(state, ends);
-    std::vector<double> fastest_s(cycle.size(), 1e9);
-    for (int repeat = 0; repeat < 3; ++repeat) {
-        for (std::size_t n = 0; n < cycle.size(); ++n) {
-            const auto start = Clock::now();
-            step.advance(state, cycle[n]);
-            fastest_s[n] = std::min(fastest_s[n], seconds_since(start));
-        }
-    }
-    return *std::max_element(fastest_s.begin(), fastest_s.end());
-}
-
-double bare_write_s(int segments) {
-    const Cable cable = preloaded_cable(segments);
-    const PrefixTables tables(cable, ModelRules::consistent());
-    const SideTable& table = tables.proximal(sign(Direction::forward));
-    CableState state = pretensioned(cable);
-    double fastest_s = 1e9;
-    for (int repeat = 0; repeat < 30; ++repeat) {
-        const double scale_N = 1.0 + repeat;
-        const auto start = Clock::now();
-        for (int node = 0; node < cable.nodes(); ++node) {
-            state.tension_N[node] = scale_N * table.tension_ratio[node];
-            state.displacement_m[node] = scale_N * table.elongation_m_per_N[node];
-        }
-        fastest_s = std::min(fastest_s, seconds_since(start));
-    }
-    return fastest_s;
 }
 
 }  // namespace capstan::paper

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "capstan/cable/cable_state.h"
+#include "capstan/solver/end_condition.h"
 
 namespace capstan::paper {
 
@@ -28,21 +32,25 @@ struct Agreement {
 /// 1 to 60 segments, every motion.
 std::vector<Agreement> compare_with_generic_solver();
 
-enum class Solver {
-    closed_form,
-    replicates,  ///< the closed form for 64 replicates at once, strokes within 10%; a step is one replicate's
-    band_lu,
-    linear_assumed,
-    generic,
+/// Another solver of the same step.
+struct Peer {
+    /// Advances the state in place; returns whether the solver converged.
+    using Advance = std::function<bool(CableState&, const EndConditions&)>;
+
+    std::string name;
+    std::string title;
+    std::function<Advance(const Cable&)> solver_for;
 };
-std::string name_of(Solver solver);
+Peer linear_assumed_peer();  ///< the paper's own solver: a dense linear system for each assumed pattern
+Peer generic_peer();         ///< MINPACK's hybrid root finder
 
 struct SolverRate {
-    Solver solver = Solver::closed_form;
-    /// Median over rounds; nothing where a single step took more than a second.
-    std::optional<double> steps_per_s;
+    std::string name;
+    std::string title;
+    /// Median over rounds; none where a single step took more than a second.
+    std::optional<double> steps_per_s{};
     /// How many times as fast the closed-form step was; median over rounds, each of the same moment.
-    std::optional<double> closed_form_is_faster_by;
+    std::optional<double> closed_form_is_faster_by{};
     double converged_fraction = 1.0;
 };
 
@@ -52,17 +60,9 @@ struct RaceSettings {
     double seconds_per_solver = 0.0;
 };
 
-/// Runs the solvers in turns, in five rounds, so that what else the machine does meets all of them. The step
-/// goes round the cycle in place; a peer takes its steps in an order that samples the cycle evenly, each from
-/// the true state before it.
-std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Solver>& solvers);
-
-/// The slowest step of a cycle in mass motion [s], after one cycle to warm up: of every step the fastest of
-/// three cycles, so that a step is not blamed for what interrupted it.
-double slowest_step_s(int segments);
-
-/// The least that a step in mass motion of such a cable can take here [s]: only writing a state from two
-/// tables, with no check; what the memory allows.
-double bare_write_s(int segments);
+/// Runs the closed-form step and the peers in turns, in five rounds, so that the machine's other load meets
+/// all of them. The closed form goes round the cycle in place; a peer takes its steps in an order that
+/// samples the cycle evenly, each from the true state before it. The first rate is the closed form's.
+std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Peer>& peers);
 
 }  // namespace capstan::paper

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "capstan/paper/error_reduction_tunnel.h"
+#include "capstan/rig/bench_simulation.h"
 #include "capstan/sensing/random_stream.h"
-#include "capstan/solver/bench_simulation.h"
 
 namespace capstan::paper {
 
@@ -22,7 +22,7 @@ struct Tunnel {
     int steps = 0;
 
     TorqueRun run(const BenchEffects& effects) const {
-        BenchSimulation bench({pair.cable_a(), true, pair.pulleys(), {}}, effects);
+        BenchSimulation bench({.cable = pair.cable_a(), .pulleys = pair.pulleys()}, effects);
         TorqueRun run;
         for (int step = 1; step <= steps; ++step) {
             const double time_s = step * time_step_s;
@@ -37,18 +37,19 @@ struct Tunnel {
     }
     TorqueRun model(double drag_N_s_per_m2) const {
         BenchEffects effects;
-        effects.viscous_friction.drag_N_s_per_m2 = drag_N_s_per_m2;
+        effects.of<ViscousFriction>().drag_N_s_per_m2 = drag_N_s_per_m2;
         return run(effects);
     }
 };
 
 BenchEffects effects_of(const ViscousBench& bench, double conduit_m) {
     BenchEffects effects;
-    effects.viscous_friction.drag_N_s_per_m2 = bench.drag_N_s_per_m2;
-    effects.load_friction.coulomb_Nm = bench.load_friction_Nm;
+    effects.of<ViscousFriction>().drag_N_s_per_m2 = bench.drag_N_s_per_m2;
+    effects.of<PulleyFriction>().load.coulomb_Nm = bench.load_friction_Nm;
     // Typical, as the effects' catalogue says: 1 rad of wrap per rad of handle, 5 mN m of cogging.
-    effects.moving_bend = {{conduit_m - 0.3, conduit_m}, bench.remainder * 1.0};
-    effects.motor_cogging = {bench.remainder * 0.005, bench.remainder * 0.005, 7.0};
+    effects.of<MovingBend>() = {.extra_angle_per_load_angle = bench.remainder * 1.0,
+                                .middle_m = conduit_m - 0.15};
+    effects.of<MotorCogging>() = {.sine_Nm = bench.remainder * 0.005, .cosine_Nm = bench.remainder * 0.005};
     return effects;
 }
 

@@ -22,9 +22,6 @@ struct TrueCable {
     }
 };
 
-/// Whether an effect changes the cable in its conduit: pulleys, hands and sensors do not belong to a study.
-bool is_of_the_cable(const Effect& effect);
-
 /// The model's cable with the ratios.
 CableSpecification true_specification(CableSpecification model, const TrueCable& truth);
 

@@ -3,7 +3,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/plan/true_motion.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan {
 
@@ -95,7 +95,9 @@ void simulate_effects(const StudyPlan& plan, const ShowStates& show) {
     CableSpecification fine = coarse;
     fine.segments *= pieces;
     const Cable cable(coarse);
-    BenchSimulation bench({Cable(fine), false, {radius_m, radius_m}, {}}, effects_with(plan.truth.effects));
+    BenchSimulation bench(
+        {.cable = Cable(fine), .arrangement = CableArrangement::single, .pulleys = {radius_m, radius_m}},
+        effects_with(plan.truth.effects));
     CableState now = read_off(bench, cable, pieces);
     CableState previous = now;
     for (int sample = 1; sample <= plan.motion.samples; ++sample) {

@@ -47,7 +47,7 @@ class Motion:
 class Step:
     """One step as a nonlinear system: unknowns y_i, the shift of the middle of segment i over 2 h, in newtons.
 
-    As engine/solver/reference/generic_solver.h, without its treatment of E7 and E8.
+    As engine/reference/generic_solver.h, without its treatment of E7 and E8.
     """
 
     def __init__(self, motion, step):

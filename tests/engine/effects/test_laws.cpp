@@ -17,7 +17,7 @@ TEST(Bristles, BendTowardsFullFrictionAndNeverBeyond) {
         const Presliding law{1e-4, exponent};
         double bend = -1.0;
         for (int step = 0; step < 200; ++step) {
-            const double next = law.after(bend, 5e-6).bend;
+            const double next = laws::bristle_after(law, bend, 5e-6).bend;
             EXPECT_GE(next, bend) << exponent;
             EXPECT_LE(next, 1.0) << exponent;
             bend = next;
@@ -30,8 +30,8 @@ TEST(Bristles, OneStepOrManyBendTheSame) {
     for (const double exponent : {0.0, 0.5, 1.0, 1.5}) {
         const Presliding law{1e-4, exponent};
         double many = -0.7;
-        for (int step = 0; step < 50; ++step) many = law.after(many, 2e-6).bend;
-        EXPECT_NEAR(law.after(-0.7, 1e-4).bend, many, 1e-12) << exponent;
+        for (int step = 0; step < 50; ++step) many = laws::bristle_after(law, many, 2e-6).bend;
+        EXPECT_NEAR(laws::bristle_after(law, -0.7, 1e-4).bend, many, 1e-12) << exponent;
     }
 }
 
@@ -40,8 +40,9 @@ TEST(Bristles, SlopeIsTheDerivative) {
         const Presliding law{1e-4, exponent};
         for (const double slid_m : {-8e-5, -1e-5, 2e-5, 6e-5}) {
             const double slope =
-                by_differences([&](double u) { return law.after(0.1, u).bend; }, slid_m, 1e-9);
-            EXPECT_NEAR(law.after(0.1, slid_m).bend_per_m, slope, 1e-4 / 1e-4) << exponent << " " << slid_m;
+                by_differences([&](double u) { return laws::bristle_after(law, 0.1, u).bend; }, slid_m, 1e-9);
+            EXPECT_NEAR(laws::bristle_after(law, 0.1, slid_m).bend_per_m, slope, 1e-4 / 1e-4)
+                << exponent << " " << slid_m;
         }
     }
 }
@@ -49,25 +50,76 @@ TEST(Bristles, SlopeIsTheDerivative) {
 TEST(NonlinearStiffness, ComplianceIsTheStrainsDerivative) {
     const NonlinearStiffness toe{2e-3, 8.0};
     for (const double tension_N : {0.1, 3.0, 20.0}) {
-        const double slope = by_differences([&](double t) { return toe.strain(t, 4000.0); }, tension_N, 1e-4);
-        EXPECT_NEAR(toe.strain_per_N(tension_N, 4000.0), slope, 1e-10);
+        const double slope =
+            by_differences([&](double t) { return laws::toe_strain(toe, t).strain; }, tension_N, 1e-4);
+        EXPECT_NEAR(laws::toe_strain(toe, tension_N).strain_per_N, slope, 1e-10);
     }
-    EXPECT_GT(toe.strain_per_N(1.0, 4000.0), toe.strain_per_N(30.0, 4000.0));
+    EXPECT_GT(laws::toe_strain(toe, 1.0).strain_per_N, laws::toe_strain(toe, 30.0).strain_per_N);
 }
 
 TEST(Cogging, SlopeIsTheDerivative) {
     const MotorCogging cogging{0.3, -0.2, 11.0};
     for (const double angle_rad : {-1.0, 0.05, 2.0}) {
-        EXPECT_NEAR(cogging.slope_Nm_per_rad(angle_rad),
-                    by_differences([&](double a) { return cogging.torque_Nm(a); }, angle_rad, 1e-6), 1e-7);
+        EXPECT_NEAR(cogging.torque(angle_rad).per_rad,
+                    by_differences([&](double a) { return cogging.torque(a).value_Nm; }, angle_rad, 1e-6),
+                    1e-7);
     }
 }
 
 TEST(Stribeck, FrictionFallsWithSpeedToCoulombs) {
     const Stribeck law{0.1, 0.05, 0.0};
-    EXPECT_EQ(law.friction_added(0.0), 0.1);
-    EXPECT_GT(law.friction_added(0.02), law.friction_added(0.04));
-    EXPECT_NEAR(law.friction_added(1.0), 0.0, 1e-12);
+    EXPECT_EQ(laws::added_friction(law, 0.0), 0.1);
+    EXPECT_GT(laws::added_friction(law, 0.02), laws::added_friction(law, 0.04));
+    EXPECT_NEAR(laws::added_friction(law, 1.0), 0.0, 1e-12);
+}
+
+TEST(Stribeck, TheLaggingSpeedApproachesASteadySpeed) {
+    const Stribeck law{.extra_friction = 0.1, .memory_s = 0.04};
+    double lagging = 0.0;
+    for (int step = 0; step < 400; ++step) lagging = laws::lagging_speed(law, lagging, 0.3, 1e-3);
+    EXPECT_NEAR(lagging, 0.3, 0.3 * std::exp(-8.0));
+    EXPECT_EQ(laws::lagging_speed(Stribeck{.memory_s = 0.0}, 0.1, 0.3, 1e-3), 0.3);
+}
+
+TEST(ViscousFriction, DragIsProportionalToSpeedAndLength) {
+    const ViscousFriction law{3.0};
+    const double slid_m = 2e-3;
+    EXPECT_DOUBLE_EQ(laws::sliding_drag_N_per_m(law, 0.5, 0.01) * slid_m, 3.0 * 0.5 * slid_m / 0.01);
+}
+
+TEST(LoadDependentFriction, IsAPowerLawOfTheNormalForceWithinItsLimits) {
+    const LoadDependentFriction law{.exponent = 0.8, .reference_N_per_m = 10.0};
+    EXPECT_EQ(laws::friction_factor(law, 10.0), 1.0);
+    EXPECT_DOUBLE_EQ(laws::friction_factor(law, 20.0), std::pow(2.0, -0.2));
+    EXPECT_EQ(laws::friction_factor(law, 0.0), laws::friction_factor(law, 0.5));
+    EXPECT_EQ(laws::friction_factor(law, 1e6), laws::friction_factor(law, 200.0));
+}
+
+TEST(BendingStiffness, DragDoesNotDependOnTension) {
+    EXPECT_DOUBLE_EQ(laws::constant_drag_N(BendingStiffness{0.2}, 0.5), 0.1);
+}
+
+TEST(Creep, ApproachesItsShareOfTheElasticStrain) {
+    const Creep law{.ratio = 0.2, .time_constant_s = 2.0};
+    double strain = 0.0;
+    for (int step = 0; step < 2000; ++step)
+        strain += laws::creep_fraction(law, 0.01) * (laws::creep_at_rest(law, 1e-3) - strain);
+    EXPECT_NEAR(strain, 2e-4, 2e-4 * 1e-4);
+    EXPECT_EQ(laws::creep_fraction(Creep{}, 0.01), 0.0);
+}
+
+TEST(Backlash, TransmitsNothingWithinTheGap) {
+    EXPECT_EQ(Backlash::beyond_gap_rad(0.009, 0.01), 0.0);
+    EXPECT_DOUBLE_EQ(Backlash::beyond_gap_rad(0.03, 0.01), 0.02);
+    EXPECT_DOUBLE_EQ(Backlash::beyond_gap_rad(-0.03, 0.01), -0.02);
+}
+
+TEST(BearingFriction, FollowsTheSignOfTheSpeed) {
+    const BearingFriction law{.coulomb_Nm = 0.2, .viscous_Nm_s = 0.1};
+    for (const double speed : {-2.0, 2.0}) {
+        const Torque torque = law.torque(BearingFriction::sign_of(speed, 0.01), speed, 0.01);
+        EXPECT_NEAR(torque.value_Nm, std::copysign(0.2, speed) + 0.1 * speed, 1e-12);
+    }
 }
 
 TEST(Catalogue, NamesEachVariantOnceWithParametersInTheirLimits) {
@@ -76,6 +128,9 @@ TEST(Catalogue, NamesEachVariantOnceWithParametersInTheirLimits) {
         EXPECT_TRUE(seen.insert({effect.name, effect.variant}).second)
             << effect.name << " " << effect.variant;
         EXPECT_FALSE(effect.meaning.empty());
+        EXPECT_FALSE(effect.title.empty());
+        EXPECT_FALSE(effect.family.empty());
+        EXPECT_FALSE(effect.component.empty());
         EXPECT_EQ(effect.equation.substr(0, 1), "E");
         ASSERT_EQ(effect.absent.size(), effect.parameters.size()) << effect.name;
         for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
@@ -89,14 +144,15 @@ TEST(Catalogue, NamesEachVariantOnceWithParametersInTheirLimits) {
 
 TEST(Catalogue, WithEveryEffectAbsentNoneIsThere) {
     EXPECT_TRUE(effects_there(absent_effects()).empty());
-    EXPECT_EQ(effects_with(absent_effects()).creep.ratio, BenchEffects{}.creep.ratio);
+    EXPECT_EQ(effects_with(absent_effects()).of<Creep>().ratio, BenchEffects{}.of<Creep>().ratio);
 }
 
 TEST(Catalogue, AnEffectIsThereUnderItsOwnNameAndAlone) {
     for (std::size_t k = 0; k < effect_catalogue().size(); ++k) {
         const Effect& effect = effect_catalogue()[k];
         EffectValues values = absent_effects();
-        for (std::size_t p = 0; p < effect.parameters.size(); ++p) values[k][p] = effect.parameters[p].typical;
+        for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+            values[k][p] = effect.parameters[p].typical;
         const std::vector<std::string> there = effects_there(values);
         ASSERT_EQ(there.size(), 1u) << effect.name;
         EXPECT_EQ(there[0].substr(0, effect.name.size()), effect.name);
@@ -110,9 +166,9 @@ TEST(Catalogue, ValuesReachTheBench) {
         if (effect_catalogue()[k].name == "creep") values[k] = {0.3, 5.0};
     }
     const BenchEffects effects = effects_with(values);
-    EXPECT_EQ(effects.creep.ratio, 0.3);
-    EXPECT_EQ(effects.creep.time_constant_s, 5.0);
-    EXPECT_EQ(effects.load_backlash.half_gap_rad, 0.0);
+    EXPECT_EQ(effects.of<Creep>().ratio, 0.3);
+    EXPECT_EQ(effects.of<Creep>().time_constant_s, 5.0);
+    EXPECT_EQ(effects.of<Backlash>().load_half_gap_rad, 0.0);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Each fault of a sensor by its closed form: what it makes of a constant, a step, a ramp and a slow cycle (E36).
+// Each fault of a sensor by its closed form: what it makes of a constant, a step, a ramp and a slow cycle
+// (E36).
 #include <gtest/gtest.h>
 
 #include <algorithm>

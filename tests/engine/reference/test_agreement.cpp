@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "capstan/reference/band_lu.h"
+#include "band_lu.h"
 #include "capstan/reference/generic_solver.h"
 #include "capstan/reference/linear_assumed.h"
 #include "capstan/solver/pull_pull.h"

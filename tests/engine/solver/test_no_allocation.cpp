@@ -7,7 +7,6 @@
 
 #include "allocation_count.h"
 #include "capstan/solver/pull_pull.h"
-#include "capstan/solver/replicate_step.h"
 #include "example_cables.h"
 #include "trajectories.h"
 
@@ -65,31 +64,11 @@ TEST(NoAllocation, InAStepOfAnyMotion) {
     }
 }
 
-TEST(NoAllocation, InAStepOfReplicates) {
-    const Cable cable = test::paper_cable(10);
-    const ReplicateStep step(cable, ModelRules::consistent());
-    const int replicates = 11;
-    ReplicateStates states(pretensioned(cable), replicates);
-    ReplicateEnds ends(replicates);
-    const auto path = test::both_ends_wander(2000, 1e-3, 3);
-    int one_by_one = 0;
-    const long before = test::allocations();
-    for (const auto& [proximal_m, distal_m] : path) {
-        for (int replicate = 0; replicate < replicates; ++replicate) {
-            ends.set(replicate, {EndCondition::position_m(-0.01 + proximal_m * replicate),
-                                 EndCondition::position_m(distal_m)});
-        }
-        one_by_one += step.advance(states, ends).one_by_one;
-    }
-    EXPECT_EQ(test::allocations() - before, 0);
-    EXPECT_GT(one_by_one, 0);
-}
-
-TEST(NoAllocation, InAStepOfThePullPullPairWithRoomGiven) {
+TEST(NoAllocation, InAStepOfThePullPullPairWithAWorkspaceGiven) {
     const Cable cable = test::paper_cable(10);
     const PullPull pair(cable, cable, {0.02, 0.02});
     PullPullState state = pair.at_rest();
-    PullPullState room = state;
+    PullPullState workspace = state;
     const auto inputs = [](int n) -> std::array<PullPullInputs, 3> {
         const double swing = std::sin(0.05 * n);
         return {{{MotorAngle{0.3 * swing}, LoadAngle{0.1 * swing}},
@@ -98,7 +77,7 @@ TEST(NoAllocation, InAStepOfThePullPullPairWithRoomGiven) {
     };
     const long before = test::allocations();
     for (int n = 0; n < 300; ++n) {
-        for (const PullPullInputs& input : inputs(n)) pair.advance(state, input, room);
+        for (const PullPullInputs& input : inputs(n)) pair.advance(state, input, workspace);
     }
     EXPECT_EQ(test::allocations() - before, 0);
 }

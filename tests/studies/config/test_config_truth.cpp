@@ -36,7 +36,7 @@ TEST_F(TruthFile, ReadsBackToTheSameBits) {
     truth.friction_ratio = 1.0 / 3.0;
     truth.stiffness_ratio = 2.0;
     for (std::size_t e = 0; e < truth.effects.size(); ++e) {
-        if (!is_of_the_cable(effect_catalogue()[e])) continue;
+        if (!effect_catalogue()[e].changes_the_cable) continue;
         for (std::size_t p = 0; p < truth.effects[e].size(); ++p)
             truth.effects[e][p] = effect_catalogue()[e].parameters[p].typical * 1.1;
     }

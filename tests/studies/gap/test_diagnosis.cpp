@@ -60,7 +60,7 @@ TEST(Diagnosis, ProbabilitiesSumToOne) {
 
 TEST(Diagnosis, FindsDragAndHowMuch) {
     BenchNumbers numbers;
-    numbers.effects.viscous_friction.drag_N_s_per_m2 = 4.0;
+    numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 4.0;
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
     EXPECT_EQ(diagnosis.ranked.front().effect, "viscous_friction");
     ASSERT_EQ(diagnosis.causes.size(), 1u);
@@ -73,7 +73,7 @@ TEST(Diagnosis, FindsDragAndHowMuch) {
 
 TEST(Diagnosis, TellsWhereABendIs) {
     BenchNumbers numbers;
-    numbers.effects.local_bend = {{1.1, 1.3}, 1.0, BentCables::both};
+    numbers.effects.of<LocalBend>() = {.extra_angle_rad = 1.0, .middle_m = 1.2, .length_m = 0.2};
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
     EXPECT_EQ(diagnosis.ranked.front().effect, "local_bend");
     ASSERT_TRUE(diagnosis.position_m.has_value());

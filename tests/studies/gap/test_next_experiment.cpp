@@ -18,7 +18,7 @@ Recording ramps_of_a_bent_bench() {
     recording.runs.resize(1);
     recording.runs.front().values.resize(recording.channels.size());
     BenchNumbers bent;
-    bent.effects.local_bend = {{0.3, 0.5}, 0.15, BentCables::both};
+    bent.effects.of<LocalBend>() = {.extra_angle_rad = 0.15, .middle_m = 0.4, .length_m = 0.2};
     const TwinRun truth = EffectsTwin(recording, {80, 1}).run(0, bent);
     std::mt19937_64 random(20260303);
     std::normal_distribution<double> normal;

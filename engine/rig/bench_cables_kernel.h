@@ -1,36 +1,44 @@
 #pragma once
 
-#include "capstan/solver/bench_lanes.h"
+#include "capstan/effects/bench_effects.h"
+#include "capstan/rig/bench_lanes.h"
 
 namespace capstan {
 
 /// The first, and the second of benches that have a pair.
 inline constexpr int max_cables = 2;
 
-/// The laws of a cable's stretch and friction, a bench a lane; of a step of its length.
-struct CableLaws {
-    LaneValues stretch_m_per_N;  ///< of a segment, by its own elasticity
-    LaneValues creep_fraction;   ///< of the way to its end that creep goes in a step
-    LaneValues creep_m_per_N;    ///< of a segment, at creep's end
-    LaneValues toe_m;            ///< of a segment: its toe strain (E31)
-    LaneValues toe_tension_N;
-    LaneValues bristle_m;         ///< E22
-    LaneValues bristle_exponent;  ///< 0 or 1 are the common ones
-    LaneValues rigid_N_per_m;     ///< E24
-    LaneValues viscous_N_per_m2;  ///< E20: drag per length and displacement in this step
-    LaneValues dynamic_friction;
-    LaneValues stribeck_friction;  ///< E21
-    LaneValues stribeck_speed_m_per_s;
-    LaneValues stribeck_fraction;  ///< of the way that the lagging speed goes in a step
-    LaneValues load_exponent;      ///< E23
-    LaneValues load_reference_N_per_m;
-    LaneValues varying_friction;  ///< not 0: Stribeck, load dependence or a bend that moves
-    // Whether any bench needs this law at all; those that do not keep what they have, bit for bit.
-    bool any_creep = false;
-    bool any_toe = false;
-    bool any_bristle_exponent = false;
-    bool any_varying_friction = false;
+/// The parameters of a law, a bench in each lane.
+template <template <class> class Law>
+struct LaneParameters {
+    LaneValues of[law_parameters<Law>];
+    bool active = false;  ///< in any bench
 };
+
+template <class List>
+struct LaneParameterSet;
+template <template <class> class... Law>
+struct LaneParameterSet<LawList<Law...>> : LaneParameters<Law>... {
+    void set(int lane, const BenchEffects& effects) { (set_law(lane, effects.of<Law<double>>()), ...); }
+
+    template <template <class> class One>
+    bool is_active() const {
+        return static_cast<const LaneParameters<One>&>(*this).active;
+    }
+
+  private:
+    template <template <class> class One>
+    void set_law(int lane, const One<double>& law) {
+        LaneParameters<One>& parameters = *this;
+        const auto values = parameters_of<One>(law);
+        for (std::size_t k = 0; k < values.size(); ++k) parameters.of[k].of[lane] = values[k];
+        parameters.active |= law.is_active();
+    }
+};
+
+/// Every effect that is a law of the cable.
+using CableLaws = CableLawsOf<BenchEffects>::List;
+using CableLawParameters = LaneParameterSet<CableLaws>;
 
 /// One cable of each bench: arrays over nodes, tensions and creep over segments.
 struct CableLanes {
@@ -70,30 +78,39 @@ struct EndTensions {
     LaneValues per_load_rad;
 };
 
+/// The pulleys that find their angle.
+struct FreePulleys {
+    bool motor = true;
+    bool load = true;
+};
+
 struct CablesGroup {
     int nodes = 0;
     int cables = 0;
     double segment_m = 0.0;
     double time_step_s = 0.0;
-    CableLaws laws;
+    CableLawParameters laws;
+    LaneValues stretch_m_per_N;  ///< of a segment, by its own elasticity
+    LaneValues dynamic_friction;
+    LaneValues varying_friction;        ///< not 0: Stribeck, load dependence or a bend that moves
+    bool any_varying_friction = false;  ///< of any bench
     CableLanes cable[max_cables];
-    bool motor_turns = true;  ///< whether any bench's motor, its load pulley, is to find its angle
-    bool load_turns = true;
+    FreePulleys free;  ///< of any bench
 };
 
-/// Begins a step of these benches at where the last one ended; `load_angle_rad` for bends that follow it.
+/// Begins a step of these benches where the last one ended; `load_angle_rad` for bends that follow it.
 void begin_cables(const CablesGroup& group, const LaneFlags& active, const LaneValues& load_angle_rad);
 
-/// Linearises about the present guess and solves for what both ends ask.
+/// Linearises about the present guess and solves for the conditions of both ends.
 void linearise_cables(const CablesGroup& group, const LaneFlags& active, const EndPlaces* motor,
                       const EndPlaces* load, EndTensions* at_motor, EndTensions* at_load);
 
-/// Goes on by `share` of the way to the linear solution for these further turns. The largest move of a node
-/// [m].
+/// Moves the nodes by `fraction` of the linear solution for these further turns. Returns the largest move of
+/// a node [m].
 LaneValues move_cables(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
                        const LaneValues& fraction);
 
-/// Makes the present guess the step's outcome; the tension at either end of each cable [N].
+/// Makes the present guess the step's outcome; writes the tension at both ends of each cable.
 void store_cables(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N);
 
 }  // namespace capstan

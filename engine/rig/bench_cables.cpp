@@ -1,4 +1,4 @@
-#include "capstan/solver/bench_cables.h"
+#include "capstan/rig/bench_cables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,24 @@ namespace {
 // a front goes: a front's own displacements are of this size.
 constexpr double numerical_presliding_m = 3e-6;
 
-Presliding bristles_of(const Presliding& effect) {
-    if (effect.length_m > numerical_presliding_m) return effect;
-    return {numerical_presliding_m, 0.0};
+BenchEffects with_numerical_presliding(BenchEffects effects) {
+    if (!(effects.of<Presliding>().length_m > numerical_presliding_m))
+        effects.of<Presliding>() = {numerical_presliding_m, 0.0};
+    return effects;
+}
+
+// Whether a law changes the friction coefficient from step to step.
+bool changes_friction(const auto& law) {
+    if constexpr (
+        requires { laws::added_friction(law, 0.0); } || requires { laws::friction_factor(law, 0.0); })
+        return law.is_active();
+    return false;
+}
+
+template <class... Effects>
+bool friction_varies(const EffectSet<Effects...>& effects) {
+    return (changes_friction(effects.template of<Effects>()) || ...) ||
+           effects.template of<MovingBend>().extra_angle_per_load_angle != 0.0;
 }
 
 // Wrap angle of the cable that each node stands for: half of each segment beside it.
@@ -39,9 +54,9 @@ void add_bend(const Cable& cable, const Stretch& stretch, double angle_rad, std:
 }  // namespace
 
 BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
-                         bool has_second_cable) {
+                         CableArrangement arrangement) {
     group_.nodes = cables.front().nodes();
-    group_.cables = has_second_cable ? 2 : 1;
+    group_.cables = arrangement == CableArrangement::pull_pull ? 2 : 1;
     group_.segment_m = cables.front().segment_length_m();
     const auto nodes = static_cast<std::size_t>(group_.nodes);
     for (int c = 0; c < group_.cables; ++c) {
@@ -78,42 +93,22 @@ BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEff
 }
 
 void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& effects) {
-    CableLaws& laws = group_.laws;
-    const double linear_m_per_N = group_.segment_m / cable.axial_stiffness_N();
-    const Presliding bristles = bristles_of(effects.presliding);
-    laws.stretch_m_per_N.of[lane] = linear_m_per_N;
-    laws.creep_m_per_N.of[lane] = effects.creep.ratio * linear_m_per_N;
-    creep_time_s_.of[lane] = effects.creep.time_constant_s;
-    laws.toe_m.of[lane] = group_.segment_m * effects.nonlinear_stiffness.toe_strain;
-    laws.toe_tension_N.of[lane] = effects.nonlinear_stiffness.toe_tension_N;
-    laws.bristle_m.of[lane] = bristles.length_m;
-    laws.bristle_exponent.of[lane] = bristles.exponent;
-    laws.rigid_N_per_m.of[lane] = effects.bending_stiffness.drag_N_per_m;
-    viscous_N_s_per_m2_.of[lane] = effects.viscous_friction.drag_N_s_per_m2;
-    laws.dynamic_friction.of[lane] = cable.dynamic_friction();
-    laws.stribeck_friction.of[lane] = effects.stribeck.extra_friction;
-    laws.stribeck_speed_m_per_s.of[lane] = effects.stribeck.speed_m_per_s;
-    stribeck_memory_s_.of[lane] = effects.stribeck.memory_s;
-    laws.load_exponent.of[lane] = effects.load_dependent_friction.exponent;
-    laws.load_reference_N_per_m.of[lane] = effects.load_dependent_friction.reference_N_per_m;
-    const bool varies = effects.stribeck.extra_friction != 0.0 ||
-                        effects.load_dependent_friction.exponent != 1.0 ||
-                        effects.moving_bend.extra_angle_per_load_angle != 0.0;
-    laws.varying_friction.of[lane] = varies ? 1.0 : 0.0;
-    laws.any_varying_friction |= varies;
-    laws.any_creep |= effects.creep.ratio > 0.0;
-    laws.any_toe |= effects.nonlinear_stiffness.toe_strain > 0.0;
-    laws.any_bristle_exponent |= bristles.exponent != 0.0;
+    group_.laws.set(lane, with_numerical_presliding(effects));
+    group_.stretch_m_per_N.of[lane] = group_.segment_m / cable.axial_stiffness_N();
+    group_.dynamic_friction.of[lane] = cable.dynamic_friction();
+    const bool varies = friction_varies(effects);
+    group_.varying_friction.of[lane] = varies ? 1.0 : 0.0;
+    group_.any_varying_friction |= varies;
 
+    const LocalBend& bend = effects.of<LocalBend>();
+    const MovingBend& moving_bend = effects.of<MovingBend>();
     for (int c = 0; c < group_.cables; ++c) {
         std::vector<double> wrap_rad = node_wrap_rad(cable);
-        const LocalBend& bend = effects.local_bend;
         if (bend.cables != (c == 0 ? BentCables::only_b : BentCables::only_a))
-            add_bend(cable, bend.stretch, bend.extra_angle_rad, wrap_rad);
+            add_bend(cable, bend.stretch(), bend.extra_angle_rad, wrap_rad);
         std::vector<double> moving(wrap_rad.size(), 0.0);
-        if (effects.moving_bend.extra_angle_per_load_angle != 0.0)
-            add_bend(cable, effects.moving_bend.stretch, effects.moving_bend.extra_angle_per_load_angle,
-                     moving);
+        if (moving_bend.extra_angle_per_load_angle != 0.0)
+            add_bend(cable, moving_bend.stretch(), moving_bend.extra_angle_per_load_angle, moving);
         for (std::size_t node = 0; node < wrap_rad.size(); ++node) {
             arrays_[c].wrap_rad[node].of[lane] = wrap_rad[node];
             arrays_[c].wrap_per_load_angle[node].of[lane] = moving[node];
@@ -125,8 +120,8 @@ void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& eff
 
 void BenchCables::set_rest(int lane, const Cable& cable, const BenchEffects& effects) {
     const double pretension_N = cable.pretension_N();
-    rest_[lane] = {cable.axial_stiffness_N(), effects.creep, effects.nonlinear_stiffness,
-                   effects.conduit_compliance.load_m_per_N};
+    rest_[lane] = {cable.axial_stiffness_N(), effects.of<Creep>(), effects.of<NonlinearStiffness>(),
+                   effects.of<ConduitCompliance>().load_m_per_N};
     const double motor_end_m = rest_displacement_m(lane, pretension_N);
     for (int c = 0; c < group_.cables; ++c) {
         for (int node = 0; node < group_.nodes; ++node) {
@@ -139,13 +134,14 @@ void BenchCables::set_rest(int lane, const Cable& cable, const BenchEffects& eff
     }
 }
 
-// Of one segment long at rest under a tension.
+// The creep of one segment at rest under a tension.
 double BenchCables::crept_m(const Rest& rest, double tension_N) const {
-    return rest.creep.ratio * group_.segment_m * tension_N / rest.axial_stiffness_N;
+    return laws::creep_at_rest(rest.creep, group_.segment_m) * tension_N / rest.axial_stiffness_N;
 }
 
 double BenchCables::stretched_m(const Rest& rest, double tension_N) const {
-    return crept_m(rest, tension_N) + group_.segment_m * rest.toe.strain(tension_N, rest.axial_stiffness_N);
+    const double strain = tension_N / rest.axial_stiffness_N + laws::toe_strain(rest.toe, tension_N).strain;
+    return crept_m(rest, tension_N) + group_.segment_m * strain;
 }
 
 double BenchCables::rest_displacement_m(int bench, double tension_N) const {
@@ -153,20 +149,8 @@ double BenchCables::rest_displacement_m(int bench, double tension_N) const {
     return -rest.load_compliance_m_per_N * tension_N - (group_.nodes - 1) * stretched_m(rest, tension_N);
 }
 
-void BenchCables::let_turn(bool motor, bool load) {
-    group_.motor_turns = motor;
-    group_.load_turns = load;
-}
-
 void BenchCables::begin(const LaneFlags& active, const LaneValues& load_angle_rad, double time_step_s) {
-    CableLaws& laws = group_.laws;
     group_.time_step_s = time_step_s;
-    for (int lane = 0; lane < bench_lanes; ++lane) {
-        laws.creep_fraction.of[lane] =
-            laws.creep_m_per_N.of[lane] > 0.0 ? time_step_s / (creep_time_s_.of[lane] + time_step_s) : 0.0;
-        laws.stribeck_fraction.of[lane] = time_step_s / (stribeck_memory_s_.of[lane] + time_step_s);
-        laws.viscous_N_per_m2.of[lane] = viscous_N_s_per_m2_.of[lane] / time_step_s;
-    }
     begin_cables(group_, active, load_angle_rad);
 }
 

@@ -4,17 +4,17 @@
 #include <span>
 #include <vector>
 
-#include "capstan/solver/bench_cables.h"
-#include "capstan/solver/bench_pulleys.h"
+#include "capstan/rig/bench_cables.h"
+#include "capstan/rig/bench_pulleys.h"
 
 namespace capstan {
 
 /// A bench as it is built: one cable with its far end held, or two between pulleys (E15).
 struct BenchDescription {
     Cable cable;  ///< each of the pair
-    bool has_second_cable = true;
-    Pulleys pulleys;
-    Inertia inertia;  ///< known ones; an effect's inertia comes on top
+    CableArrangement arrangement = CableArrangement::pull_pull;
+    Pulleys pulleys{};
+    Inertia inertia{};  ///< known ones; an effect's inertia comes on top
 };
 
 struct BenchReport {

@@ -1,4 +1,4 @@
-#include "capstan/solver/bench_pulleys.h"
+#include "capstan/rig/bench_pulleys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,36 +7,22 @@ namespace capstan {
 
 namespace {
 
-// Stiffness of contact once a backlash is closed: far above any cable's.
-constexpr double contact_Nm_per_rad = 5e3;
-// Bristles of a pulley's bearing: as the cable's, at a radius of some centimetres.
-constexpr double bearing_presliding_rad = 1e-4;
-constexpr double bearing_speed_rad_per_s = 0.01;
 // Newmark's method, slightly damped, so that contact does not ring on.
 constexpr double newmark_damping = 0.05;
 constexpr double newmark_beta = 0.25 * (1.0 + newmark_damping) * (1.0 + newmark_damping);
 constexpr double newmark_gamma = 0.5 + newmark_damping;
 
-Presliding bristles_of(const PulleyFriction& friction) {
-    return {friction.presliding_rad > 0.0 ? friction.presliding_rad : bearing_presliding_rad, 0.0};
-}
-
-// Torque through a joint with lost motion, for an angle across it.
-double beyond_gap_rad(double angle_rad, double half_gap_rad) {
-    return angle_rad > half_gap_rad    ? angle_rad - half_gap_rad
-           : angle_rad < -half_gap_rad ? angle_rad + half_gap_rad
-                                       : 0.0;
-}
-
 }  // namespace
 
 bool BenchPulleys::motor_is_free(const BenchInputs& inputs) const {
-    return std::holds_alternative<MotorTorque>(inputs.motor) || effects_.motor_backlash.half_gap_rad > 0.0;
+    return std::holds_alternative<MotorTorque>(inputs.motor) ||
+           effects_.of<Backlash>().motor_half_gap_rad > 0.0;
 }
 
 bool BenchPulleys::load_is_free(const BenchInputs& inputs) const {
-    return !std::holds_alternative<LoadAngle>(inputs.load) || effects_.load_backlash.half_gap_rad > 0.0 ||
-           effects_.environment_coupling.compliance_rad_per_Nm > 0.0;
+    return !std::holds_alternative<LoadAngle>(inputs.load) ||
+           effects_.of<Backlash>().load_half_gap_rad > 0.0 ||
+           effects_.of<EnvironmentCoupling>().compliance_rad_per_Nm > 0.0;
 }
 
 PulleyAngles BenchPulleys::start(const BenchInputs& inputs) const {
@@ -44,58 +30,53 @@ PulleyAngles BenchPulleys::start(const BenchInputs& inputs) const {
             load_is_free(inputs) ? load_.angle_rad : std::get<LoadAngle>(inputs.load).angle_rad};
 }
 
-// Inside a gap only inertia holds a load pulley whose cables slide.
+// Inside a gap only its inertia holds a load pulley whose cables slide.
 double BenchPulleys::load_inertia_kg_m2(const BenchInputs& inputs) const {
     constexpr double min_kg_m2 = 1e-5;
-    const double sum_kg_m2 = known_.load_kg_m2 + effects_.inertia.load_kg_m2;
+    const double sum_kg_m2 = known_.load_kg_m2 + effects_.of<Inertia>().load_kg_m2;
     return load_is_free(inputs) ? std::max(min_kg_m2, sum_kg_m2) : sum_kg_m2;
 }
 
-// What a pulley's bearing and inertia take at this angle (E27, E35).
-Torque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
+// The torque lost to a pulley's bearing and inertia at this angle (E27, E35).
+Torque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const BearingFriction& friction,
                             double inertia_kg_m2, double angle_rad, double time_step_s) {
     const double turned_rad = angle_rad - pulley.angle_rad;
     const double speed = turned_rad / time_step_s;
-    Bristle sign;  // of the motion, and how it goes with the angle
-    switch (bearing) {
-        case Bearing::finds_its_angle:
-            sign = bristles_of(friction).after(pulley.bristle, turned_rad);
-            break;
-        case Bearing::is_turned:
-            sign.bend = std::tanh(speed / bearing_speed_rad_per_s);
-            sign.bend_per_m = (1.0 - sign.bend * sign.bend) / (bearing_speed_rad_per_s * time_step_s);
-            break;
-    }
-    return {friction.coulomb_Nm * sign.bend + friction.viscous_Nm_s * speed +
-                inertia_kg_m2 * (speed - pulley.speed_rad_per_s) / time_step_s,
-            friction.coulomb_Nm * sign.bend_per_m + friction.viscous_Nm_s / time_step_s +
-                inertia_kg_m2 / (time_step_s * time_step_s)};
+    const Bristle<double> sign = bearing == Bearing::finds_its_angle
+                                     ? friction.bristle_after(pulley.bristle, turned_rad)
+                                     : BearingFriction::sign_of(speed, time_step_s);
+    const Torque rubbing = friction.torque(sign, speed, time_step_s);
+    const Torque inertia = Inertia::torque(inertia_kg_m2, speed, pulley.speed_rad_per_s, time_step_s);
+    return {rubbing.value_Nm + inertia.value_Nm, rubbing.per_rad + inertia.per_rad};
 }
 
 // A pulley whose angle is prescribed cannot creep, and its encoder knows little of the first tenth of a
 // milliradian.
-BenchPulleys::Bearing BenchPulleys::bearing_of(bool free, const PulleyFriction& friction) {
+BenchPulleys::Bearing BenchPulleys::bearing_of(bool free, const BearingFriction& friction) {
     return free || friction.presliding_rad > 0.0 ? Bearing::finds_its_angle : Bearing::is_turned;
 }
 
 Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) const {
-    const Torque lost = losses(motor_, bearing_of(motor_is_free(inputs), effects_.motor_friction),
-                               effects_.motor_friction, known_.motor_kg_m2, angle_rad, inputs.time_step_s);
+    const Torque lost =
+        losses(motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
+               effects_.of<PulleyFriction>().motor, known_.motor_kg_m2, angle_rad, inputs.time_step_s);
     const Torque swing = swing_torque(inputs, angle_rad);
-    Torque balance = {lost.value_Nm + swing.value_Nm + effects_.motor_cogging.torque_Nm(angle_rad),
-                      lost.per_rad + swing.per_rad + effects_.motor_cogging.slope_Nm_per_rad(angle_rad)};
+    const Torque cogging = effects_.of<MotorCogging>().torque(angle_rad);
+    Torque balance = {lost.value_Nm + swing.value_Nm + cogging.value_Nm,
+                      lost.per_rad + swing.per_rad + cogging.per_rad};
     if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
         balance.value_Nm -= torque->torque_Nm;
     } else if (motor_is_free(inputs)) {
-        const double across = beyond_gap_rad(std::get<MotorAngle>(inputs.motor).angle_rad - angle_rad,
-                                             effects_.motor_backlash.half_gap_rad);
-        balance.value_Nm -= contact_Nm_per_rad * across;
-        balance.per_rad += across == 0.0 ? 0.0 : contact_Nm_per_rad;
+        const double across =
+            Backlash::beyond_gap_rad(std::get<MotorAngle>(inputs.motor).angle_rad - angle_rad,
+                                     effects_.of<Backlash>().motor_half_gap_rad);
+        balance.value_Nm -= Backlash::contact_Nm_per_rad * across;
+        balance.per_rad += across == 0.0 ? 0.0 : Backlash::contact_Nm_per_rad;
     }
     return balance;
 }
 
-// What holds the load pulley takes (E17, E29, E34).
+// The torque taken by what holds the load pulley (E17, E29, E34).
 Torque BenchPulleys::held_by(const BenchInputs& inputs, double angle_rad) const {
     if (const auto* torque = std::get_if<LoadTorque>(&inputs.load)) return {torque->torque_Nm, 0.0};
     if (const auto* spring = std::get_if<LoadSpring>(&inputs.load)) {
@@ -103,9 +84,10 @@ Torque BenchPulleys::held_by(const BenchInputs& inputs, double angle_rad) const 
                 spring->stiffness_Nm_per_rad};
     }
     const double held_rad = std::get<LoadAngle>(inputs.load).angle_rad;
-    const EnvironmentCoupling& coupling = effects_.environment_coupling;
-    const double stiffness = 1.0 / (coupling.compliance_rad_per_Nm + 1.0 / contact_Nm_per_rad);
-    const double across = beyond_gap_rad(angle_rad - held_rad, effects_.load_backlash.half_gap_rad);
+    const EnvironmentCoupling& coupling = effects_.of<EnvironmentCoupling>();
+    const double stiffness = coupling.stiffness_Nm_per_rad();
+    const double across =
+        Backlash::beyond_gap_rad(angle_rad - held_rad, effects_.of<Backlash>().load_half_gap_rad);
     const double damping = coupling.damping_Nm_s_per_rad / inputs.time_step_s;
     const double spread_rad = (angle_rad - load_.angle_rad) - (held_rad - load_.encoder_rad);
     return {stiffness * across + damping * spread_rad, (across == 0.0 ? 0.0 : stiffness) + damping};
@@ -113,8 +95,8 @@ Torque BenchPulleys::held_by(const BenchInputs& inputs, double angle_rad) const 
 
 Torque BenchPulleys::load_balance(const BenchInputs& inputs, double angle_rad) const {
     const Torque lost =
-        losses(load_, bearing_of(load_is_free(inputs), effects_.load_friction), effects_.load_friction,
-               load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s);
+        losses(load_, bearing_of(load_is_free(inputs), effects_.of<PulleyFriction>().load),
+               effects_.of<PulleyFriction>().load, load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s);
     if (!load_is_free(inputs)) return {-lost.value_Nm, -lost.per_rad};
     const Torque taken = held_by(inputs, angle_rad);
     return {-lost.value_Nm - taken.value_Nm, -lost.per_rad - taken.per_rad};
@@ -129,30 +111,29 @@ BenchPulleys::Swing BenchPulleys::swung(const Pulley& pulley, double angle_rad, 
     return {speed + h * ((1.0 - newmark_gamma) * acceleration + newmark_gamma * now), now};
 }
 
-// Of the motor's unmodelled inertia, at an angle that it finds for itself or is given.
+// The torque of the motor's unmodelled inertia, at an angle that it finds or is given.
 Torque BenchPulleys::swing_torque(const BenchInputs& inputs, double angle_rad) const {
-    const double inertia_kg_m2 = effects_.inertia.motor_kg_m2;
+    const double inertia_kg_m2 = effects_.of<Inertia>().motor_kg_m2;
     const double h = inputs.time_step_s;
     if (!motor_is_free(inputs))
-        return {inertia_kg_m2 * ((angle_rad - motor_.angle_rad) / h - motor_.speed_rad_per_s) / h,
-                inertia_kg_m2 / (h * h)};
+        return Inertia::torque(inertia_kg_m2, (angle_rad - motor_.angle_rad) / h, motor_.speed_rad_per_s, h);
     return {inertia_kg_m2 * swung(motor_, angle_rad, h).acceleration_rad_per_s2,
             inertia_kg_m2 / (newmark_beta * h * h)};
 }
 
-void BenchPulleys::turn(Pulley& pulley, const PulleyFriction& friction, double angle_rad,
+void BenchPulleys::turn(Pulley& pulley, const BearingFriction& friction, double angle_rad,
                         double time_step_s) {
     const double turned_rad = angle_rad - pulley.angle_rad;
-    pulley.bristle = bristles_of(friction).after(pulley.bristle, turned_rad).bend;
+    pulley.bristle = friction.bristle_after(pulley.bristle, turned_rad).bend;
     pulley.swing = swung(pulley, angle_rad, time_step_s);
     pulley.speed_rad_per_s = turned_rad / time_step_s;
     pulley.angle_rad = angle_rad;
 }
 
-// The motor stands on the side of the gap that its torque leans on; without torque it stays.
+// The motor rests on the side of the gap that its torque presses on; without torque it stays.
 double BenchPulleys::motor_stands_rad(double torque_Nm, double angle_rad) const {
     constexpr double leaning_Nm = 1e-3;
-    const double gap_rad = effects_.motor_backlash.half_gap_rad;
+    const double gap_rad = effects_.of<Backlash>().motor_half_gap_rad;
     if (std::abs(torque_Nm) < leaning_Nm)
         return angle_rad + std::clamp(motor_.encoder_rad - angle_rad, -gap_rad, gap_rad);
     return angle_rad + gap_rad * std::clamp(torque_Nm / leaning_Nm, -1.0, 1.0);
@@ -164,12 +145,13 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
         motor_.torque_Nm = torque->torque_Nm;
         motor_.encoder_rad = motor_stands_rad(torque->torque_Nm, angles.motor_rad);
     } else {
-        motor_.torque_Nm = pulleys_.motor_radius_m * motor_pull_N +
-                           losses(motor_, bearing_of(motor_is_free(inputs), effects_.motor_friction),
-                                  effects_.motor_friction, effects_.inertia.motor_kg_m2, angles.motor_rad,
-                                  inputs.time_step_s)
-                               .value_Nm +
-                           effects_.motor_cogging.torque_Nm(angles.motor_rad);
+        motor_.torque_Nm =
+            pulleys_.motor_radius_m * motor_pull_N +
+            losses(motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
+                   effects_.of<PulleyFriction>().motor, effects_.of<Inertia>().motor_kg_m2, angles.motor_rad,
+                   inputs.time_step_s)
+                .value_Nm +
+            effects_.of<MotorCogging>().torque(angles.motor_rad).value_Nm;
         motor_.encoder_rad = std::get<MotorAngle>(inputs.motor).angle_rad;
     }
     const auto* held = std::get_if<LoadAngle>(&inputs.load);
@@ -177,8 +159,8 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
                                            : pulleys_.load_radius_m * load_pull_N +
                                                  load_balance(inputs, angles.load_rad).value_Nm;
     load_.encoder_rad = held != nullptr ? held->angle_rad : angles.load_rad;
-    turn(motor_, effects_.motor_friction, angles.motor_rad, inputs.time_step_s);
-    turn(load_, effects_.load_friction, angles.load_rad, inputs.time_step_s);
+    turn(motor_, effects_.of<PulleyFriction>().motor, angles.motor_rad, inputs.time_step_s);
+    turn(load_, effects_.of<PulleyFriction>().load, angles.load_rad, inputs.time_step_s);
 }
 
 }  // namespace capstan

@@ -1,22 +1,22 @@
-// A bench a lane. No fused multiply-add, and what a lane holds never depends on its neighbours.
-#include "capstan/solver/bench_cables_kernel.h"
+// A bench in each lane. There is no fused multiply-add, and a lane never depends on its neighbours.
+#include "capstan/rig/bench_cables_kernel.h"
 
 #include "capstan/solver/chosen_target.h"
 
 // foreach_target.h comes before highway.h.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "capstan/solver/bench_cables_kernel.cpp"
+#define HWY_TARGET_INCLUDE "capstan/rig/bench_cables_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include "capstan/solver/bench_laws-inl.h"
+#include "capstan/rig/lane_laws-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace capstan::bench::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What one node, or a segment, is like in the present guess.
+// A node, and a segment, in the present guess.
 struct NodeGuess {
     Lanes friction, bend, bend_per_m, slid_m;
 };
@@ -24,21 +24,23 @@ struct SegmentGuess {
     Lanes tension_N, per_m;
 };
 
-HWY_INLINE NodeGuess node_guess(const CableLanes& cable, const Laws& laws, int node, int lane) {
+HWY_INLINE NodeGuess node_guess(const CableLanes& cable, const LaneCable& mechanics, int node, int lane) {
     const Lanes slid_m = load(cable.displacement_m[node], lane) - load(cable.before_m[node], lane);
-    const LaneBristle bristle = bristle_after(laws, load(cable.before_bend[node], lane), slid_m);
+    const PreslidingLaw<Lanes>& presliding = mechanics;
+    const Bristle<Lanes> bristle =
+        laws::bristle_after(presliding, load(cable.before_bend[node], lane), slid_m);
     store(bristle.bend, cable.bend[node], lane);
     return {load(cable.friction[node], lane), bristle.bend, bristle.bend_per_m, slid_m};
 }
 
-HWY_INLINE SegmentGuess segment_guess(const CableLanes& cable, const Laws& laws, Which active, int segment,
-                                      int lane) {
+HWY_INLINE SegmentGuess segment_guess(const CableLanes& cable, const LaneCable& mechanics, Which active,
+                                      int segment, int lane) {
     const Lanes stretch_m =
         load(cable.displacement_m[segment + 1], lane) - load(cable.displacement_m[segment], lane);
     const Lanes last_N = load(cable.tension_N[segment], lane);
     const Lanes crept_m =
-        laws.of->any_creep ? load(cable.crept_m[segment], lane) * laws.creep_stays : lanes_of(0.0);
-    const LaneTension tension = tension_of(laws, stretch_m - crept_m, last_N);
+        mechanics.creeps ? load(cable.crept_m[segment], lane) * mechanics.creep_stays : lanes_of(0.0);
+    const LaneTension tension = tension_of(mechanics, stretch_m - crept_m, last_N);
     store(hn::IfThenElse(active, tension.value_N, last_N), cable.tension_N[segment], lane);
     return {tension.value_N, tension.per_m};
 }
@@ -50,16 +52,16 @@ struct InnerEnd {
 
 // `way` -1 at the motor end, 1 at the load end: T = t (1 + way q) / (1 - way q) + way (drags), q = z tanh(mu
 // theta / 2).
-HWY_INLINE InnerEnd inner_end(const Laws& laws, const NodeGuess& node, const SegmentGuess& segment,
+HWY_INLINE InnerEnd inner_end(const LaneCable& mechanics, const NodeGuess& node, const SegmentGuess& segment,
                               double way_value, double span_m) {
     const Lanes one = lanes_of(1.0);
     const Lanes way = lanes_of(way_value);
-    const Lanes span = lanes_of(span_m);
     const Lanes pressing_N = hn::Max(lanes_of(0.0), segment.tension_N);
     const Lanes q = way * hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), node.friction * node.bend);
     const Lanes grown = (one + q) / (one - q);
-    const Lanes rigid_N = hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), laws.rigid_N_per_m * span);
-    const Lanes viscous_N_per_m = laws.viscous_N_per_m2 * span;
+    const Lanes rigid_N =
+        hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), mechanics.constant_drag_N(span_m));
+    const Lanes viscous_N_per_m = mechanics.sliding_drag_N_per_m(span_m);
     const Lanes by_bend_N = lanes_of(2.0) * node.friction * pressing_N / ((one - q) * (one - q)) + rigid_N;
     const Lanes stiffness = segment.per_m * grown;
     return {segment.tension_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.slid_m),
@@ -69,7 +71,7 @@ HWY_INLINE InnerEnd inner_end(const Laws& laws, const NodeGuess& node, const Seg
 template <int cables>
 HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane, const EndPlaces* motor,
                                 const EndPlaces* load_end, EndTensions* at_motor, EndTensions* at_load) {
-    const Laws laws(group.laws, lane);
+    const LaneCable mechanics(group, lane);
     const int last = group.nodes - 1;
     const double half_m = 0.5 * group.segment_m;
     const Lanes one = lanes_of(1.0);
@@ -81,8 +83,8 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
     // Motor end: u_0 = at + per_rad turn + compliance T.
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        before[c] = segment_guess(cable, laws, active, 0, lane);
-        inner_motor[c] = inner_end(laws, node_guess(cable, laws, 0, lane), before[c], -1.0, half_m);
+        before[c] = segment_guess(cable, mechanics, active, 0, lane);
+        inner_motor[c] = inner_end(mechanics, node_guess(cable, mechanics, 0, lane), before[c], -1.0, half_m);
         const Lanes gives = load(motor[c].compliance_m_per_N, lane);
         const Lanes pivot = one / (one - gives * inner_motor[c].per_end_m);
         upper[c] = hn::Neg(gives) * inner_motor[c].per_inner_m * pivot;
@@ -95,14 +97,14 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
         store(by_motor[c], cable.by_motor[0], lane);
     }
 
-    const Lanes full_rigid_N = laws.rigid_N_per_m * lanes_of(group.segment_m);
-    const Lanes viscous_N_per_m = laws.viscous_N_per_m2 * lanes_of(group.segment_m);
+    const Lanes full_rigid_N = mechanics.constant_drag_N(group.segment_m);
+    const Lanes viscous_N_per_m = mechanics.sliding_drag_N_per_m(group.segment_m);
     for (int node = 1; node < last; ++node) {
         for (int c = 0; c < cables; ++c) {
             const CableLanes& cable = group.cable[c];
-            const SegmentGuess behind = segment_guess(cable, laws, active, node, lane);
-            const NodeGuess here = node_guess(cable, laws, node, lane);
-            // A slack stretch presses on nothing.
+            const SegmentGuess behind = segment_guess(cable, mechanics, active, node, lane);
+            const NodeGuess here = node_guess(cable, mechanics, node, lane);
+            // A slack stretch does not press on its conduit.
             const Lanes sum_N = hn::Max(zero, before[c].tension_N + behind.tension_N);
             const Which pressed = hn::Gt(sum_N, zero);
             const Lanes q = hn::IfThenElseZero(pressed, here.friction * here.bend);
@@ -117,7 +119,7 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
             value[c] = (hn::Neg(out_of_balance_N) - lower * value[c]) * pivot;
             store(upper[c], cable.upper[node], lane);
             store(value[c], cable.value[node], lane);
-            if (group.motor_turns) {
+            if (group.free.motor) {
                 by_motor[c] = hn::Neg(lower) * by_motor[c] * pivot;
                 store(by_motor[c], cable.by_motor[node], lane);
             }
@@ -128,14 +130,15 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
     // Load end: u_last = at + per_rad turn - compliance T.
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        const InnerEnd inner = inner_end(laws, node_guess(cable, laws, last, lane), before[c], 1.0, half_m);
+        const InnerEnd inner =
+            inner_end(mechanics, node_guess(cable, mechanics, last, lane), before[c], 1.0, half_m);
         const Lanes gives = load(load_end[c].compliance_m_per_N, lane);
         const Lanes lower = gives * inner.per_inner_m;
         const Lanes pivot = one / (one + gives * inner.per_end_m - lower * upper[c]);
         Lanes moved = (load(load_end[c].at_m, lane) - gives * inner.value_N -
                        load(cable.displacement_m[last], lane) - lower * value[c]) *
                       pivot;
-        Lanes moved_by_motor = group.motor_turns ? hn::Neg(lower) * by_motor[c] * pivot : zero;
+        Lanes moved_by_motor = group.free.motor ? hn::Neg(lower) * by_motor[c] * pivot : zero;
         Lanes moved_by_load = load(load_end[c].per_rad, lane) * pivot;
         store(moved, cable.value[last], lane);
         store(moved_by_motor, cable.by_motor[last], lane);
@@ -153,11 +156,11 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
             const Lanes end_by_load = moved_by_load;
             moved = load(cable.value[node], lane) - up * moved;
             store(moved, cable.value[node], lane);
-            if (group.motor_turns) {
+            if (group.free.motor) {
                 moved_by_motor = load(cable.by_motor[node], lane) - up * moved_by_motor;
                 store(moved_by_motor, cable.by_motor[node], lane);
             }
-            if (group.load_turns) {
+            if (group.free.load) {
                 moved_by_load = hn::Neg(up) * moved_by_load;
                 store(moved_by_load, cable.by_load[node], lane);
             }
@@ -186,7 +189,7 @@ void linearise(const CablesGroup& group, const LaneFlags& active, const EndPlace
 void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& load_angle_rad) {
     for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
         const Which which = flags_at(active, lane);
-        const Laws laws(group.laws, lane);
+        const LaneCable mechanics(group, lane);
         const auto copy = [&](const LaneValues& from, LaneValues& to) HWY_ATTR {
             store(hn::IfThenElse(which, load(from, lane), load(to, lane)), to, lane);
         };
@@ -196,7 +199,7 @@ void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& 
             for (int node = 0; node <= last; ++node) copy(cable.before_m[node], cable.displacement_m[node]);
             for (int segment = 0; segment < last; ++segment)
                 copy(cable.before_tension_N[segment], cable.tension_N[segment]);
-            if (!group.laws.any_varying_friction) continue;
+            if (!group.any_varying_friction) continue;
             for (int node = 0; node <= last; ++node) {
                 const Lanes tension_N =
                     lanes_of(0.5) * (load(cable.before_tension_N[node < last ? node : last - 1], lane) +
@@ -207,17 +210,17 @@ void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& 
                                 load(load_angle_rad, lane) * load(cable.wrap_per_load_angle[node], lane));
                 const double span_m = (node == 0 || node == last ? 0.5 : 1.0) * group.segment_m;
                 const Lanes friction =
-                    friction_of(laws, wrap_rad, load(cable.lagging_speed_m_per_s[node], lane),
-                                tension_N * wrap_rad / lanes_of(span_m));
+                    mechanics.friction(wrap_rad, load(cable.lagging_speed_m_per_s[node], lane),
+                                       tension_N * wrap_rad / lanes_of(span_m));
                 const Lanes constant = load(cable.friction[node], lane);
-                store(hn::IfThenElse(laws.varies, friction, constant), cable.friction[node], lane);
+                store(hn::IfThenElse(mechanics.varies, friction, constant), cable.friction[node], lane);
             }
         }
     }
 }
 
-// No node goes further in one iteration: one between slack segments might go anywhere.
-constexpr double farthest_m = 0.05;
+// No node moves further in one iteration; a node between slack segments has no definite place.
+constexpr double max_move_m = 0.05;
 
 LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
                 const LaneValues& fraction_values) {
@@ -227,51 +230,52 @@ LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const Lan
         const Which moves = hn::Ne(fraction, lanes_of(0.0));
         const Lanes motor = load(motor_rad, lane);
         const Lanes turned = load(load_rad, lane);
-        Lanes most = lanes_of(0.0);
+        Lanes largest_here = lanes_of(0.0);
         for (int c = 0; c < group.cables; ++c) {
             const CableLanes& cable = group.cable[c];
             for (int node = 0; node < group.nodes; ++node) {
                 Lanes move_m = load(cable.value[node], lane);
-                if (group.motor_turns) move_m = move_m + motor * load(cable.by_motor[node], lane);
-                if (group.load_turns) move_m = move_m + turned * load(cable.by_load[node], lane);
+                if (group.free.motor) move_m = move_m + motor * load(cable.by_motor[node], lane);
+                if (group.free.load) move_m = move_m + turned * load(cable.by_load[node], lane);
                 const Lanes here = load(cable.displacement_m[node], lane);
                 const Lanes step_m =
-                    hn::Min(hn::Max(fraction * move_m, lanes_of(-farthest_m)), lanes_of(farthest_m));
+                    hn::Min(hn::Max(fraction * move_m, lanes_of(-max_move_m)), lanes_of(max_move_m));
                 store(hn::IfThenElse(moves, here + step_m, here), cable.displacement_m[node], lane);
-                // A move that is no number is the largest.
+                // A move that is not a number counts as the largest.
                 const Lanes size = hn::Abs(move_m);
-                most = hn::IfThenElse(hn::Le(size, most), most, size);
+                largest_here = hn::IfThenElse(hn::Le(size, largest_here), largest_here, size);
             }
         }
-        store(most, largest, lane);
+        store(largest_here, largest, lane);
     }
     return largest;
 }
 
 void keep(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N) {
     for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
-        const Laws laws(group.laws, lane);
+        const LaneCable mechanics(group, lane);
         const Which all = hn::Eq(lanes_of(0.0), lanes_of(0.0));
         const int last = group.nodes - 1;
         const double half_m = 0.5 * group.segment_m;
         for (int c = 0; c < group.cables; ++c) {
             const CableLanes& cable = group.cable[c];
-            const SegmentGuess first = segment_guess(cable, laws, all, 0, lane);
+            const SegmentGuess first = segment_guess(cable, mechanics, all, 0, lane);
             SegmentGuess final_segment = first;
             for (int segment = 1; segment < last; ++segment)
-                final_segment = segment_guess(cable, laws, all, segment, lane);
-            store(inner_end(laws, node_guess(cable, laws, 0, lane), first, -1.0, half_m).value_N,
+                final_segment = segment_guess(cable, mechanics, all, segment, lane);
+            store(inner_end(mechanics, node_guess(cable, mechanics, 0, lane), first, -1.0, half_m).value_N,
                   motor_tension_N[c], lane);
-            for (int node = 1; node < last; ++node) node_guess(cable, laws, node, lane);
-            store(inner_end(laws, node_guess(cable, laws, last, lane), final_segment, 1.0, half_m).value_N,
+            for (int node = 1; node < last; ++node) node_guess(cable, mechanics, node, lane);
+            store(inner_end(mechanics, node_guess(cable, mechanics, last, lane), final_segment, 1.0, half_m)
+                      .value_N,
                   load_tension_N[c], lane);
             for (int node = 0; node <= last; ++node) {
                 const Lanes now_m = load(cable.displacement_m[node], lane);
-                if (group.laws.any_varying_friction) {
+                if (group.any_varying_friction) {
                     const Lanes speed =
                         hn::Abs(now_m - load(cable.before_m[node], lane)) / lanes_of(group.time_step_s);
                     const Lanes lagging = load(cable.lagging_speed_m_per_s[node], lane);
-                    store(lagging + laws.stribeck_fraction * (speed - lagging),
+                    store(laws::lagging_speed<Lanes>(mechanics, lagging, speed, mechanics.time_step_s),
                           cable.lagging_speed_m_per_s[node], lane);
                 }
                 store(now_m, cable.before_m[node], lane);
@@ -280,9 +284,9 @@ void keep(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* loa
             for (int segment = 0; segment < last; ++segment) {
                 const Lanes tension_N = load(cable.tension_N[segment], lane);
                 store(tension_N, cable.before_tension_N[segment], lane);
-                if (!group.laws.any_creep) continue;
-                store(load(cable.crept_m[segment], lane) * laws.creep_stays +
-                          laws.creep_fraction * laws.creep_m_per_N * tension_N,
+                if (!mechanics.creeps) continue;
+                store(load(cable.crept_m[segment], lane) * mechanics.creep_stays +
+                          mechanics.step_creep_m_per_N * tension_N,
                       cable.crept_m[segment], lane);
             }
         }

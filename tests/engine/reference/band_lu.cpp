@@ -1,4 +1,4 @@
-#include "capstan/reference/band_lu.h"
+#include "band_lu.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/effects/effect_catalogue.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan {
 namespace {
@@ -49,7 +49,7 @@ Track track_of(BenchSimulation& bench, int steps) {
 }
 
 Track with_effects(const BenchEffects& effects, int steps = 400) {
-    BenchSimulation bench({cable_with(50), true, pulleys, {}}, effects);
+    BenchSimulation bench({cable_with(50), CableArrangement::pull_pull, pulleys, {}}, effects);
     return track_of(bench, steps);
 }
 
@@ -70,7 +70,7 @@ TEST(BenchSimulation, WithoutEffectsItIsThePullPullPair) {
     const Cable cable = cable_with(100);
     const PullPull pair(cable, cable, pulleys);
     PullPullState state = pair.at_rest();
-    BenchSimulation bench({cable, true, pulleys, {}}, {});
+    BenchSimulation bench({cable, CableArrangement::pull_pull, pulleys, {}}, {});
     const Track track = track_of(bench, 800);
     EXPECT_EQ(track.not_converged, 0);
     std::vector<double> torque_Nm;
@@ -91,7 +91,7 @@ TEST(BenchSimulation, WithoutEffectsASingleCableIsTheClosedFormStep) {
     const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);
     const double rest_m = state.displacement_m.front();
-    BenchSimulation bench({cable, false, pulleys, {}}, {});
+    BenchSimulation bench({cable, CableArrangement::single, pulleys, {}}, {});
     for (int n = 1; n <= 600; ++n) {
         const double angle = 0.3 * std::sin(2.0 * std::numbers::pi * n / 200.0);
         bench.advance({MotorAngle{angle}, LoadAngle{0.0}, time_step_s, 0.0});
@@ -140,7 +140,7 @@ TEST_P(EveryEffect, GrowsFromNothing) {
 TEST_P(EveryEffect, GivesNoWorkAway) {
     BenchEffects effects;
     GetParam().apply(effects, typical(GetParam(), 2.0));
-    BenchSimulation bench({cable_with(50), true, pulleys, {}}, effects);
+    BenchSimulation bench({cable_with(50), CableArrangement::pull_pull, pulleys, {}}, effects);
     double work_J = 0.0;
     double motor_before_rad = 0.0;
     double load_before_Nm = 0.0;
@@ -178,12 +178,12 @@ TEST(BenchSimulation, FollowsACableThatFallsSlack) {
     specification.dynamic_friction = specification.static_friction = 0.21;
     specification.pretension_N = 10.0;
     BenchEffects effects;
-    effects.bending_stiffness.drag_N_per_m = 0.2;
+    effects.of<BendingStiffness>().drag_N_per_m = 0.2;
     std::vector<double> load_torque_Nm[2];
     double least_N = 1e3;
     for (const int refinement : {0, 1}) {
         specification.segments = refinement == 0 ? 40 : 80;
-        BenchSimulation bench({Cable(specification), true, pulleys, {}}, effects);
+        BenchSimulation bench({Cable(specification), CableArrangement::pull_pull, pulleys, {}}, effects);
         for (int step = 1; step <= 1600; ++step) {
             const double time_s = step * time_step_s;
             const double turns = 2.0 * std::numbers::pi * time_s;
@@ -195,14 +195,14 @@ TEST(BenchSimulation, FollowsACableThatFallsSlack) {
             for (const int cable : {0, 1}) least_N = std::min(least_N, bench.load_tension_N(cable));
         }
     }
-    EXPECT_LT(std::abs(least_N), effects.bending_stiffness.drag_N_per_m * 2.0 / 40);  // of a segment
+    EXPECT_LT(std::abs(least_N), effects.of<BendingStiffness>().drag_N_per_m * 2.0 / 40);  // of a segment
     double largest_Nm = 0.0;
     for (const double torque_Nm : load_torque_Nm[1]) largest_Nm = std::max(largest_Nm, std::abs(torque_Nm));
     EXPECT_LT(rms_difference(load_torque_Nm[0], load_torque_Nm[1]), 0.02 * largest_Nm);
 }
 
 TEST(BenchSimulation, RefusesInputsThatMoveNothingDefinite) {
-    BenchSimulation bench({cable_with(10), true, pulleys, {}}, {});
+    BenchSimulation bench({cable_with(10), CableArrangement::pull_pull, pulleys, {}}, {});
     EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadTorque{0.1}, time_step_s, 0.0}), InvalidInput);
     EXPECT_THROW(bench.advance({MotorTorque{std::nan("")}, LoadAngle{0.0}, time_step_s, 0.0}), InvalidInput);
     EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadAngle{0.0}, 0.0, 0.0}), InvalidInput);
@@ -211,7 +211,7 @@ TEST(BenchSimulation, RefusesInputsThatMoveNothingDefinite) {
 
 TEST(BenchSimulation, NamesEveryProblemOfItsInputsAtOnce) {
     const double nan = std::nan("");
-    BenchSimulation single({cable_with(10), false, pulleys, {}}, {});
+    BenchSimulation single({cable_with(10), CableArrangement::single, pulleys, {}}, {});
     try {
         single.advance({MotorAngle{nan}, LoadSpring{0.0, nan}, time_step_s, 0.0});
         FAIL();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan {
 namespace {
@@ -26,7 +26,7 @@ Cable cable_with(int segments, double friction = 0.21) {
 }
 
 BenchSimulation pair_with(const BenchEffects& effects, double friction = 0.21) {
-    return {{cable_with(30, friction), true, pulleys, {}}, effects};
+    return {{cable_with(30, friction), CableArrangement::pull_pull, pulleys, {}}, effects};
 }
 
 double swing(int step) {
@@ -52,7 +52,7 @@ TEST_P(EveryLoad, WithoutEffectsTheBenchIsThePullPullPair) {
     const Cable cable = cable_with(100);
     const PullPull pair(cable, cable, pulleys);
     PullPullState state = pair.at_rest();
-    BenchSimulation bench({cable, true, pulleys, {}}, {});
+    BenchSimulation bench({cable, CableArrangement::pull_pull, pulleys, {}}, {});
     double torque_squares = 0.0;
     double angle_squares = 0.0;
     constexpr int steps = 400;
@@ -70,7 +70,7 @@ TEST_P(EveryLoad, WithoutEffectsTheBenchIsThePullPullPair) {
 INSTANTIATE_TEST_SUITE_P(SpringTorqueAndTorqueAgainstSpring, EveryLoad, testing::Range(0, 3));
 
 TEST(SingleCable, MotorTorqueIsItsTensionTimesTheRadius) {
-    BenchSimulation bench({cable_with(30), false, pulleys, {}}, {});
+    BenchSimulation bench({cable_with(30), CableArrangement::single, pulleys, {}}, {});
     for (int step = 1; step <= 200; ++step) {
         const double torque_Nm = pulleys.motor_radius_m * (8.0 + 4.0 * swing(step));
         ASSERT_TRUE(bench.advance({MotorTorque{torque_Nm}, LoadAngle{0.0}, time_step_s, 0.0}).converged);
@@ -79,22 +79,24 @@ TEST(SingleCable, MotorTorqueIsItsTensionTimesTheRadius) {
 }
 
 TEST(SingleCable, CannotHoldAMotorThatPushes) {
-    BenchSimulation bench({cable_with(30), false, pulleys, {}}, {});
+    BenchSimulation bench({cable_with(30), CableArrangement::single, pulleys, {}}, {});
     const BenchReport report = bench.advance({MotorTorque{-0.5}, LoadAngle{0.0}, time_step_s, 0.0});
     EXPECT_FALSE(report.converged);
     EXPECT_TRUE(std::isfinite(bench.motor_angle_rad()));
 }
 
 TEST(BenchSimulation, RefusesPulleysWithoutARadius) {
-    EXPECT_THROW(BenchSimulation({cable_with(30), true, {0.0, 0.104}, {}}, {}), InvalidInput);
-    EXPECT_THROW(BenchSimulation({cable_with(30), false, {0.02, -0.104}, {}}, {}), InvalidInput);
+    EXPECT_THROW(BenchSimulation({cable_with(30), CableArrangement::pull_pull, {0.0, 0.104}, {}}, {}),
+                 InvalidInput);
+    EXPECT_THROW(BenchSimulation({cable_with(30), CableArrangement::single, {0.02, -0.104}, {}}, {}),
+                 InvalidInput);
 }
 
 // Lost motion.
 
 TEST(MotorBacklash, WithinItsGapAMotorTurnsNothing) {
     BenchEffects effects;
-    effects.motor_backlash.half_gap_rad = 0.05;
+    effects.of<Backlash>().motor_half_gap_rad = 0.05;
     BenchSimulation bench = pair_with(effects);
     for (int step = 1; step <= 200; ++step) {
         bench.advance({MotorAngle{0.045 * swing(step)}, LoadAngle{0.0}, time_step_s, 0.0});
@@ -105,7 +107,7 @@ TEST(MotorBacklash, WithinItsGapAMotorTurnsNothing) {
 
 TEST(MotorBacklash, BeyondItsGapAMotorIsOneWithoutThatMuchFurtherBack) {
     BenchEffects effects;
-    effects.motor_backlash.half_gap_rad = 0.05;
+    effects.of<Backlash>().motor_half_gap_rad = 0.05;
     for (const double way : {1.0, -1.0}) {
         BenchSimulation with = pair_with(effects);
         BenchSimulation without = pair_with({});
@@ -122,7 +124,7 @@ TEST(MotorBacklash, BeyondItsGapAMotorIsOneWithoutThatMuchFurtherBack) {
 
 TEST(LoadBacklash, BeyondItsGapALoadIsOneWithoutThatMuchFurtherBack) {
     BenchEffects effects;
-    effects.load_backlash.half_gap_rad = 0.02;
+    effects.of<Backlash>().load_half_gap_rad = 0.02;
     for (const double way : {1.0, -1.0}) {
         BenchSimulation with = pair_with(effects);
         BenchSimulation without = pair_with({});
@@ -141,7 +143,7 @@ TEST(LoadBacklash, BeyondItsGapALoadIsOneWithoutThatMuchFurtherBack) {
 // instead.
 TEST(LoadBacklash, AHandleThatCrossesItsGapFeelsWhatTheCablesPull) {
     BenchEffects effects;
-    effects.load_backlash.half_gap_rad = 0.01;
+    effects.of<Backlash>().load_half_gap_rad = 0.01;
     BenchSimulation bench = pair_with(effects);
     int max_iterations = 0;
     for (int step = 1; step <= 200; ++step) {
@@ -159,7 +161,7 @@ TEST(LoadBacklash, AHandleThatCrossesItsGapFeelsWhatTheCablesPull) {
 // The hand moves a third of a radian in a step: some steps are not met and say so, the others are balanced.
 TEST(LoadBacklash, AStepThatSaysItIsSolvedIsBalanced) {
     BenchEffects effects;
-    effects.load_backlash.half_gap_rad = 0.05;
+    effects.of<Backlash>().load_half_gap_rad = 0.05;
     BenchSimulation bench = pair_with(effects);
     int solved = 0;
     for (int step = 1; step <= 400; ++step) {
@@ -178,7 +180,7 @@ TEST(LoadBacklash, AStepThatSaysItIsSolvedIsBalanced) {
 
 TEST(TurnedMotor, GivesItsInertiaItsAcceleration) {
     BenchEffects effects;
-    effects.inertia.motor_kg_m2 = 2e-3;
+    effects.of<Inertia>().motor_kg_m2 = 2e-3;
     BenchSimulation heavy = pair_with(effects);
     BenchSimulation light = pair_with({});
     constexpr double acceleration_rad_per_s2 = 5.0;
@@ -196,7 +198,7 @@ TEST(TurnedMotor, GivesItsInertiaItsAcceleration) {
 
 TEST(TurnedMotor, GivesItsBearingsFrictionWhileItTurnsAndNothingAtRest) {
     BenchEffects effects;
-    effects.motor_friction.coulomb_Nm = 0.05;
+    effects.of<PulleyFriction>().motor.coulomb_Nm = 0.05;
     BenchSimulation dragging = pair_with(effects);
     BenchSimulation free = pair_with({});
     const auto lost_Nm = [&](double angle_rad) {
@@ -213,8 +215,8 @@ TEST(TurnedMotor, GivesItsBearingsFrictionWhileItTurnsAndNothingAtRest) {
 // Bristles hold where a sign of the speed could not.
 TEST(TurnedMotor, OnABearingWithPreslidingIsHeldAtRestToo) {
     BenchEffects effects;
-    effects.motor_friction.coulomb_Nm = 0.05;
-    effects.motor_friction.presliding_rad = 1e-3;
+    effects.of<PulleyFriction>().motor.coulomb_Nm = 0.05;
+    effects.of<PulleyFriction>().motor.presliding_rad = 1e-3;
     BenchSimulation dragging = pair_with(effects);
     BenchSimulation free = pair_with({});
     for (int step = 1; step <= 40; ++step) {
@@ -228,7 +230,7 @@ TEST(TurnedMotor, OnABearingWithPreslidingIsHeldAtRestToo) {
 // How much of the cable slides.
 
 TEST(SlidingShare, IsNoneAtRestAndAllButTheHeldEndsInMassMotion) {
-    const std::vector<BenchDescription> bench = {{cable_with(30), true, pulleys, {}}};
+    const std::vector<BenchDescription> bench = {{cable_with(30), CableArrangement::pull_pull, pulleys, {}}};
     const std::vector<BenchEffects> effects(1);
     BenchSimulations simulation(bench, effects);
     EXPECT_EQ(simulation.cables().sliding_fraction(0), 0.0);

@@ -1,4 +1,4 @@
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,7 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
     : count_(static_cast<int>(descriptions.size())),
       radii_(checked(descriptions.front().pulleys)),
       effects_(effects.begin(), effects.end()),
-      cables_(cables_of(descriptions), effects, descriptions.front().has_second_cable) {
+      cables_(cables_of(descriptions), effects, descriptions.front().arrangement) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
         pretension_N_.push_back(descriptions[bench].cable.pretension_N());
         pulleys_.emplace_back(radii_, effects_[bench], descriptions[bench].inertia);
@@ -91,8 +91,8 @@ BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, cons
     for (int lane = 0; lane < bench_lanes; ++lane) {
         const auto bench = static_cast<std::size_t>(lane < count_ ? lane : 0);
         const double pretension_N =
-            pretension_N_[bench] * effects_[bench].pretension_drift.ratio(session_time_s);
-        const ConduitCompliance& conduit = effects_[bench].conduit_compliance;
+            pretension_N_[bench] * effects_[bench].of<PretensionDrift>().ratio(session_time_s);
+        const ConduitCompliance& conduit = effects_[bench].of<ConduitCompliance>();
         const double rest_m =
             cables_.rest_displacement_m(lane, pretension_N) - conduit.motor_m_per_N * pretension_N;
         double way = -1.0;
@@ -126,7 +126,7 @@ BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, cons
 // Newton's method on all nodes and the free pulleys of the active benches, from the cables' present guess.
 void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, LaneFlags active,
                                EachAngles& angles, EachReport& reports) {
-    cables_.let_turn(any(free.motor), any(free.load));
+    cables_.set_free({.motor = any(free.motor), .load = any(free.load)});
     const double r_m = radii_.motor_radius_m;
     const double r_l = radii_.load_radius_m;
     for (int iteration = 1; iteration <= max_iterations && any(active); ++iteration) {

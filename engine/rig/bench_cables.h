@@ -5,9 +5,14 @@
 
 #include "capstan/cable/cable.h"
 #include "capstan/effects/bench_effects.h"
-#include "capstan/solver/bench_cables_kernel.h"
+#include "capstan/rig/bench_cables_kernel.h"
 
 namespace capstan {
+
+enum class CableArrangement {
+    single,     ///< one cable with its far end held
+    pull_pull,  ///< two cables between pulleys (E15)
+};
 
 /// The cables of up to four benches that differ in their numbers: one each, or a pair.
 ///
@@ -18,7 +23,8 @@ class BenchCables {
   public:
     /// `cables`: one of each bench, all with the same length and segments. At rest under its pretension, the
     /// load end where its tension lets it, creep at an end.
-    BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects, bool has_second_cable);
+    BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
+                CableArrangement arrangement);
     BenchCables(const BenchCables&) = delete;
     BenchCables& operator=(const BenchCables&) = delete;
 
@@ -26,8 +32,8 @@ class BenchCables {
     double rest_displacement_m(int bench, double tension_N) const;
 
     void begin(const LaneFlags& active, const LaneValues& load_angle_rad, double time_step_s);
-    /// Which pulleys any bench lets find their angle: the others' turns are not solved for.
-    void let_turn(bool motor, bool load);
+    /// The pulleys that find their angle in any bench; the turns of the others are not solved for.
+    void set_free(const FreePulleys& free) { group_.free = free; }
 
     struct Ends {
         EndTensions motor[max_cables];
@@ -58,7 +64,7 @@ class BenchCables {
         PerNode before_m, before_bend, lagging_speed_m_per_s, crept_m, before_tension_N, wrap_rad,
             wrap_per_load_angle, friction, displacement_m, bend, tension_N, upper, value, by_motor, by_load;
     };
-    /// Of one bench: what its cable is stretched by at rest.
+    /// What stretches one bench's cable at rest.
     struct Rest {
         double axial_stiffness_N = 0.0;
         Creep creep;
@@ -71,8 +77,6 @@ class BenchCables {
     double stretched_m(const Rest& rest, double tension_N) const;
 
     CablesGroup group_;  // refers to the arrays
-    // Times in the laws that a step's length turns into shares.
-    LaneValues creep_time_s_, stribeck_memory_s_, viscous_N_s_per_m2_;
     Rest rest_[bench_lanes];
     Arrays arrays_[max_cables];
     LaneValues motor_tension_N_[max_cables];

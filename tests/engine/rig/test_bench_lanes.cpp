@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "capstan/effects/effect_catalogue.h"
-#include "capstan/solver/bench_simulation.h"
+#include "capstan/rig/bench_simulation.h"
 
 namespace capstan {
 namespace {
@@ -17,7 +17,7 @@ BenchDescription bench_with(double friction) {
     specification.axial_stiffness_N = 4000.0;
     specification.dynamic_friction = specification.static_friction = friction;
     specification.pretension_N = 6.0;
-    return {Cable(specification), true, {0.02, 0.104}, {}};
+    return {Cable(specification), CableArrangement::pull_pull, {0.02, 0.104}, {}};
 }
 
 BenchEffects typical(const std::string& name, const std::string& variant) {
@@ -63,7 +63,7 @@ TEST(BenchSimulations, ABenchDoesNotFeelItsNeighbours) {
 TEST(BenchSimulations, AnUnmodelledRotorRings) {
     BenchDescription description = bench_with(1e-4);
     BenchEffects effects;
-    effects.inertia.motor_kg_m2 = 1e-3;
+    effects.of<Inertia>().motor_kg_m2 = 1e-3;
     BenchSimulation bench(description, effects);
     constexpr double step_s = 0.001;
     std::vector<double> angle_rad;

@@ -14,12 +14,6 @@ struct BenchInputs {
     double session_time_s = 0.0;  ///< since the session began: what drifts goes on from run to run
 };
 
-/// A torque and how it goes with the angle.
-struct Torque {
-    double value_Nm = 0.0;
-    double per_rad = 0.0;
-};
-
 struct PulleyAngles {
     double motor_rad = 0.0;
     double load_rad = 0.0;
@@ -78,10 +72,10 @@ class BenchPulleys {
     };
     /// How its Coulomb friction finds its sign: by bristles, which hold at rest, or by speed.
     enum class Bearing { finds_its_angle, is_turned };
-    static Bearing bearing_of(bool free, const PulleyFriction& friction);
-    static Torque losses(const Pulley& pulley, Bearing bearing, const PulleyFriction& friction,
+    static Bearing bearing_of(bool free, const BearingFriction& friction);
+    static Torque losses(const Pulley& pulley, Bearing bearing, const BearingFriction& friction,
                          double inertia_kg_m2, double angle_rad, double time_step_s);
-    static void turn(Pulley& pulley, const PulleyFriction& friction, double angle_rad, double time_step_s);
+    static void turn(Pulley& pulley, const BearingFriction& friction, double angle_rad, double time_step_s);
     static Swing swung(const Pulley& pulley, double angle_rad, double time_step_s);
     Torque swing_torque(const BenchInputs& inputs, double angle_rad) const;
     double load_inertia_kg_m2(const BenchInputs& inputs) const;
