@@ -55,6 +55,10 @@ std::string head_html(const PageFrame& frame, PageFiles files) {
 
 }  // namespace
 
+std::string program_version() {
+    return CAPSTAN_VERSION;
+}
+
 std::string page_html(const PageFrame& frame, PageFiles files) {
     std::string page = head_html(frame, files);
     page += fmt::format(

@@ -24,6 +24,9 @@ enum class PageFiles {
     served,  // style and scripts come from the service that sent the page, which adds live.js
 };
 
+/// Of this build, "0.2.0".
+std::string program_version();
+
 std::string page_html(const PageFrame& frame, PageFiles files = PageFiles::inside);
 
 // '' without content; `intro` is plain text.

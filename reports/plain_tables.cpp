@@ -50,16 +50,18 @@ std::string tables_json(const std::vector<Table>& tables) {
     return report.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string markdown_of(const NumberTable& numbers) {
-    std::string text = fmt::format("\n## {}\n\n|", numbers.caption);
-    for (const std::string& head : numbers.heads) text += fmt::format(" {} |", head);
-    text += "\n|";
-    for (std::size_t k = 0; k < numbers.heads.size(); ++k) text += " --- |";
-    for (const auto& row : numbers.rows) {
-        text += "\n|";
-        for (const std::string& cell : row) text += fmt::format(" {} |", escape_markdown(cell));
+std::string markdown_of(const std::string& heading, const std::vector<std::vector<std::string>>& cells) {
+    std::string text = heading.empty() ? "\n" : fmt::format("\n### {}\n\n", heading);
+    for (std::size_t row = 0; row < cells.size(); ++row) {
+        text += "|";
+        for (const std::string& cell : cells[row]) text += fmt::format(" {} |", escape_markdown(cell));
+        text += "\n";
+        if (row > 0) continue;
+        text += "|";
+        for (std::size_t k = 0; k < cells[row].size(); ++k) text += " --- |";
+        text += "\n";
     }
-    return text + "\n";
+    return text;
 }
 
 std::string escape_markdown(const std::string& text) {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "capstan/reports/experiment_page.h"
 #include "capstan/reports/table.h"
 
 namespace capstan::reports {
@@ -19,8 +18,8 @@ std::string csv_text(const std::vector<std::string>& columns, const std::vector<
 // {"table": [{"column": value, ...}, ...], ...}
 std::string tables_json(const std::vector<Table>& tables);
 
-// A heading and the rows below it.
-std::string markdown_of(const NumberTable& numbers);
+// A heading and rows below it, the first of which heads the columns.
+std::string markdown_of(const std::string& heading, const std::vector<std::vector<std::string>>& cells);
 
 // So that no text of a study acts as the border of a table or as a tag.
 std::string escape_markdown(const std::string& text);

@@ -8,9 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "capstan/reports/experiment_page.h"
 #include "capstan/reports/html_text.h"
-#include "capstan/reports/plain_tables.h"
 #include "capstan/reports/table.h"
 #include "capstan/storage/report_queries.h"
 #include "capstan/storage/study_store.h"
@@ -113,109 +111,106 @@ std::string verdict(const Comparison& comparison) {
         smaller += row.number("interval_high_N") < 0 ? 1 : 0;
         larger += row.number("interval_low_N") > 0 ? 1 : 0;
     }
-    const std::string pair =
-        fmt::format("First: {}. Second: {}. ", title_of(comparison.first), title_of(comparison.second));
-    if (rows.empty()) return pair + "They have no regime, noise level, layout and method in common.";
-    return pair + fmt::format(
-                      "Of {} errors that both have, the second's is clearly smaller in {} and clearly larger "
-                      "in {}; the draws of the rest cannot tell.",
-                      rows.size(), smaller, larger);
+    if (rows.empty()) return "the studies have no regime, noise level, layout and method in common.";
+    return fmt::format(
+        "of {} errors that both studies have, that of the second is significantly smaller in {} and significantly "
+        "larger in {} (each at 95%).",
+        rows.size(), smaller, larger);
 }
 
-std::vector<std::vector<std::string>> recommendation_rows(const Comparison& comparison) {
-    std::vector<std::vector<std::string>> rows;
+Data recommendation_rows(const Comparison& comparison) {
+    Data rows = Data::list();
     for (const Row& row : comparison["compared_recommendation"].each()) {
         const std::string regime = row.text("regime");
-        rows.push_back({row.text("series"), regime.empty() ? row.text("scope") : regime_title(regime),
-                        row.text("noise"), row.text("nodes"), row.text("method_title"),
-                        newtons(row.number("error_N")),
-                        newtons_between(row.number("interval_low_N"), row.number("interval_high_N"))});
+        rows.push_back(
+            {{"study", row.text("series")},
+             {"for", regime.empty() ? row.text("scope") : regime_title(regime)},
+             {"noise", row.text("noise")},
+             {"nodes", row.text("nodes")},
+             {"method", row.text("method_title")},
+             {"error_N", row.number("error_N")},
+             {"interval_95_N", Data::list({row.number("interval_low_N"), row.number("interval_high_N")})}});
     }
     return rows;
 }
 
-std::vector<std::vector<std::string>> setting_rows(const Comparison& comparison) {
-    std::vector<std::vector<std::string>> rows;
-    for (const Row& row : comparison["settings"].each())
-        rows.push_back({row.text("key"), row.text("first"), row.text("second")});
-    return rows;
-}
-
 // The common errors that differ most, in units of their uncertainty.
-std::vector<std::vector<std::string>> largest_rows(const Comparison& comparison) {
+Data largest_rows(const Comparison& comparison) {
+    constexpr std::size_t shown = 12;
     auto rows = comparison["compared_error"].each();
-    const auto clear = [](const Row& row) {
+    const auto significance = [](const Row& row) {
         const double half_N = row.number("interval_high_N") - row.number("difference_N");
         return half_N > 0 ? std::abs(row.number("difference_N")) / half_N : 0.0;
     };
     std::vector<std::size_t> order(rows.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return clear(rows[a]) > clear(rows[b]); });
-    std::vector<std::vector<std::string>> lines;
-    for (std::size_t k = 0; k < order.size() && k < 12; ++k) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return significance(rows[a]) > significance(rows[b]);
+    });
+    Data lines = Data::list();
+    for (std::size_t k = 0; k < order.size() && k < shown; ++k) {
         const Row& row = rows[order[k]];
         lines.push_back(
-            {fmt::format("{}, {}, {}, {} sensors, {}", regime_title(row.text("regime")), row.text("noise"),
-                         row.text("family"), row.integer("sensor_count"), row.text("method_title")),
-             newtons(row.number("first_error_N")), newtons(row.number("second_error_N")),
-             fmt::format("{:+.3g} N", row.number("difference_N")),
-             fmt::format("{:+.3g} to {:+.3g} N", row.number("interval_low_N"),
-                         row.number("interval_high_N"))});
+            {{"regime", regime_title(row.text("regime"))},
+             {"noise", row.text("noise")},
+             {"layout", row.text("family")},
+             {"sensor_count", row.integer("sensor_count")},
+             {"method", row.text("method_title")},
+             {"first_error_N", row.number("first_error_N")},
+             {"second_error_N", row.number("second_error_N")},
+             {"difference_N", row.number("difference_N")},
+             {"interval_95_N", Data::list({row.number("interval_low_N"), row.number("interval_high_N")})}});
     }
     return lines;
 }
 
-std::vector<NumberTable> number_tables(const Comparison& comparison) {
-    return {{"In what the configurations differ", {"Key", "First", "Second"}, setting_rows(comparison)},
-            {"What each recommends",
-             {"Study", "For", "Noise", "Nodes", "Method", "Objective", "95% interval"},
-             recommendation_rows(comparison)},
-            {"The clearest differences, second less first",
-             {"What", "First", "Second", "Difference", "95% interval"},
-             largest_rows(comparison)}};
-}
-
 }  // namespace
 
-std::string study_comparison_html(storage::Database& database, const ComparedStudies& studies) {
+Answer study_comparison(storage::Database& database, const ComparedStudies& studies) {
     const Comparison comparison = compare(database, studies);
-    auto numbers = number_tables(comparison);
-    ExperimentPage page;
-    page.id = "comparison";
-    page.kind = "Comparison of two studies";
-    page.title = comparison.first.name + " and " + comparison.second.name;
-    page.verdict = verdict(comparison);
-    page.sections = {
-        {"settings", "How they were set", "Keys that both have alike are left out.", {numbers[0]}, ""},
-        {"advice", "What to do", "", {numbers[1]}, ""},
-        {"errors",
-         "Estimation error",
-         "",
-         {numbers[2]},
-         "Intervals take the draws of the two studies for independent."}};
-    page.tables = comparison.tables;
-    page.program_version = comparison.second.program_version;
-    return experiment_page_html(page);
-}
-
-std::string study_comparison_markdown(storage::Database& database, const ComparedStudies& studies) {
-    const Comparison comparison = compare(database, studies);
-    std::string text =
-        fmt::format("# {} and {}\n\n{}\n", escape_markdown(comparison.first.name),
-                    escape_markdown(comparison.second.name), escape_markdown(verdict(comparison)));
-    for (const NumberTable& table : number_tables(comparison)) text += markdown_of(table);
-    return text;
-}
-
-std::string study_comparison_json(storage::Database& database, const ComparedStudies& studies) {
-    return tables_json(compare(database, studies).tables);
-}
-
-std::string study_comparison_csv(storage::Database& database, const ComparedStudies& studies) {
-    const Comparison comparison = compare(database, studies);
-    const Table& errors = comparison["compared_error"];
-    return csv_text(errors.columns, errors.rows);
+    Answer answer;
+    answer.id = "comparison";
+    answer.kind = "Comparison of two studies";
+    answer.title = title_of(comparison.first) + " and " + title_of(comparison.second);
+    answer.headline = verdict(comparison);
+    answer.values = Data::record();
+    for (const Table& table : comparison.tables) answer.values[table.name] = data_of(table);
+    answer.sections = {{.id = "settings",
+                        .heading = "Settings that differ",
+                        .tables = {{"settings",
+                                    "",
+                                    {{"key", "key"}, {"first", "first study"}, {"second", "second study"}},
+                                    answer.values["settings"]}}},
+                       {.id = "advice",
+                        .heading = "Recommendations",
+                        .tables = {{"recommendations",
+                                    "",
+                                    {{"study", "study"},
+                                     {"for", "for"},
+                                     {"noise", "noise"},
+                                     {"nodes", "nodes"},
+                                     {"method", "method"},
+                                     {"error_N", "error", "N", ".3f"},
+                                     {"interval_95_N", "95% interval", "N", ".3f"}},
+                                    recommendation_rows(comparison)}}},
+                       {.id = "errors",
+                        .heading = "Estimation error",
+                        .tables = {{"differences",
+                                    "The most significant differences, second minus first",
+                                    {{"regime", "regime"},
+                                     {"noise", "noise"},
+                                     {"layout", "layout"},
+                                     {"sensor_count", "sensors"},
+                                     {"method", "method"},
+                                     {"first_error_N", "first", "N", ".3f"},
+                                     {"second_error_N", "second", "N", ".3f"},
+                                     {"difference_N", "difference", "N", "+.3f"},
+                                     {"interval_95_N", "95% interval", "N", "+.3f"}},
+                                    largest_rows(comparison)}},
+                        .note = "The intervals treat the draws of the two studies as independent."}};
+    answer.csv_table = "compared_error";
+    answer.drawn = comparison.tables;
+    return answer;
 }
 
 }  // namespace capstan::reports

@@ -3,8 +3,8 @@
 // the errors of the layouts and methods that both have. Reads only; an unknown study is a storage::Error.
 
 #include <cstdint>
-#include <string>
 
+#include "capstan/reports/answer.h"
 #include "capstan/storage/database.h"
 
 namespace capstan::reports {
@@ -14,10 +14,6 @@ struct ComparedStudies {
     std::int64_t second = 0;
 };
 
-std::string study_comparison_html(storage::Database& database, const ComparedStudies& studies);
-std::string study_comparison_markdown(storage::Database& database, const ComparedStudies& studies);
-std::string study_comparison_json(storage::Database& database,
-                                  const ComparedStudies& studies);                              // every table
-std::string study_comparison_csv(storage::Database& database, const ComparedStudies& studies);  // the errors
+Answer study_comparison(storage::Database& database, const ComparedStudies& studies);
 
 }  // namespace capstan::reports

@@ -13,7 +13,7 @@ import pandas as pd
 database, picture = sys.argv[1], sys.argv[2]
 connection = sqlite3.connect(f"file:{database}?mode=ro", uri=True)
 
-# %% What each layout and method errs, with its 95% interval
+# %% Error of each layout and method, with its 95% interval
 errors = pd.read_sql(
     """SELECT regime, noise, family, sensor_count, method_title, mean_abs_error_N, interval_low_N, interval_high_N
        FROM v_error_by_layout WHERE knowledge <> 'direction_known' AND study_id = (SELECT max(study_id) FROM study)""",

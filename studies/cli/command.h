@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,13 +14,13 @@
 
 namespace capstan::cli {
 
-enum class OptionKind { flag, text, whole_number, real_number };
+enum class OptionKind { flag, string, integer, number };
 
 /// One option of a command: everything that parsing and explaining it need.
 struct Option {
     std::string_view name;  ///< without dashes
     char letter = '\0';     ///< short form; '\0': none
-    OptionKind kind = OptionKind::text;
+    OptionKind kind = OptionKind::string;
     std::string_view value{};  ///< what to give, in capitals; flags: empty
     std::string_view meaning{};
     std::string_view default_value{};  ///< empty: none
@@ -43,11 +45,15 @@ struct Command {
     std::string_view name;  ///< "study run"
     std::string_view summary;
     std::string_view description;
-    std::vector<Argument> arguments;
-    std::vector<Option> options;
-    std::vector<std::string_view> examples;
+    std::vector<Argument> arguments{};
+    std::vector<Option> options{};
+    std::vector<std::string_view> examples{};
     ExitCode (*run)(const Invocation&);
+    bool can_be_stopped = false;  ///< by Ctrl-C, so that `capstan study resume` goes on
 };
+
+/// The exit codes that a command can return, each with its meaning.
+std::vector<ExitCodeMeaning> exit_codes_of(const Command& command);
 
 /// What was asked of a command: checked values, defaults filled in.
 class Invocation {
@@ -63,19 +69,29 @@ class Invocation {
     const Command& command() const { return *command_; }
     /// Given, or has a default.
     bool has(std::string_view option) const { return options_.find(option) != options_.end(); }
-    const std::string& text(std::string_view option) const { return options_.find(option)->second; }
-    std::int64_t whole(std::string_view option) const { return std::stoll(text(option)); }
-    double real(std::string_view option) const { return std::stod(text(option)); }
+    /// Of an option that was given or has a default; asking for any other is an error of the program.
+    const std::string& text(std::string_view option) const { return value_of(options_, option); }
+    std::int64_t integer(std::string_view option) const { return std::stoll(text(option)); }
+    double number(std::string_view option) const { return std::stod(text(option)); }
 
     bool has_argument(std::string_view name) const { return arguments_.find(name) != arguments_.end(); }
-    const std::string& argument(std::string_view name) const { return arguments_.find(name)->second; }
+    const std::string& argument(std::string_view name) const { return value_of(arguments_, name); }
     /// All values of the argument that may be given more than once; at least one.
     const std::vector<std::string>& repeated_argument() const { return repeated_argument_; }
 
   private:
+    using Values = std::map<std::string, std::string, std::less<>>;
+
+    static const std::string& value_of(const Values& values, std::string_view name) {
+        const auto found = values.find(name);
+        assert(found != values.end());
+        if (found == values.end()) throw std::logic_error("the command has no value of " + std::string(name));
+        return found->second;
+    }
+
     const Command* command_;
-    std::map<std::string, std::string, std::less<>> options_;
-    std::map<std::string, std::string, std::less<>> arguments_;
+    Values options_;
+    Values arguments_;
     std::vector<std::string> repeated_argument_;
 };
 

@@ -20,14 +20,15 @@ ExitCode run(const Invocation& invocation) {
 
 Command completion_command() {
     return {
-        "completion",
-        "Print a script that completes commands and options in bash or zsh.",
-        "Prints a completion script for a shell, written from the same table as this help. An installed capstan "
-        "has brought it along; from a build folder, load it as below.",
-        {{"SHELL", "bash or zsh."}},
-        {output_option, help_option},
-        {"source <(capstan completion bash)", "capstan completion zsh -o ~/.zfunc/_capstan"},
-        run};
+        .name = "completion",
+        .summary = "Print a script that completes commands and options in bash or zsh.",
+        .description =
+            "Prints a completion script for a shell, written from the same table as this help. An installed capstan "
+            "has brought it along; from a build folder, load it as below.",
+        .arguments = {{"SHELL", "bash or zsh."}},
+        .options = {output_option, help_option},
+        .examples = {"source <(capstan completion bash)", "capstan completion zsh -o ~/.zfunc/_capstan"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

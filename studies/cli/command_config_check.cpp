@@ -5,7 +5,6 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/config/config_file.h"
 #include "capstan/config/config_problem.h"
@@ -15,6 +14,8 @@
 namespace capstan::cli {
 
 namespace {
+
+using reports::Data;
 
 // How much work a plan is.
 struct PlanSize {
@@ -74,7 +75,7 @@ std::string in_words(const std::string& file, const StudyPlan& plan, const std::
                        counted(size.methods, "method"), counted(size.cells, "cell"), plan.repetitions);
 }
 
-nlohmann::ordered_json in_json(const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
+Data in_json(const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
     const PlanSize size = size_of(studies);
     return {{"ok", true},
             {"name", plan.name},
@@ -95,7 +96,7 @@ std::string bench_in_words(const std::string& file, const bench::BenchPlan& plan
     return text + "\n";
 }
 
-nlohmann::ordered_json bench_in_json(const bench::BenchPlan& plan) {
+Data bench_in_json(const bench::BenchPlan& plan) {
     return {{"ok", true},
             {"kind", "bench"},
             {"name", plan.name},
@@ -108,11 +109,12 @@ nlohmann::ordered_json bench_in_json(const bench::BenchPlan& plan) {
 void check_bench(const Invocation& invocation, const std::string& file) {
     const bench::BenchPlan plan = config::read_bench(file).plan;
     const Cable cable(plan.cable);
-    deliver(invocation, invocation.has("json") ? json_text(bench_in_json(plan)) : bench_in_words(file, plan));
+    deliver(invocation,
+            invocation.has("json") ? reports::json_text(bench_in_json(plan)) : bench_in_words(file, plan));
 }
 
-nlohmann::ordered_json problems_json(const config::ConfigError& error) {
-    nlohmann::ordered_json json = {{"ok", false}, {"problems", nlohmann::ordered_json::array()}};
+Data problems_data(const config::ConfigError& error) {
+    Data json = {{"ok", false}, {"problems", Data::list()}};
     for (const config::ConfigProblem& problem : error.at_lines()) {
         json["problems"].push_back({{"line", problem.line},
                                     {"column", problem.column},
@@ -131,12 +133,12 @@ ExitCode run(const Invocation& invocation) {
         }
         const config::ReadConfig config = config::read_config(file);
         const std::vector<StudyPlan> studies = config::runnable_studies(config);
-        deliver(invocation, invocation.has("json") ? json_text(in_json(config.plan, studies))
+        deliver(invocation, invocation.has("json") ? reports::json_text(in_json(config.plan, studies))
                                                    : in_words(file, config.plan, studies));
         return ExitCode::success;
     } catch (const config::ConfigError& error) {
         if (!invocation.has("json")) throw;
-        deliver(invocation, json_text(problems_json(error)));
+        deliver(invocation, reports::json_text(problems_data(error)));
         return ExitCode::wrong_input;
     }
 }
@@ -145,14 +147,15 @@ ExitCode run(const Invocation& invocation) {
 
 Command config_check_command() {
     return {
-        "config check",
-        "Check a configuration; list every problem with its line.",
-        "Checks a configuration of a study or a bench without running it, except for the true motion, which shows whether each instant is "
-        "in its regime (studies). Prints ok and how much work the study is, or every problem with its line and what to try.",
-        {config_argument},
-        {output_option, json_option, help_option},
-        {"capstan config check my.toml"},
-        run};
+        .name = "config check",
+        .summary = "Check a configuration; list every problem with its line.",
+        .description =
+            "Checks a configuration of a study or a bench without running it, except for the true motion, which shows whether each instant is "
+            "in its regime (studies). Prints ok and how much work the study is, or every problem with its line and what to try.",
+        .arguments = {config_argument},
+        .options = {output_option, json_option, help_option},
+        .examples = {"capstan config check my.toml"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -18,15 +18,17 @@ ExitCode run(const Invocation& invocation) {
 
 Command config_default_command() {
     return {
-        "config default",
-        "Print a complete configuration with every key explained.",
-        "Prints a complete configuration: every key with its meaning, unit, limits and default. It runs as it is.",
-        {},
-        {{"bench", '\0', OptionKind::flag, "", "Of a bench, for `capstan simulate`, instead of a study."},
-         output_option,
-         help_option},
-        {"capstan config default -o my.toml", "capstan config default --bench -o bench.toml"},
-        run};
+        .name = "config default",
+        .summary = "Print a complete configuration with every key explained.",
+        .description =
+            "Prints a complete configuration: every key with its meaning, unit, limits and default. It runs as it is.",
+        .options = {{.name = "bench",
+                     .kind = OptionKind::flag,
+                     .meaning = "Of a bench, for `capstan simulate`, instead of a study."},
+                    output_option,
+                    help_option},
+        .examples = {"capstan config default -o my.toml", "capstan config default --bench -o bench.toml"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -2,12 +2,10 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/simd_choice.h"
@@ -20,7 +18,7 @@ namespace capstan::cli {
 
 namespace {
 
-using nlohmann::ordered_json;
+using reports::Data;
 
 struct Tool {
     const char* program;
@@ -39,90 +37,102 @@ constexpr Tool tools[] = {
 struct DatabaseState {
     std::string words;
     bool is_there = false;
-    bool is_whole = true;
+    bool is_intact = true;
     storage::Health health;
 };
 
 DatabaseState state_of(const std::string& file) {
     DatabaseState state;
     if (!std::filesystem::exists(file)) {
-        state.words = "not there; `capstan study run` makes it";
+        state.words = "does not exist yet; `capstan study run` creates it";
         return state;
     }
     state.is_there = true;
     try {
         storage::Database database = storage::Database::open_read_only(file);
         state.health = storage::examine(database);
-        state.is_whole = state.health.problems.empty();
-        state.words = state.is_whole ? "whole" : "damaged";
+        state.is_intact = state.health.problems.empty();
+        state.words = state.is_intact ? "integrity check passed" : "integrity check failed";
     } catch (const storage::Error& error) {
-        state.is_whole = false;
+        state.is_intact = false;
         state.words = error.what();
     }
     return state;
 }
 
-ordered_json in_json(const std::string& file, const DatabaseState& state) {
-    ordered_json json = {{"program_version", program_version()},
-                         {"schema_version", storage::schema_version},
-                         {"simd", simd_in_use()},
-                         {"processors", std::thread::hardware_concurrency()},
-                         {"tools", ordered_json::object()}};
-    for (const Tool& tool : tools) json["tools"][tool.program] = is_on_path(tool.program);
-    json["database"] = {{"file", file},
-                        {"is_there", state.is_there},
-                        {"is_whole", state.is_whole},
-                        {"words", state.words},
-                        {"problems", state.health.problems},
-                        {"studies", state.health.studies},
-                        {"running_studies", state.health.running_studies},
-                        {"diagnoses", state.health.diagnoses},
-                        {"cells", state.health.cells},
-                        {"copies_of_older_versions", state.health.copies}};
-    return json;
+std::string database_sentence(const std::string& file, const DatabaseState& state) {
+    std::string text = fmt::format("Database {}: {}.", file, state.words);
+    const storage::Health& health = state.health;
+    if (state.is_there && health.studies + health.diagnoses > 0)
+        text += fmt::format(" Studies: {}, diagnoses: {}, cells: {}.", health.studies, health.diagnoses,
+                            health.cells);
+    if (health.running_studies > 0)
+        text += fmt::format(" Not complete: {}; `capstan study resume all --db {}` completes them.",
+                            health.running_studies, file);
+    for (const std::string& problem : health.problems) text += " " + problem;
+    for (const std::string& copy : health.copies)
+        text += fmt::format(" {} is a copy from before a migration.", copy);
+    return text;
 }
 
-std::string in_words(const std::string& file, const DatabaseState& state) {
-    std::string text = fmt::format("Program     capstan {}, database schema {}\n", program_version(),
-                                   storage::schema_version);
-    text +=
-        fmt::format("Processor   {} threads, SIMD {}\n", std::thread::hardware_concurrency(), simd_in_use());
-    for (const Tool& tool : tools)
-        text += fmt::format("{:<11} {:<9} {}\n", tool.program, is_on_path(tool.program) ? "found" : "missing",
-                            tool.what_for);
-    text += fmt::format("Database    {}: {}\n", file, state.words);
-    const storage::Health& health = state.health;
-    if (!state.is_there || health.studies + health.diagnoses == 0) return text;
-    text += fmt::format("            {} studies, {} diagnoses, {} cells\n", health.studies, health.diagnoses,
-                        health.cells);
-    if (health.running_studies > 0)
-        text += fmt::format("            {} not complete: capstan study resume all --db {}\n",
-                            health.running_studies, file);
-    for (const std::string& problem : health.problems) text += fmt::format("            {}\n", problem);
-    for (const std::string& copy : health.copies)
-        text += fmt::format("            {} is a copy from before a migration\n", copy);
-    return text;
+reports::Answer answer_of(const std::string& file, const DatabaseState& state) {
+    Data rows = Data::list();
+    Data found = Data::record();
+    for (const Tool& tool : tools) {
+        found[tool.program] = is_on_path(tool.program);
+        rows.push_back(
+            {{"program", tool.program}, {"found", is_on_path(tool.program)}, {"purpose", tool.what_for}});
+    }
+    reports::Answer answer;
+    answer.id = "doctor";
+    answer.kind = "Installation";
+    answer.title = "capstan " + program_version();
+    answer.headline = fmt::format("database schema {}, {} threads, SIMD {}.", storage::schema_version,
+                                  std::thread::hardware_concurrency(), simd_in_use());
+    answer.values = {{"program_version", program_version()},
+                     {"schema_version", storage::schema_version},
+                     {"simd", simd_in_use()},
+                     {"processors", std::thread::hardware_concurrency()},
+                     {"tools", found},
+                     {"database",
+                      {{"file", file},
+                       {"is_there", state.is_there},
+                       {"is_intact", state.is_intact},
+                       {"words", state.words},
+                       {"problems", state.health.problems},
+                       {"studies", state.health.studies},
+                       {"running_studies", state.health.running_studies},
+                       {"diagnoses", state.health.diagnoses},
+                       {"cells", state.health.cells},
+                       {"copies_of_older_versions", state.health.copies}}}};
+    answer.sections = {
+        {.id = "tools",
+         .heading = "Optional programs",
+         .tables =
+             {{"tools", "", {{"program", "program"}, {"found", "found"}, {"purpose", "used for"}}, rows}}},
+        {.id = "database", .prose = database_sentence(file, state)}};
+    return answer;
 }
 
 ExitCode run(const Invocation& invocation) {
     const std::string& file = invocation.text("db");
     const DatabaseState state = state_of(file);
-    deliver(invocation, invocation.has("json") ? json_text(in_json(file, state)) : in_words(file, state));
-    return state.is_whole ? ExitCode::success : ExitCode::database_problem;
+    deliver_answer(invocation, answer_of(file, state));
+    return state.is_intact ? ExitCode::success : ExitCode::database_problem;
 }
 
 }  // namespace
 
 Command doctor_command() {
     return {
-        "doctor",
-        "Say what is installed and whether the database is whole.",
-        "Looks at the program, the processor and the programs that some commands or plots use, reads every page of "
-        "the database and checks every reference in it. Changes nothing.",
-        {},
-        {database_option, output_option, json_option, help_option},
-        {"capstan doctor", "capstan doctor --db results/capstan.db --json"},
-        run};
+        .name = "doctor",
+        .summary = "Check the installation and the integrity of the database.",
+        .description =
+            "Looks at the program, the processor and the programs that some commands or plots use, reads every page of "
+            "the database and checks every reference in it. Changes nothing.",
+        .options = {database_option, output_option, json_option, help_option},
+        .examples = {"capstan doctor", "capstan doctor --db results/capstan.db --json"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

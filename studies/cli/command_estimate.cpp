@@ -2,15 +2,16 @@
 
 #include <iterator>
 
+#include "capstan/answers/placement_answers.h"
+#include "capstan/answers/recording_answers.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/estimate_words.h"
-#include "capstan/cli/estimated_cycles.h"
 #include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/page_estimate.h"
 #include "capstan/cli/usage_error.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/estimate/cycle_trial.h"
 #include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
@@ -28,9 +29,10 @@ std::vector<std::size_t> named_channels(const SensedCable& cable, const std::str
     return found;
 }
 
-std::vector<LeftOutCable> left_out_cables(const std::vector<SensedCable>& cables, const std::string& wanted,
-                                          const estimate::TrackingOptions& options) {
-    std::vector<LeftOutCable> results;
+std::vector<answers::LeftOutCable> left_out_cables(const std::vector<SensedCable>& cables,
+                                                   const std::string& wanted,
+                                                   const estimate::TrackingOptions& options) {
+    std::vector<answers::LeftOutCable> results;
     std::string known;
     for (const SensedCable& cable : cables) {
         const std::vector<std::size_t> channels = named_channels(cable, wanted);
@@ -71,31 +73,42 @@ void append_cable(std::string& text, const SensedCable& cable, const estimate::W
     });
 }
 
+ExitCode score_layouts(const Invocation& invocation) {
+    if (invocation.has("leave-out"))
+        throw UsageError(
+            "capstan estimate: --leave-out is for recordings; CONFIG is a study, whose layouts are scored");
+    StudyPlan plan = config::read_config(invocation.argument("LOG")).plan;
+    if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
+    estimate::CycleOptions options;
+    options.members = static_cast<int>(invocation.integer("members"));
+    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    if (invocation.has("repetitions"))
+        options.repetitions = static_cast<int>(invocation.integer("repetitions"));
+    deliver_answer(invocation, answers::cycle_answer(plan, score_cycles(plan, options), options.repetitions));
+    return ExitCode::success;
+}
+
 ExitCode run(const Invocation& invocation) {
-    if (!names_a_recording(invocation.argument("LOG"))) return estimate_cycles(invocation);
+    if (!names_a_recording(invocation.argument("LOG"))) return score_layouts(invocation);
     const Recording recording = read_recording(invocation.argument("LOG"));
     std::vector<SensedCable> cables =
-        estimate::sensed_cables(recording, static_cast<int>(invocation.whole("segments")));
+        estimate::sensed_cables(recording, static_cast<int>(invocation.integer("segments")));
     estimate::TrackingOptions options;
-    options.members = static_cast<int>(invocation.whole("members"));
-    if (invocation.has("seed")) options.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
-    options.jobs = static_cast<int>(invocation.whole("jobs"));
+    options.members = static_cast<int>(invocation.integer("members"));
+    if (invocation.has("seed")) options.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
+    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    const auto figures = invocation.has("html") ? answers::Figures::drawn : answers::Figures::none;
     if (invocation.has("leave-out")) {
         const auto results = left_out_cables(cables, invocation.text("leave-out"), options);
-        deliver_page(invocation, [&] {
-            return reports::experiment_page_html(left_out_page(recording, results, options));
-        });
-        deliver(invocation, invocation.has("json") ? left_out_json(recording, results)
-                                                   : left_out_words(recording, results));
+        deliver_answer(invocation, answers::left_out_answer(recording, results, options, figures));
         return ExitCode::success;
     }
     std::vector<estimate::WholeEstimate> wholes;
     for (const SensedCable& cable : cables) wholes.push_back(prepare_whole(cable, options));
-    deliver_page(invocation, [&] {
-        return reports::experiment_page_html(whole_page(recording, cables, wholes, options));
-    });
+    const reports::Answer answer = answers::estimate_answer(recording, cables, wholes, options, figures);
+    deliver_page(invocation, answer);
     if (invocation.has("json")) {
-        deliver(invocation, whole_json(recording, cables, wholes));
+        deliver(invocation, reports::answer_json(answer));
         return ExitCode::success;
     }
     std::string text = head_line(cables);
@@ -105,44 +118,52 @@ ExitCode run(const Invocation& invocation) {
 }
 
 const Option leave_out_option{
-    "leave-out", '\0', OptionKind::text, "CHANNEL",
-    "Predict this channel from all the others and compare with what it read; `each`: every one in turn."};
+    .name = "leave-out",
+    .kind = OptionKind::string,
+    .value = "CHANNEL",
+    .meaning =
+        "Predict this channel from all the others and compare with what it read; `each`: every one in turn."};
 
-const Option cut_option{"segments", '\0', OptionKind::whole_number, "N", "Segments to a cable.", "40", {},
-                        2,          1000};
+const Option cut_option{.name = "segments",
+                        .kind = OptionKind::integer,
+                        .value = "N",
+                        .meaning = "Segments to a cable.",
+                        .default_value = "40",
+                        .low = 2,
+                        .high = 1000};
 
-const Option members_option{"members",
-                            '\0',
-                            OptionKind::whole_number,
-                            "N",
-                            "States that stand for what the cable may be doing: a power of two.",
-                            "32",
-                            {},
-                            8,
-                            1024};
+const Option members_option{.name = "members",
+                            .kind = OptionKind::integer,
+                            .value = "N",
+                            .meaning = "States that stand for what the cable may be doing: a power of two.",
+                            .default_value = "32",
+                            .low = 8,
+                            .high = 1024};
 
 }  // namespace
 
 Command estimate_command() {
     return {
-        "estimate",
-        "Estimate the tension everywhere over time from a recording's few sensors.",
-        "Runs the recursive estimator over each run of a recording: the model is moved with the measured angles, its "
-        "previous state is its own last estimate, and every channel that tells a tension corrects it. Writes CSV: the "
-        "tension at every node of every cable that carries a sensor, and half the width of its 95% band. How far the "
-        "model is trusted is chosen by how likely it makes the readings used; the band is widened by what predicting "
-        "each channel from the others shows. With --leave-out, predicts channels that it is not shown and prints the "
-        "error, the channel's noise, how often the reading was within the 95% band, and what the model alone and the "
-        "paper's estimators, started from their own estimates, make of the same samples. With a study's configuration: simulates its whole motion and scores each of its layouts by "
-        "the mean error of this estimator and of the paper's over it (--repetitions draws of noise, 20 if not given).",
-        {Argument{"LOG",
-                  "A recording (NAME.csv with NAME.json beside it), or a study's configuration (TOML)."}},
-        {leave_out_option, cut_option, members_option, repetitions_option, seed_option, jobs_option,
-         output_option, json_option, page_option, help_option},
-        {"capstan estimate bench.csv -o tensions.csv --html tensions.html",
-         "capstan estimate bench.csv --leave-out each",
-         "capstan estimate bench.csv --leave-out tension_2 --json", "capstan estimate configs/paper.toml"},
-        run};
+        .name = "estimate",
+        .summary = "Estimate the tension everywhere over time from a recording's few sensors.",
+        .description =
+            "Runs the recursive estimator over each run of a recording: the model is moved with the measured angles, its "
+            "previous state is its own last estimate, and every channel that tells a tension corrects it. Writes CSV: the "
+            "tension at every node of every cable that carries a sensor, and half the width of its 95% band. How far the "
+            "model is trusted is chosen by how likely it makes the readings used; the band is widened by what predicting "
+            "each channel from the others shows. With --leave-out, predicts channels that it is not shown and prints the "
+            "error, the channel's noise, how often the reading was within the 95% band, and what the model alone and the "
+            "paper's estimators, started from their own estimates, make of the same samples. With a study's configuration: simulates its whole motion and scores each of its layouts by "
+            "the mean error of this estimator and of the paper's over it (--repetitions draws of noise, 20 if not given).",
+        .arguments = {Argument{
+            "LOG", "A recording (NAME.csv with NAME.json beside it), or a study's configuration (TOML)."}},
+        .options = {leave_out_option, cut_option, members_option, repetitions_option, seed_option,
+                    jobs_option, output_option, json_option, page_option, help_option},
+        .examples = {"capstan estimate bench.csv -o tensions.csv --html tensions.html",
+                     "capstan estimate bench.csv --leave-out each",
+                     "capstan estimate bench.csv --leave-out tension_2 --json",
+                     "capstan estimate configs/paper.toml"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <utility>
 
+#include "capstan/answers/study_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/row_text.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/platform/files.h"
 #include "capstan/platform/nearest_name.h"
@@ -85,7 +85,7 @@ RowsToFile as_json_file(AtomicFile& file) {
     return {{[state](const std::vector<std::string>& names) { state->columns = names; },
              [state, &file](std::vector<storage::QueryValue>& row) {
                  file.append(std::exchange(state->empty, false) ? "[\n" : ",\n");
-                 file.append(json_object(state->columns, row));
+                 file.append(answers::row_json(state->columns, row));
                  return true;
              }},
             [state, &file] { file.append(state->empty ? "[]\n" : "\n]\n"); }};
@@ -144,23 +144,28 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command export_command() {
-    return {"export",
-            "Write every table and view as CSV, Parquet or JSON.",
+    return {
+        .name = "export",
+        .summary = "Write every table and view as CSV, Parquet or JSON.",
+        .description =
             "Writes each table and view of the database into a file of its own, in full precision: CSV for a "
             "spreadsheet, Parquet for pandas, R or DuckDB, JSON for programs.",
-            {{"FOLDER", "Where the files go; made if it is not there."}},
-            {{"format",
-              '\0',
-              OptionKind::text,
-              "csv|parquet|json",
-              "How to write.",
-              "csv",
-              {"csv", "parquet", "json"}},
-             {"tables", '\0', OptionKind::text, "LIST", "Only these, as cell,v_best_method."},
-             database_option,
-             help_option},
-            {"capstan export tables", "capstan export tables --format parquet --tables v_error_by_layout"},
-            run};
+        .arguments = {{"FOLDER", "Where the files go; made if it is not there."}},
+        .options = {{.name = "format",
+                     .kind = OptionKind::string,
+                     .value = "csv|parquet|json",
+                     .meaning = "How to write.",
+                     .default_value = "csv",
+                     .choices = {"csv", "parquet", "json"}},
+                    {.name = "tables",
+                     .kind = OptionKind::string,
+                     .value = "LIST",
+                     .meaning = "Only these, as cell,v_best_method."},
+                    database_option,
+                    help_option},
+        .examples = {"capstan export tables",
+                     "capstan export tables --format parquet --tables v_error_by_layout"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -2,13 +2,13 @@
 
 #include <memory>
 
+#include "capstan/answers/placement_answers.h"
+#include "capstan/answers/recording_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/gap_trial/blind_trial.h"
-#include "capstan/gap_trial/trial_table.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
 
@@ -25,13 +25,13 @@ constexpr double nominal_error = 0.01;
 
 TrialOptions options_of(const Invocation& invocation) {
     TrialOptions options;
-    options.cases = static_cast<int>(invocation.whole("cases"));
-    options.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
+    options.cases = static_cast<int>(invocation.integer("cases"));
+    options.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     const std::string& severity = invocation.text("severity");
     options.severity = severity == "mild"     ? gap_trial::SeverityChoice::mild
                        : severity == "strong" ? gap_trial::SeverityChoice::strong
                                               : gap_trial::SeverityChoice::both;
-    options.noise_factor = invocation.real("noise");
+    options.noise_factor = invocation.number("noise");
     options.length = invocation.text("length") == "short" ? gap_trial::RecordingLength::brief
                                                           : gap_trial::RecordingLength::standard;
     options.nominal_error = invocation.has("nominal-error") ? nominal_error : 0.0;
@@ -44,8 +44,8 @@ BlindTrialHooks hooks_of(const Invocation& invocation) {
     const std::string& progress = invocation.text("progress");
     hooks.on_sealed = [progress](const std::string& seal) {
         if (progress == "json") {
-            const nlohmann::ordered_json json = {{"event", "sealed"}, {"labels_sha256", seal}};
-            say(json.dump());
+            const reports::Data json = {{"event", "sealed"}, {"labels_sha256", seal}};
+            say(reports::json_line(json));
         } else {
             say(fmt::format("Labels sealed before any diagnosis: SHA-256 {}", seal));
         }
@@ -63,12 +63,11 @@ ExitCode score_again(const Invocation& invocation) {
     const TrialFolder folder = TrialFolder::of_labels(labels);
     const TrialOptions options = gap_trial::unseal_labels(labels).options;
     const gap_trial::TrialScore score = gap_trial::unseal_and_score(
-        folder, folder.seal(), static_cast<int>(invocation.whole("jobs")), hooks_of(invocation));
+        folder, folder.seal(), static_cast<int>(invocation.integer("jobs")), hooks_of(invocation));
     if (score.groups.empty())
         throw UsageError(fmt::format("{}: no answers lie beside it; `capstan gap-trial --keep {}` gives them",
                                      labels.string(), folder.path().string()));
-    deliver(invocation, invocation.has("json") ? gap_trial::trial_json(options, folder.seal(), score)
-                                               : gap_trial::trial_table(score));
+    deliver_answer(invocation, answers::trial_score_answer(options, folder.seal(), score));
     return ExitCode::success;
 }
 
@@ -79,23 +78,23 @@ ExitCode run(const Invocation& invocation) {
         throw UsageError("--generate-only makes recordings to keep: say where with --keep DIR");
     const TrialOptions options = options_of(invocation);
     const BlindTrialHooks hooks = hooks_of(invocation);
-    const int jobs = static_cast<int>(invocation.whole("jobs"));
+    const int jobs = static_cast<int>(invocation.integer("jobs"));
     const TrialFolder folder = invocation.has("keep") ? TrialFolder::kept(invocation.text("keep"), options)
                                                       : TrialFolder::temporary(options);
     const std::string seal = gap_trial::prepare_trial(folder, options, jobs, hooks);
     if (only_recordings) {
-        const nlohmann::ordered_json json = {
+        const reports::Data json = {
             {"folder", folder.path().string()}, {"cases", options.cases}, {"labels_sha256", seal}};
-        deliver(invocation, invocation.has("json")
-                                ? json_text(json)
-                                : fmt::format("{} recordings in {}, labels in {}\n", options.cases,
-                                              folder.path().string(), folder.labels().string()));
+        deliver(invocation,
+                invocation.has("json")
+                    ? reports::json_text(json)
+                    : fmt::format("{} in {}, labels in {}\n", answers::counted(options.cases, "recording"),
+                                  folder.path().string(), folder.labels().string()));
         return ExitCode::success;
     }
     gap_trial::answer_trial(folder, options, seal, jobs, hooks);
     const gap_trial::TrialScore score = gap_trial::unseal_and_score(folder, seal, jobs, hooks);
-    deliver(invocation, invocation.has("json") ? gap_trial::trial_json(options, seal, score)
-                                               : gap_trial::trial_table(score));
+    deliver_answer(invocation, answers::trial_score_answer(options, seal, score));
     return ExitCode::success;
 }
 
@@ -103,71 +102,82 @@ ExitCode run(const Invocation& invocation) {
 
 Command gap_trial_command() {
     return {
-        "gap-trial",
-        "Try the diagnosis on recordings whose cause is withheld from it, and score it.",
-        "Simulates benches as chains of masses in time, apart from the engine's own model, with an effect, a wrong "
-        "parameter, a sensor fault, two effects together, something outside the catalogue or nothing put in. Seals "
-        "the labels (their hash is printed before the first diagnosis), diagnoses each recording from its files, "
-        "unseals, and prints how often the cause was named first, among the first three or in its family, false "
-        "alarms, refusals, calibration, places, and how far the gap shrinks against what the true cause achieves. "
-        "The same options give the same recordings. With --keep a trial that was killed goes on where it was.",
-        {},
-        {Option{"cases", '\0', OptionKind::whole_number, "N", "Recordings.", "60", {}, 1, 999},
-         Option{"seed",
-                '\0',
-                OptionKind::whole_number,
-                "S",
-                "Seed of everything that is drawn.",
-                "1",
-                {},
-                0,
-                9e15},
-         Option{"severity",
-                '\0',
-                OptionKind::text,
-                "mild|strong|both",
-                "How far effects stand out of noise and model floor: 1.5 to 3 times, 4 to 10 times, or both.",
-                "both",
-                {"mild", "strong", "both"}},
-         Option{"noise",
-                '\0',
-                OptionKind::real_number,
-                "F",
-                "Factor on every channel's noise.",
-                "1",
-                {},
-                0.01,
-                100},
-         Option{"length",
-                '\0',
-                OptionKind::text,
-                "standard|short",
-                "All protocols of a bench, or only one or two.",
-                "standard",
-                {"standard", "short"}},
-         Option{
-             "only",
-             '\0',
-             OptionKind::text,
-             "GROUP",
-             "All recordings of one kind: 'none' (no gap: how often is a false alarm given?), 'one effect', "
-             "'two effects', 'wrong parameter', 'outside the catalogue'. Default: a mix of all.",
-             "",
-             {"none", "one effect", "two effects", "wrong parameter", "outside the catalogue"}},
-         Option{"nominal-error", '\0', OptionKind::flag, "",
-                "Nominal friction, stiffness and pretension are each off by about 1%."},
-         Option{"keep", '\0', OptionKind::text, "DIR",
-                "Keep recordings, labels and answers there, and go on from them."},
-         Option{"generate-only", '\0', OptionKind::flag, "",
-                "Stop once recordings and sealed labels are in DIR."},
-         Option{"unseal", '\0', OptionKind::text, "FILE",
-                "Check FILE (a kept labels.json) against its hash and score the answers beside it again."},
-         jobs_option, output_option, json_option, progress_option, help_option},
-        {"capstan gap-trial --cases 200",
-         "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
-         "capstan gap-trial --cases 400 --only none --length short",
-         "capstan gap-trial --unseal trial/labels.json"},
-        run};
+        .name = "gap-trial",
+        .summary = "Try the diagnosis on recordings whose cause is withheld from it, and score it.",
+        .description =
+            "Simulates benches as chains of masses in time, apart from the engine's own model, with an effect, a wrong "
+            "parameter, a sensor fault, two effects together, something outside the catalogue or nothing put in. Seals "
+            "the labels (their hash is printed before the first diagnosis), diagnoses each recording from its files, "
+            "unseals, and prints how often the cause was named first, among the first three or in its family, false "
+            "alarms, refusals, calibration, places, and how far the gap shrinks against what the true cause achieves. "
+            "The same options give the same recordings. With --keep a trial that was killed goes on where it was.",
+        .options =
+            {Option{.name = "cases",
+                    .kind = OptionKind::integer,
+                    .value = "N",
+                    .meaning = "Recordings.",
+                    .default_value = "60",
+                    .low = 1,
+                    .high = 999},
+             Option{.name = "seed",
+                    .kind = OptionKind::integer,
+                    .value = "S",
+                    .meaning = "Seed of everything that is drawn.",
+                    .default_value = "1",
+                    .low = 0,
+                    .high = 9e15},
+             Option{
+                 .name = "severity",
+                 .kind = OptionKind::string,
+                 .value = "mild|strong|both",
+                 .meaning =
+                     "How far effects stand out of noise and model floor: 1.5 to 3 times, 4 to 10 times, or both.",
+                 .default_value = "both",
+                 .choices = {"mild", "strong", "both"}},
+             Option{.name = "noise",
+                    .kind = OptionKind::number,
+                    .value = "F",
+                    .meaning = "Factor on every channel's noise.",
+                    .default_value = "1",
+                    .low = 0.01,
+                    .high = 100},
+             Option{.name = "length",
+                    .kind = OptionKind::string,
+                    .value = "standard|short",
+                    .meaning = "All protocols of a bench, or only one or two.",
+                    .default_value = "standard",
+                    .choices = {"standard", "short"}},
+             Option{
+                 .name = "only",
+                 .kind = OptionKind::string,
+                 .value = "GROUP",
+                 .meaning =
+                     "All recordings of one kind: 'none' (no gap: how often is a false alarm given?), 'one effect', "
+                     "'two effects', 'wrong parameter', 'outside the catalogue'. Default: a mix of all.",
+                 .choices = {"none", "one effect", "two effects", "wrong parameter",
+                             "outside the catalogue"}},
+             Option{.name = "nominal-error",
+                    .kind = OptionKind::flag,
+                    .meaning = "Nominal friction, stiffness and pretension are each off by about 1%."},
+             Option{.name = "keep",
+                    .kind = OptionKind::string,
+                    .value = "DIR",
+                    .meaning = "Keep recordings, labels and answers there, and go on from them."},
+             Option{.name = "generate-only",
+                    .kind = OptionKind::flag,
+                    .meaning = "Stop once recordings and sealed labels are in DIR."},
+             Option{
+                 .name = "unseal",
+                 .kind = OptionKind::string,
+                 .value = "FILE",
+                 .meaning =
+                     "Check FILE (a kept labels.json) against its hash and score the answers beside it again."},
+             jobs_option, output_option, json_option, progress_option, help_option},
+        .examples = {"capstan gap-trial --cases 200",
+                     "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
+                     "capstan gap-trial --cases 400 --only none --length short",
+                     "capstan gap-trial --unseal trial/labels.json"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

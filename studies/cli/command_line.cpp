@@ -77,13 +77,13 @@ bool is_number(const std::string& text, Number& value) {
 
 void check_number(const Command& command, const Option& option, const std::string& text) {
     double value = 0.0;
-    std::int64_t whole = 0;
-    const bool is_whole = option.kind == OptionKind::whole_number;
-    if (!(is_whole ? is_number(text, whole) : is_number(text, value))) {
+    std::int64_t integer = 0;
+    const bool is_integer = option.kind == OptionKind::integer;
+    if (!(is_integer ? is_number(text, integer) : is_number(text, value))) {
         refuse(command, fmt::format("--{} is '{}', but must be a {}number", option.name, text,
-                                    is_whole ? "whole " : ""));
+                                    is_integer ? "integer" : "number"));
     }
-    if (is_whole) value = static_cast<double>(whole);
+    if (is_integer) value = static_cast<double>(integer);
     if (value >= option.low && value <= option.high) return;
     const std::string above = option.high >= 1e7 ? "" : fmt::format(" and at most {}", option.high);
     refuse(command,
@@ -94,10 +94,10 @@ void check_value(const Command& command, const Option& option, const std::string
     switch (option.kind) {
         case OptionKind::flag:
             return;
-        case OptionKind::whole_number:
-        case OptionKind::real_number:
+        case OptionKind::integer:
+        case OptionKind::number:
             return check_number(command, option, text);
-        case OptionKind::text:
+        case OptionKind::string:
             break;
     }
     if (text.empty()) refuse(command, fmt::format("--{} is empty", option.name));

@@ -37,16 +37,21 @@ ExitCode run(const Invocation& invocation) {
 
 Command man_command() {
     return {
-        "man",
-        "Print a manual page.",
-        "Prints the manual page of capstan, or of one command, as man(1) reads it; with --directory writes all of "
-        "them. An installed capstan has brought them along: `man capstan-study-run`.",
-        {{"COMMAND", "As \"study run\", in quotes where it has two words.", ArgumentNeed::optional}},
-        {{"directory", '\0', OptionKind::text, "FOLDER", "Write every page into FOLDER instead."},
-         output_option,
-         help_option},
-        {"capstan man | man -l -", "capstan man \"study run\" -o capstan-study-run.1"},
-        run};
+        .name = "man",
+        .summary = "Print a manual page.",
+        .description =
+            "Prints the manual page of capstan, or of one command, as man(1) reads it; with --directory writes all of "
+            "them. An installed capstan has brought them along: `man capstan-study-run`.",
+        .arguments = {{"COMMAND", "As \"study run\", in quotes where it has two words.",
+                       ArgumentNeed::optional}},
+        .options = {{.name = "directory",
+                     .kind = OptionKind::string,
+                     .value = "FOLDER",
+                     .meaning = "Write every page into FOLDER instead."},
+                    output_option,
+                    help_option},
+        .examples = {"capstan man | man -l -", "capstan man \"study run\" -o capstan-study-run.1"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -2,10 +2,10 @@
 
 #include <cstdio>
 
+#include "capstan/answers/study_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/text_table.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/reports/plain_tables.h"
 #include "capstan/storage/error.h"
@@ -27,7 +27,7 @@ storage::QueryResult answer(storage::Database& database, const std::string& sql)
 
 std::string formatted(const storage::QueryResult& result, const std::string& format) {
     if (format == "csv") return reports::csv_text(result.columns, result.rows);
-    return format == "json" ? as_json(result) : as_table(result);
+    return format == "json" ? answers::rows_json(result) : answers::rows_text(result);
 }
 
 ExitCode run(const Invocation& invocation) {
@@ -53,27 +53,31 @@ ExitCode run(const Invocation& invocation) {
 
 Command query_command() {
     return {
-        "query",
-        "Ask the database in SQL; it can only be read.",
-        "Runs one SELECT on the results and prints the rows. The views v_error_by_layout, v_best_method, "
-        "v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer the usual questions; --schema explains "
-        "every table, column and unit. Nothing can be changed, and after ten seconds a query is stopped.",
-        {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
-        {{"format",
-          '\0',
-          OptionKind::text,
-          "table|csv|json|md",
-          "How to print; csv and json in full precision; md is for --schema, as tables in words.",
-          "table",
-          {"table", "csv", "json", "md"}},
-         {"schema", '\0', OptionKind::flag, "", "Print all tables and views, with comments, instead."},
-         database_option,
-         output_option,
-         {"json", '\0', OptionKind::flag, "", "The same as --format json."},
-         help_option},
-        {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
-         "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
-        run};
+        .name = "query",
+        .summary = "Ask the database in SQL; it can only be read.",
+        .description =
+            "Runs one SELECT on the results and prints the rows. The views v_error_by_layout, v_best_method, "
+            "v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer the usual questions; --schema explains "
+            "every table, column and unit. Nothing can be changed, and after ten seconds a query is stopped.",
+        .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
+        .options =
+            {{.name = "format",
+              .kind = OptionKind::string,
+              .value = "table|csv|json|md",
+              .meaning =
+                  "How to print; csv and json in full precision; md is for --schema, as tables in words.",
+              .default_value = "table",
+              .choices = {"table", "csv", "json", "md"}},
+             {.name = "schema",
+              .kind = OptionKind::flag,
+              .meaning = "Print all tables and views, with comments, instead."},
+             database_option,
+             output_option,
+             {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
+             help_option},
+        .examples = {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
+                     "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -4,14 +4,12 @@
 #include <charconv>
 #include <cstdio>
 
-#include "capstan/cli/answer_format.h"
+#include "capstan/answers/recording_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/platform/standard_streams.h"
-#include "capstan/reports/diagnosis_report.h"
 #include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/storage/diagnosis_store.h"
@@ -22,19 +20,21 @@ namespace capstan::cli {
 
 namespace {
 
-std::string report_of(storage::Database& database, std::int64_t id, const std::string& format) {
-    if (format == "md") return reports::study_report_markdown(database, id);
-    if (format == "csv") return reports::study_error_csv(database, id);
-    if (format == "json") return reports::study_report_json(database, id);
-    return reports::study_report_html(database, id);
-}
+using reports::AnswerFormat;
 
-std::string comparison_of(storage::Database& database, const reports::ComparedStudies& studies,
-                          const std::string& format) {
-    if (format == "md") return reports::study_comparison_markdown(database, studies);
-    if (format == "csv") return reports::study_comparison_csv(database, studies);
-    if (format == "json") return reports::study_comparison_json(database, studies);
-    return reports::study_comparison_html(database, studies);
+std::string study_report(storage::Database& database, std::int64_t id, AnswerFormat format) {
+    switch (format) {
+        case AnswerFormat::markdown:
+        case AnswerFormat::text:
+            return reports::study_report_markdown(database, id);
+        case AnswerFormat::csv:
+            return reports::study_error_csv(database, id);
+        case AnswerFormat::json:
+            return reports::study_report_json(database, id);
+        case AnswerFormat::html:
+            break;
+    }
+    return reports::study_report_html(database, id);
 }
 
 std::int64_t diagnosis_named(storage::Database& database, const std::string& name) {
@@ -52,32 +52,28 @@ std::int64_t diagnosis_named(storage::Database& database, const std::string& nam
     return stored.back().diagnosis_id;
 }
 
-std::string diagnosis_in(storage::Database& database, const std::string& name, const std::string& format) {
-    const auto diagnosis = storage::load_diagnosis(database, diagnosis_named(database, name));
-    if (format == "md") return reports::diagnosis_markdown(diagnosis);
-    if (format == "csv") return reports::diagnosis_csv(diagnosis);
-    if (format == "json") return json_text(reports::diagnosis_json(diagnosis));
-    return reports::diagnosis_html(diagnosis);
-}
-
-std::string chosen_report(const Invocation& invocation, storage::Database& database,
-                          const std::string& format) {
-    if (invocation.has("diagnosis")) return diagnosis_in(database, invocation.text("diagnosis"), format);
+std::string chosen_report(const Invocation& invocation, storage::Database& database, AnswerFormat format) {
+    if (invocation.has("diagnosis")) {
+        const auto stored =
+            storage::load_diagnosis(database, diagnosis_named(database, invocation.text("diagnosis")));
+        return answer_in(answers::stored_diagnosis_answer(stored), format);
+    }
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
-    if (!invocation.has("compare")) return report_of(database, id, format);
-    return comparison_of(database, {storage::find_study(database, invocation.text("compare")), id}, format);
+    if (!invocation.has("compare")) return study_report(database, id, format);
+    const std::int64_t other = storage::find_study(database, invocation.text("compare"));
+    return answer_in(reports::study_comparison(database, {other, id}), format);
 }
 
 ExitCode run(const Invocation& invocation) {
-    const std::string format = answer_format(invocation, "html");
+    const AnswerFormat format = answer_format(invocation, AnswerFormat::html);
     const std::string& file = invocation.text("output");
     if (invocation.has("diagnosis") && invocation.has("compare"))
         throw UsageError(
-            "capstan report: --diagnosis is of a recording, --compare of two studies; name one of them");
-    if (format == "html" && file == "-" && ::isatty(STDOUT_FILENO) == 1) {
+            "capstan report: --diagnosis reports on a recording, --compare on two studies; name one of them");
+    if (format == AnswerFormat::html && file == "-" && ::isatty(STDOUT_FILENO) == 1) {
         throw UsageError(
-            "capstan report: a page of HTML is nothing for a terminal; name a file with -o report.html, or "
-            "read it here with --format md");
+            "capstan report: a terminal cannot show a page of HTML; name a file with -o report.html, or read the "
+            "report here with --format md");
     }
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     deliver(invocation, chosen_report(invocation, database, format));
@@ -89,32 +85,36 @@ ExitCode run(const Invocation& invocation) {
 
 Command report_command() {
     return {
-        "report",
-        "Write a report: one HTML page, Markdown, CSV or JSON.",
-        "Writes a study's report. The HTML page holds everything and needs no network: the recommendation first, "
-        "then the figures and the data behind them. Markdown is for reading in a terminal, CSV is the error of every "
-        "layout, count and method, JSON is every table. The same for a stored diagnosis: CSV has a line for every number, "
-        "JSON is the answer of capstan diagnose --json.",
-        {study_argument},
-        {{"format",
-          '\0',
-          OptionKind::text,
-          "html|md|csv|json",
-          "Default: as FILE ends, else html.",
-          "",
-          {"html", "md", "csv", "json"}},
-         {"compare", '\0', OptionKind::text, "OTHER",
-          "Report on OTHER and STUDY beside each other: settings, advice, errors."},
-         {"diagnosis", '\0', OptionKind::text, "NUMBER",
-          "Report on a diagnosis that `capstan diagnose --db` kept: its number, or latest."},
-         database_option,
-         output_option,
-         {"json", '\0', OptionKind::flag, "", "The same as --format json."},
-         help_option},
-        {"capstan report -o report.html", "capstan report paper --format md", "capstan report -o errors.csv",
-         "capstan report --compare 1 2 -o comparison.html",
-         "capstan report --diagnosis latest -o diagnosis.html"},
-        run};
+        .name = "report",
+        .summary = "Write a report: one HTML page, Markdown, CSV or JSON.",
+        .description =
+            "Writes a study's report. The HTML page holds everything and needs no network: the recommendation first, "
+            "then the figures and the data behind them. Markdown is for reading in a terminal, CSV is the error of every "
+            "layout, count and method, JSON is every table. The same for a stored diagnosis: CSV has a line for every number, "
+            "JSON is the answer of capstan diagnose --json.",
+        .arguments = {study_argument},
+        .options = {{.name = "format",
+                     .kind = OptionKind::string,
+                     .value = "html|md|csv|json",
+                     .meaning = "Default: as FILE ends, else html.",
+                     .choices = {"html", "md", "csv", "json"}},
+                    {.name = "compare",
+                     .kind = OptionKind::string,
+                     .value = "OTHER",
+                     .meaning = "Report on OTHER and STUDY beside each other: settings, advice, errors."},
+                    {.name = "diagnosis",
+                     .kind = OptionKind::string,
+                     .value = "NUMBER",
+                     .meaning =
+                         "Report on a diagnosis that `capstan diagnose --db` kept: its number, or latest."},
+                    database_option,
+                    output_option,
+                    {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
+                    help_option},
+        .examples = {"capstan report -o report.html", "capstan report paper --format md",
+                     "capstan report -o errors.csv", "capstan report --compare 1 2 -o comparison.html",
+                     "capstan report --diagnosis latest -o diagnosis.html"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

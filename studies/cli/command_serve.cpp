@@ -8,7 +8,6 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/service_answers.h"
 #include "capstan/cli/stop_request.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/platform/standard_streams.h"
@@ -45,7 +44,7 @@ std::string token_in(const std::string& file) {
 service::ServiceOptions options_of(const Invocation& invocation) {
     service::ServiceOptions options;
     options.access.host = invocation.text("host");
-    options.access.port = static_cast<int>(invocation.whole("port"));
+    options.access.port = static_cast<int>(invocation.integer("port"));
     if (invocation.has("token-file")) {
         options.access.token = token_in(invocation.text("token-file"));
     } else if (!service::is_loopback(options.access.host)) {
@@ -53,15 +52,14 @@ service::ServiceOptions options_of(const Invocation& invocation) {
     }
     options.commands = {std::filesystem::read_symlink("/proc/self/exe").string(),
                         std::filesystem::absolute(invocation.text("db")).string(),
-                        static_cast<int>(invocation.whole("jobs"))};
+                        static_cast<int>(invocation.integer("jobs"))};
     if (invocation.has("configs")) {
         options.configs = invocation.text("configs");
         if (!std::filesystem::is_directory(*options.configs))
             throw UsageError(
-                fmt::format("capstan serve: --configs {} is no folder", options.configs->string()));
+                fmt::format("capstan serve: --configs {} is not a folder", options.configs->string()));
     }
-    options.query_limit_s = invocation.real("query-limit");
-    options.answers = service_answers();
+    options.query_limit_s = invocation.number("query-limit");
     return options;
 }
 
@@ -91,36 +89,51 @@ ExitCode run(const Invocation& invocation) {
 
 Command serve_command() {
     return {
-        "serve",
-        "Serve a database to a browser: studies, reports, diagnoses, SQL.",
-        "Starts a small web service for a workstation or a lab. Its pages run studies one after the other and show how "
-        "far they are, plot their reports with filters, place sensors by hand on the cable, diagnose recordings that "
-        "are uploaded, and answer SQL; /openapi.json describes the same for programs. Jobs are kept beside the "
-        "database (FILE.jobs) and survive a restart, even a kill: the tables end with the same bits. It listens on "
-        "this machine only, unless --host says otherwise, and then every request needs a token.",
-        {},
-        {database_option,
-         {"port", 'p', OptionKind::whole_number, "N", "Port; 0 takes a free one.", "8321", {}, 0, 65535},
-         {"host", '\0', OptionKind::text, "ADDRESS",
-          "Address to listen on; any but this machine's own demands a token, which is printed.", "127.0.0.1"},
-         {"token-file", '\0', OptionKind::text, "FILE",
-          "Every request needs the token in the first line of FILE, of at least 16 letters and digits."},
-         {"configs", '\0', OptionKind::text, "FOLDER",
-          "Configurations in FOLDER may be started by their name."},
-         {"query-limit",
-          '\0',
-          OptionKind::real_number,
-          "SECONDS",
-          "Stop a query after this long.",
-          "5",
-          {},
-          0.01,
-          600},
-         jobs_option,
-         help_option},
-        {"capstan serve --db results/capstan.db --configs configs", "capstan serve --port 0",
-         "capstan serve --host 0.0.0.0 --token-file token.txt"},
-        run};
+        .name = "serve",
+        .summary = "Serve a database to a browser: studies, reports, diagnoses, SQL.",
+        .description =
+            "Starts a small web service for a workstation or a lab. Its pages run studies one after the other and show how "
+            "far they are, plot their reports with filters, place sensors by hand on the cable, diagnose recordings that "
+            "are uploaded, and answer SQL; /openapi.json describes the same for programs. Jobs are kept beside the "
+            "database (FILE.jobs) and survive a restart, even a kill: the tables end with the same bits. It listens on "
+            "this machine only, unless --host says otherwise, and then every request needs a token.",
+        .options =
+            {database_option,
+             {.name = "port",
+              .letter = 'p',
+              .kind = OptionKind::integer,
+              .value = "N",
+              .meaning = "Port; 0 takes a free one.",
+              .default_value = "8321",
+              .low = 0,
+              .high = 65535},
+             {.name = "host",
+              .kind = OptionKind::string,
+              .value = "ADDRESS",
+              .meaning =
+                  "Address to listen on; any but this machine's own demands a token, which is printed.",
+              .default_value = "127.0.0.1"},
+             {.name = "token-file",
+              .kind = OptionKind::string,
+              .value = "FILE",
+              .meaning =
+                  "Every request needs the token in the first line of FILE, of at least 16 letters and digits."},
+             {.name = "configs",
+              .kind = OptionKind::string,
+              .value = "FOLDER",
+              .meaning = "Configurations in FOLDER may be started by their name."},
+             {.name = "query-limit",
+              .kind = OptionKind::number,
+              .value = "SECONDS",
+              .meaning = "Stop a query after this long.",
+              .default_value = "5",
+              .low = 0.01,
+              .high = 600},
+             jobs_option,
+             help_option},
+        .examples = {"capstan serve --db results/capstan.db --configs configs", "capstan serve --port 0",
+                     "capstan serve --host 0.0.0.0 --token-file token.txt"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

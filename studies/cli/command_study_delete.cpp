@@ -22,13 +22,14 @@ ExitCode run(const Invocation& invocation) {
 
 Command study_delete_command() {
     return {
-        "study delete",
-        "Delete a study and everything that belongs to it.",
-        "Deletes a study and everything that belongs to it, at once and for good. The study must be named.",
-        {{"STUDY", "Its number, its name (the last one begun under it), or latest."}},
-        {database_option, help_option},
-        {"capstan study delete 3"},
-        run};
+        .name = "study delete",
+        .summary = "Delete a study and everything that belongs to it.",
+        .description =
+            "Deletes a study and everything that belongs to it, at once and for good. The study must be named.",
+        .arguments = {{"STUDY", "Its number, its name (the last one begun under it), or latest."}},
+        .options = {database_option, help_option},
+        .examples = {"capstan study delete 3"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -53,7 +53,7 @@ std::string words_of(const Invocation& invocation, const StudyToExtend& study,
                         outcome.run.study_id, study.plan.name, outcome.repetitions, file, study.study_id);
     }
     if (outcome.unresolved_N) {
-        const bool resolved = *outcome.unresolved_N <= invocation.real("until-resolved");
+        const bool resolved = *outcome.unresolved_N <= invocation.number("until-resolved");
         words += fmt::format(
             " With 95 % certainty no choice is better than the best of its count by more than "
             "{:.4f} N{}.",
@@ -75,12 +75,12 @@ ExitCode run(const Invocation& invocation) {
     ExtensionOutcome outcome;
     const ExitCode code = watch(invocation, study.plan.name, [&](const RunOptions& options) -> WatchedEnd {
         if (invocation.has("repetitions")) {
-            outcome = extend_study(database, study, static_cast<int>(invocation.whole("repetitions")),
+            outcome = extend_study(database, study, static_cast<int>(invocation.integer("repetitions")),
                                    program_version(), options);
         } else {
             Resolution resolution;
-            resolution.tolerance_N = invocation.real("until-resolved");
-            resolution.max_repetitions = static_cast<int>(invocation.whole("max-repetitions"));
+            resolution.tolerance_N = invocation.number("until-resolved");
+            resolution.max_repetitions = static_cast<int>(invocation.integer("max-repetitions"));
             if (invocation.text("progress") == "auto") {
                 resolution.on_look = [](int repetitions, double unresolved_N) {
                     say(fmt::format("{} repetitions: some choice may still be better by {:.4f} N",
@@ -101,46 +101,42 @@ ExitCode run(const Invocation& invocation) {
 Command study_extend_command() {
     std::vector<Option> options = watched_run_options();
     const std::vector<Option> own = {
-        {"repetitions",
-         '\0',
-         OptionKind::whole_number,
-         "N",
-         "How many repetitions the study is to have in all.",
-         "",
-         {},
-         2,
-         1e7},
-        {"until-resolved",
-         '\0',
-         OptionKind::real_number,
-         "TOLERANCE",
-         "Double the repetitions until, with 95 % certainty, no choice is better than the best of its count by more "
-         "than this, in newtons: at every noise level, question and number of sensors.",
-         "",
-         {},
-         1e-6,
-         1e6},
-        {"max-repetitions",
-         '\0',
-         OptionKind::whole_number,
-         "N",
-         "Where --until-resolved stops in any case.",
-         "128000",
-         {},
-         2,
-         1e7}};
+        {.name = "repetitions",
+         .kind = OptionKind::integer,
+         .value = "N",
+         .meaning = "How many repetitions the study is to have in all.",
+         .low = 2,
+         .high = 1e7},
+        {.name = "until-resolved",
+         .kind = OptionKind::number,
+         .value = "TOLERANCE",
+         .meaning =
+             "Double the repetitions until, with 95 % certainty, no choice is better than the best of its count by more "
+             "than this, in newtons: at every noise level, question and number of sensors.",
+         .low = 1e-6,
+         .high = 1e6},
+        {.name = "max-repetitions",
+         .kind = OptionKind::integer,
+         .value = "N",
+         .meaning = "Where --until-resolved stops in any case.",
+         .default_value = "128000",
+         .low = 2,
+         .high = 1e7}};
     options.insert(options.begin() + 1, own.begin(), own.end());
     return {
-        "study extend",
-        "Give a stored study more repetitions.",
-        "Runs a stored study with more repetitions, from the configuration stored with it. The larger study has "
-        "the draws of the smaller one and more; it stands beside it under the same name, with the same bits as "
-        "one run with that number from the start. Sums, quantiles and the weights of the W methods are of all "
-        "repetitions, so all are worked out again. Killed or stopped, the same command goes on.",
-        {study_argument},
-        std::move(options),
-        {"capstan study extend --repetitions 8000", "capstan study extend paper --until-resolved 0.002"},
-        run};
+        .name = "study extend",
+        .summary = "Give a stored study more repetitions.",
+        .description =
+            "Runs a stored study with more repetitions, from the configuration stored with it. The larger study has "
+            "the draws of the smaller one and more; it stands beside it under the same name, with the same bits as "
+            "one run with that number from the start. Sums, quantiles and the weights of the W methods are of all "
+            "repetitions, so all are worked out again. Killed or stopped, the same command goes on.",
+        .arguments = {study_argument},
+        .options = std::move(options),
+        .examples = {"capstan study extend --repetitions 8000",
+                     "capstan study extend paper --until-resolved 0.002"},
+        .run = run,
+        .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

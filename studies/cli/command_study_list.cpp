@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
+#include "capstan/answers/study_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/text_table.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
 
@@ -22,20 +22,19 @@ ExitCode run(const Invocation& invocation) {
     if (table.rows.empty() && !json) {
         say(fmt::format("{} holds no study; `capstan study run CONFIG` makes one.", invocation.text("db")));
     }
-    deliver(invocation, json ? as_json(table) : as_table(table));
+    deliver(invocation, json ? answers::rows_json(table) : answers::rows_text(table));
     return ExitCode::success;
 }
 
 }  // namespace
 
 Command study_list_command() {
-    return {"study list",
-            "List the studies of a database.",
-            "Lists the studies of a database, oldest first, with how far each has come.",
-            {},
-            {database_option, output_option, json_option, help_option},
-            {"capstan study list"},
-            run};
+    return {.name = "study list",
+            .summary = "List the studies of a database.",
+            .description = "Lists the studies of a database, oldest first, with how far each has come.",
+            .options = {database_option, output_option, json_option, help_option},
+            .examples = {"capstan study list"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

@@ -29,19 +29,24 @@ ExitCode run(const Invocation& invocation) {
 
 Command study_merge_command() {
     return {
-        "study merge",
-        "Join the shards of a study.",
-        "Joins the files that `capstan study run --shard` wrote into a new database, draws the conclusions, and has the "
-        "same bits in every table as one run. Every shard must be there once, finished, and of the same study; "
-        "otherwise nothing is written and every shard that is missing, doubled, foreign or unfinished is named.",
-        {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
-        {{"db", '\0', OptionKind::text, "FILE", "The new database; appears whole or not at all.",
-          "capstan.db"},
-         jobs_option,
-         progress_option,
-         help_option},
-        {"capstan study merge --db atlas.db shard-*.db"},
-        run};
+        .name = "study merge",
+        .summary = "Join the shards of a study.",
+        .description =
+            "Joins the files that `capstan study run --shard` wrote into a new database, draws the conclusions, and has the "
+            "same bits in every table as one run. Every shard must be there once, finished, and of the same study; "
+            "otherwise nothing is written and every shard that is missing, doubled, foreign or unfinished is named.",
+        .arguments = {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
+        .options = {{.name = "db",
+                     .kind = OptionKind::string,
+                     .value = "FILE",
+                     .meaning = "The new database; it appears complete or not at all.",
+                     .default_value = "capstan.db"},
+                    jobs_option,
+                    progress_option,
+                    help_option},
+        .examples = {"capstan study merge --db atlas.db shard-*.db"},
+        .run = run,
+        .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

@@ -55,15 +55,17 @@ ExitCode run(const Invocation& invocation) {
 
 Command study_resume_command() {
     return {
-        "study resume",
-        "Go on with a study that was stopped or killed.",
-        "Goes on with a study that was stopped or killed, from the configuration stored with it. The units that "
-        "are stored stay; the tables end with the same bits as without the interruption.",
-        {{"STUDY", "Its number, its name (the last one begun under it), latest, or all.",
-          ArgumentNeed::optional, "latest"}},
-        watched_run_options(),
-        {"capstan study resume", "capstan study resume paper --db paper.db"},
-        run};
+        .name = "study resume",
+        .summary = "Go on with a study that was stopped or killed.",
+        .description =
+            "Goes on with a study that was stopped or killed, from the configuration stored with it. The units that "
+            "are stored stay; the tables end with the same bits as without the interruption.",
+        .arguments = {{"STUDY", "Its number, its name (the last one begun under it), latest, or all.",
+                       ArgumentNeed::optional, "latest"}},
+        .options = watched_run_options(),
+        .examples = {"capstan study resume", "capstan study resume paper --db paper.db"},
+        .run = run,
+        .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

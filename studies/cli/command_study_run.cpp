@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
+#include "capstan/answers/placement_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/shard_option.h"
-#include "capstan/cli/truth_comparison.h"
 #include "capstan/cli/watched_run.h"
 #include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
@@ -95,8 +94,7 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
         return {outcome.end, times, words, outcome.study_id};
     });
     if (code != ExitCode::success) return code;
-    const auto advice = advice_under_truth(database, ids[0], ids[1]);
-    deliver(invocation, invocation.has("json") ? json_text(in_json(advice)) : in_words(advice));
+    deliver_answer(invocation, answers::truth_answer(database, ids[0], ids[1]));
     return code;
 }
 
@@ -111,9 +109,12 @@ ExitCode run(const Invocation& invocation) {
 }
 
 const Option truth_option{
-    "truth", '\0', OptionKind::text, "FILE",
-    "The true cable is not the model: it differs as the [truth] in FILE says, which capstan diagnose --corrected "
-    "writes. Runs the study with either truth and says whether the advice changes."};
+    .name = "truth",
+    .kind = OptionKind::string,
+    .value = "FILE",
+    .meaning =
+        "The true cable is not the model: it differs as the [truth] in FILE says, which capstan diagnose --corrected "
+        "writes. Runs the study with either truth and says whether the advice changes."};
 
 }  // namespace
 
@@ -121,20 +122,23 @@ Command study_run_command() {
     std::vector<Option> options = watched_run_options();
     options.insert(options.begin() + 2, {seed_option, repetitions_option, truth_option, shard_option});
     return {
-        "study run",
-        "Run a study and recommend sensors.",
-        "Runs the study that CONFIG describes, stores it in the results database, and says which sensors to use, "
-        "where, and how to fuse them. A database holds any number of studies; a CONFIG with a [sweep] makes one for "
-        "each combination. Ctrl-C stops after the unit under way, and even a killed run loses no more than that "
-        "unit: `capstan study resume` goes on, to the same bits. With --shard only one part is run, so that a "
-        "cluster can run all of them at once; `capstan study submit` does.",
-        {config_argument},
-        std::move(options),
-        {"capstan study run configs/quick.toml", "capstan study run configs/paper.toml --db paper.db --stats",
-         "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
-         "capstan study run my.toml --truth corrected.toml",
-         "capstan study run my.toml --shard 2/8 --db part-2.db"},
-        run};
+        .name = "study run",
+        .summary = "Run a study and recommend sensors.",
+        .description =
+            "Runs the study that CONFIG describes, stores it in the results database, and says which sensors to use, "
+            "where, and how to fuse them. A database holds any number of studies; a CONFIG with a [sweep] makes one for "
+            "each combination. Ctrl-C stops after the unit under way, and even a killed run loses no more than that "
+            "unit: `capstan study resume` goes on, to the same bits. With --shard only one part is run, so that a "
+            "cluster can run all of them at once; `capstan study submit` does.",
+        .arguments = {config_argument},
+        .options = std::move(options),
+        .examples = {"capstan study run configs/quick.toml",
+                     "capstan study run configs/paper.toml --db paper.db --stats",
+                     "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
+                     "capstan study run my.toml --truth corrected.toml",
+                     "capstan study run my.toml --shard 2/8 --db part-2.db"},
+        .run = run,
+        .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

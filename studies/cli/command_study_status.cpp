@@ -5,7 +5,6 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cluster/slurm_queue.h"
 
@@ -15,6 +14,7 @@ namespace {
 
 using cluster::QueuedTask;
 using cluster::StudyDirectory;
+using reports::Data;
 
 // Of a shard or of the merge.
 struct TaskStatus {
@@ -55,11 +55,7 @@ StudyStatus status_of(const std::string& named) {
     return status;
 }
 
-std::string slurm_words(const TaskStatus& task) {
-    return task.task ? fmt::format("  Slurm: {} {}", task.task->id, task.task->state) : "";
-}
-
-// One state for the whole, and what to do about it.
+// The state of the study, and what to do about it.
 std::string advice(const StudyStatus& status) {
     const StudyDirectory& directory = status.directory;
     const std::string folder = directory.path.string();
@@ -78,53 +74,59 @@ std::string advice(const StudyStatus& status) {
         folder, directory.shards, directory.processors_per_shard);
 }
 
-std::string in_words(const StudyStatus& status) {
-    std::string text = fmt::format("{} in {}\n\n", status.directory.name, status.directory.path.string());
-    int number = 0;
-    int done = 0;
-    for (const TaskStatus& shard : status.shards) {
-        const auto& progress = shard.progress;
-        done += progress.is_done() ? 1 : 0;
-        const std::string units =
-            progress.units > 0 ? fmt::format("{} of {} units", progress.units_done, progress.units) : "";
-        std::string line =
-            fmt::format("  shard {:>4}  {:<11}  {:<18}{}", ++number, shard.state, units, slurm_words(shard));
-        if (!progress.problem.empty()) line += "  " + progress.problem;
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    text += fmt::format("  merge       {}{}\n\n", status.merge.state, slurm_words(status.merge));
-    return text +
-           fmt::format("{} of {} shards are done. {}\n", done, status.directory.shards, advice(status));
-}
-
-nlohmann::ordered_json task_json(const TaskStatus& task) {
-    nlohmann::ordered_json json = {{"state", task.state}};
+Data task_data(const TaskStatus& task) {
+    Data data = {{"state", task.state}};
     if (task.progress.units > 0) {
-        json["units_done"] = task.progress.units_done;
-        json["units"] = task.progress.units;
+        data["units_done"] = task.progress.units_done;
+        data["units"] = task.progress.units;
     }
-    if (!task.progress.problem.empty()) json["problem"] = task.progress.problem;
-    if (task.task) json["slurm"] = {{"job", task.task->id}, {"state", task.task->state}};
-    return json;
+    if (!task.progress.problem.empty()) data["problem"] = task.progress.problem;
+    if (task.task) data["slurm"] = {{"job", task.task->id}, {"state", task.task->state}};
+    return data;
 }
 
-nlohmann::ordered_json in_json(const StudyStatus& status) {
-    nlohmann::ordered_json json = {{"name", status.directory.name},
-                                   {"directory", status.directory.path.string()},
-                                   {"slurm", status.slurm},
-                                   {"shards", nlohmann::ordered_json::array()},
-                                   {"merge", task_json(status.merge)}};
+reports::Answer answer_of(const StudyStatus& status) {
+    Data shards = Data::list();
+    int done = 0;
     for (std::size_t k = 0; k < status.shards.size(); ++k) {
-        nlohmann::ordered_json shard = {{"shard", k + 1}};
-        shard.update(task_json(status.shards[k]));
-        json["shards"].push_back(std::move(shard));
+        done += status.shards[k].progress.is_done() ? 1 : 0;
+        Data shard = {{"shard", k + 1}};
+        shard.update(task_data(status.shards[k]));
+        shards.push_back(std::move(shard));
     }
-    return json;
+    Data rows = shards;
+    Data merge = {{"shard", "merge"}};
+    merge.update(task_data(status.merge));
+    rows.push_back(std::move(merge));
+    reports::Answer answer;
+    answer.id = "status";
+    answer.kind = "A submitted study";
+    answer.title = status.directory.name;
+    answer.headline =
+        fmt::format("{} of {} shards are done. {}", done, status.directory.shards, advice(status));
+    answer.values = {{"name", status.directory.name},
+                     {"directory", status.directory.path.string()},
+                     {"slurm", status.slurm},
+                     {"shards", shards},
+                     {"merge", task_data(status.merge)}};
+    answer.sections = {{.id = "shards",
+                        .heading = "Shards in " + status.directory.path.string(),
+                        .tables = {{"shards",
+                                    "",
+                                    {{"shard", "shard"},
+                                     {"state", "state"},
+                                     {"units_done", "units done"},
+                                     {"units", "units"},
+                                     {"slurm.job", "Slurm job"},
+                                     {"slurm.state", "Slurm state"},
+                                     {"problem", "problem"}},
+                                    rows}}}};
+    return answer;
 }
 
 ExitCode run(const Invocation& invocation) {
     const StudyStatus status = status_of(invocation.argument("DIR"));
-    deliver(invocation, invocation.has("json") ? json_text(in_json(status)) : in_words(status));
+    deliver_answer(invocation, answer_of(status));
     return ExitCode::success;
 }
 
@@ -132,15 +134,16 @@ ExitCode run(const Invocation& invocation) {
 
 Command study_status_command() {
     return {
-        "study status",
-        "Show where a submitted study stands.",
-        "Shows for every shard of a folder that `capstan study submit` made whether it is done, running, waiting, "
-        "failed (begun, but not in Slurm's queue) or not started, how many of its units are stored, and what Slurm "
-        "says of it; then what to do. Reads the shards' files; works without Slurm too.",
-        {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
-        {output_option, json_option, help_option},
-        {"capstan study status atlas", "capstan study status atlas --json | jq -r .merge.state"},
-        run};
+        .name = "study status",
+        .summary = "Show where a submitted study stands.",
+        .description =
+            "Shows for every shard of a folder that `capstan study submit` made whether it is done, running, waiting, "
+            "failed (begun, but not in Slurm's queue) or not started, how many of its units are stored, and what Slurm "
+            "says of it; then what to do. Reads the shards' files; works without Slurm too.",
+        .arguments = {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
+        .options = {output_option, json_option, help_option},
+        .examples = {"capstan study status atlas", "capstan study status atlas --json | jq -r .merge.state"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -7,7 +7,6 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/cluster/slurm_queue.h"
-#include "capstan/cluster/slurm_scripts.h"
 #include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
 
@@ -24,7 +23,7 @@ fs::path absolute_directory(const std::string& named) {
     if (!path.has_filename()) path = path.parent_path();
     if (path.string().find('\n') != std::string::npos) {
         throw UsageError(
-            "--directory has a line break in its name, which Slurm cannot be told; name another");
+            "--directory has a line break in its name, which Slurm does not accept; name another");
     }
     return path;
 }
@@ -51,7 +50,7 @@ void require_own_folder(const StudyDirectory& directory, const std::string& conf
     }
 }
 
-// submission.json last: with it the folder is whole.
+// submission.json last: it marks a complete folder.
 void write_folder(const StudyDirectory& directory, const std::string& config_toml) {
     fs::create_directories(directory.path / "logs");
     write_file(directory.config_file(), config_toml);
@@ -99,8 +98,8 @@ ExitCode run(const Invocation& invocation) {
     StudyDirectory directory;
     directory.path = absolute_directory(invocation.text("directory"));
     directory.name = config.plan.name;
-    directory.shards = static_cast<int>(invocation.whole("shards"));
-    directory.processors_per_shard = static_cast<int>(invocation.whole("processors"));
+    directory.shards = static_cast<int>(invocation.integer("shards"));
+    directory.processors_per_shard = static_cast<int>(invocation.integer("processors"));
     directory.program = fs::read_symlink("/proc/self/exe");
     require_useful(plans, {1, directory.shards});
     const bool dry_run = invocation.has("dry-run");
@@ -129,35 +128,44 @@ ExitCode run(const Invocation& invocation) {
 
 Command study_submit_command() {
     return {
-        "study submit",
-        "Run a study on a cluster, in shards.",
-        "Writes into a folder what Slurm needs to run CONFIG in shards: an array job, one task a shard, and a job that "
-        "merges them when all are done; then submits both with sbatch. Scheduling and the failure of nodes are Slurm's "
-        "business: a task that it starts again goes on where it was. Given again, it submits only the shards that are "
-        "neither done nor in the queue. The folder and this program must be seen under the same name by all machines. "
-        "Partition, account and time limit are sbatch's: set SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.",
-        {config_argument},
-        {{"slurm", '\0', OptionKind::flag, "", "Submit to Slurm."},
-         {"shards",
-          '\0',
-          OptionKind::whole_number,
-          "N",
-          "Into how many tasks to deal the study; `capstan study plan` helps.",
-          "8",
-          {},
-          1,
-          1e6},
-         {"directory", '\0', OptionKind::text, "DIR",
-          "The study's folder: scripts, shards, logs, and the result study.db.", "capstan-study"},
-         {"processors", '\0', OptionKind::whole_number, "N", "Processors of each task.", "1", {}, 1, 1024},
-         {"dry-run", '\0', OptionKind::flag, "",
-          "Write the folder and print the scripts, but submit nothing."},
-         seed_option,
-         repetitions_option,
-         help_option},
-        {"capstan study submit --slurm configs/atlas.toml --shards 100 --directory atlas",
-         "SBATCH_PARTITION=long capstan study submit --slurm my.toml"},
-        run};
+        .name = "study submit",
+        .summary = "Run a study on a cluster, in shards.",
+        .description =
+            "Writes into a folder what Slurm needs to run CONFIG in shards: an array job, one task a shard, and a job that "
+            "merges them when all are done; then submits both with sbatch. Scheduling and the failure of nodes are Slurm's "
+            "business: a task that it starts again goes on where it was. Given again, it submits only the shards that are "
+            "neither done nor in the queue. The folder and this program must be seen under the same name by all machines. "
+            "Partition, account and time limit are sbatch's: set SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.",
+        .arguments = {config_argument},
+        .options = {{.name = "slurm", .kind = OptionKind::flag, .meaning = "Submit to Slurm."},
+                    {.name = "shards",
+                     .kind = OptionKind::integer,
+                     .value = "N",
+                     .meaning = "Into how many tasks to deal the study; `capstan study plan` helps.",
+                     .default_value = "8",
+                     .low = 1,
+                     .high = 1e6},
+                    {.name = "directory",
+                     .kind = OptionKind::string,
+                     .value = "DIR",
+                     .meaning = "The study's folder: scripts, shards, logs, and the result study.db.",
+                     .default_value = "capstan-study"},
+                    {.name = "processors",
+                     .kind = OptionKind::integer,
+                     .value = "N",
+                     .meaning = "Processors of each task.",
+                     .default_value = "1",
+                     .low = 1,
+                     .high = 1024},
+                    {.name = "dry-run",
+                     .kind = OptionKind::flag,
+                     .meaning = "Write the folder and print the scripts, but submit nothing."},
+                    seed_option,
+                    repetitions_option,
+                    help_option},
+        .examples = {"capstan study submit --slurm configs/atlas.toml --shards 100 --directory atlas",
+                     "SBATCH_PARTITION=long capstan study submit --slurm my.toml"},
+        .run = run};
 }
 
 }  // namespace capstan::cli

@@ -4,66 +4,76 @@
 
 namespace capstan::cli {
 
-const Option help_option{"help", 'h', OptionKind::flag, "", "Explain this command."};
-const Option database_option{"db", '\0', OptionKind::text, "FILE", "The results database.", "capstan.db"};
-const Option output_option{"output",
-                           'o',
-                           OptionKind::text,
-                           "FILE",
-                           "Write the answer to FILE, whole or not at all; - is standard output.",
-                           "-"};
-const Option jobs_option{"jobs",
-                         'j',
-                         OptionKind::whole_number,
-                         "N",
-                         "Threads; 0 takes all processors. Any number gives the same bits.",
-                         "0",
-                         {},
-                         0,
-                         1024};
-const Option seed_option{"seed",
-                         '\0',
-                         OptionKind::whole_number,
-                         "S",
-                         "Seed of all random numbers, instead of the configuration's.",
-                         "",
-                         {},
-                         0,
-                         9.2e18};
-const Option repetitions_option{"repetitions",
-                                '\0',
-                                OptionKind::whole_number,
-                                "N",
-                                "Draws of noise, instead of the configuration's; a few for a quick look.",
-                                "",
-                                {},
-                                2,
-                                1e7};
-const Option json_option{"json", '\0', OptionKind::flag, "", "Answer in JSON, for a program."};
+const Option help_option{
+    .name = "help", .letter = 'h', .kind = OptionKind::flag, .meaning = "Explain this command."};
+const Option database_option{.name = "db",
+                             .kind = OptionKind::string,
+                             .value = "FILE",
+                             .meaning = "The results database.",
+                             .default_value = "capstan.db"};
+const Option output_option{
+    .name = "output",
+    .letter = 'o',
+    .kind = OptionKind::string,
+    .value = "FILE",
+    .meaning = "Write the answer to FILE, which appears complete or not at all; - is standard output.",
+    .default_value = "-"};
+const Option jobs_option{.name = "jobs",
+                         .letter = 'j',
+                         .kind = OptionKind::integer,
+                         .value = "N",
+                         .meaning = "Threads; 0 takes all processors. Any number gives the same bits.",
+                         .default_value = "0",
+                         .low = 0,
+                         .high = 1024};
+const Option seed_option{.name = "seed",
+                         .kind = OptionKind::integer,
+                         .value = "S",
+                         .meaning = "Seed of all random numbers, instead of the configuration's.",
+                         .low = 0,
+                         .high = 9.2e18};
+const Option repetitions_option{
+    .name = "repetitions",
+    .kind = OptionKind::integer,
+    .value = "N",
+    .meaning = "Draws of noise, instead of the configuration's; a few for a quick look.",
+    .low = 2,
+    .high = 1e7};
+const Option json_option{
+    .name = "json", .kind = OptionKind::flag, .meaning = "Answer in JSON, for a program."};
 const Option progress_option{
-    "progress",
-    '\0',
-    OptionKind::text,
-    "auto|json|none",
-    "On standard error: auto is a bar on a terminal and plain lines elsewhere, json is one object a line.",
-    "auto",
-    {"auto", "json", "none"}};
-const Option stats_option{"stats", '\0', OptionKind::flag, "", "Say on standard error where the time went."};
+    .name = "progress",
+    .kind = OptionKind::string,
+    .value = "auto|json|none",
+    .meaning =
+        "On standard error: auto is a bar on a terminal and plain lines elsewhere, json is one object a line.",
+    .default_value = "auto",
+    .choices = {"auto", "json", "none"}};
+const Option stats_option{
+    .name = "stats", .kind = OptionKind::flag, .meaning = "Say on standard error where the time went."};
 const Option segments_option{
-    "segments",
-    '\0',
-    OptionKind::whole_number,
-    "N",
-    "Segments to a cable of a recorded bench's model; friction at rest depends on their "
-    "length, from about 100 on hardly.",
-    "100",
-    {},
-    2,
-    100000};
+    .name = "segments",
+    .kind = OptionKind::integer,
+    .value = "N",
+    .meaning =
+        "Segments of a cable in the model of a recorded bench. Friction at rest depends on their length; above about "
+        "100 segments the result changes by less than 1%.",
+    .default_value = "100",
+    .low = 2,
+    .high = 100000};
+
+const Option format_option{.name = "format",
+                           .kind = OptionKind::string,
+                           .value = "text|md|csv|json",
+                           .meaning = "Default: as the name of the output file ends, else text.",
+                           .choices = {"text", "md", "csv", "json"}};
 
 const Option page_option{
-    "html", '\0', OptionKind::text, "FILE",
-    "Also write FILE: one page of figures and numbers that needs no network; open it in a browser."};
+    .name = "html",
+    .kind = OptionKind::string,
+    .value = "FILE",
+    .meaning =
+        "Also write FILE: one page of figures and numbers that needs no network; open it in a browser."};
 
 const Argument config_argument{
     "CONFIG", "The study's configuration (TOML); `capstan config default` explains every key."};
@@ -73,8 +83,8 @@ const Argument study_argument{"STUDY", "Its number, its name (the last one begun
 config::ReadConfig read_config_of(const Invocation& invocation) {
     config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     StudyPlan& plan = config.plan;
-    if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.whole("seed"));
-    if (invocation.has("repetitions")) plan.repetitions = static_cast<int>(invocation.whole("repetitions"));
+    if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
+    if (invocation.has("repetitions")) plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
     if (invocation.has("truth")) plan.truth = config::read_truth(invocation.text("truth"));
     return config;
 }

@@ -16,6 +16,7 @@ extern const Option json_option;
 extern const Option progress_option;
 extern const Option stats_option;
 extern const Option segments_option;
+extern const Option format_option;
 extern const Option page_option;
 
 extern const Argument config_argument;

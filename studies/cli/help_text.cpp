@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
 #include "capstan/cli/commands.h"
 #include "capstan/platform/wrapped_text.h"
 
@@ -29,9 +31,9 @@ std::string two_columns(const std::vector<Entry>& entries) {
     return text;
 }
 
-std::string exit_codes() {
+std::string exit_codes(std::span<const ExitCodeMeaning> meanings = exit_code_meanings) {
     std::vector<Entry> entries;
-    for (const ExitCodeMeaning& each : exit_code_meanings) {
+    for (const ExitCodeMeaning& each : meanings) {
         entries.push_back({std::to_string(static_cast<int>(each.code)), std::string(each.meaning)});
     }
     return "Exit codes:\n" + two_columns(entries);
@@ -118,7 +120,7 @@ std::string command_help(const Command& command) {
     text += "\nOptions:\n" + two_columns(options);
     if (!command.examples.empty()) text += "\nExamples:\n";
     for (const auto example : command.examples) text += fmt::format("  {}\n", example);
-    return text + "\n" + exit_codes();
+    return text + "\n" + exit_codes(exit_codes_of(command));
 }
 
 std::string group_help(std::string_view group) {

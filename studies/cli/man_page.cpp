@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/program.h"
@@ -48,9 +49,9 @@ std::string entry(const std::string& term, const std::string& meaning) {
     return fmt::format(".TP\n{}\n{}\n", term, roff(meaning));
 }
 
-std::string exit_status() {
+std::string exit_status(std::span<const ExitCodeMeaning> meanings = exit_code_meanings) {
     std::string text = ".SH EXIT STATUS\n";
-    for (const ExitCodeMeaning& each : exit_code_meanings)
+    for (const ExitCodeMeaning& each : meanings)
         text += entry(fmt::format("\\fB{}\\fR", static_cast<int>(each.code)), std::string(each.meaning));
     return text;
 }
@@ -95,7 +96,7 @@ std::string man_page(const Command& command) {
     if (!command.examples.empty()) text += ".SH EXAMPLES\n.nf\n";
     for (const auto example : command.examples) text += roff(example) + "\n";
     if (!command.examples.empty()) text += ".fi\n";
-    return text + exit_status() + ".SH SEE ALSO\n\\fBcapstan\\fR(1)\n";
+    return text + exit_status(exit_codes_of(command)) + ".SH SEE ALSO\n\\fBcapstan\\fR(1)\n";
 }
 
 std::string program_man_page() {

@@ -7,8 +7,10 @@
 
 namespace capstan::cli {
 
-const Option noise_option{"noise", '\0', OptionKind::text, "LABEL",
-                          "Which of the configuration's noise levels; the first if not given."};
+const Option noise_option{.name = "noise",
+                          .kind = OptionKind::string,
+                          .value = "LABEL",
+                          .meaning = "Which of the configuration's noise levels; the first if not given."};
 
 int noise_index_of(const StudyPlan& plan, const Invocation& invocation) {
     if (!invocation.has("noise")) return 0;

@@ -2,9 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "capstan/cli/usage_error.h"
 
 namespace capstan::cli {
+
+namespace {
+
+using reports::AnswerFormat;
+
+struct NamedFormat {
+    std::string_view name;
+    AnswerFormat format;
+};
+constexpr NamedFormat formats[] = {{"text", AnswerFormat::text},
+                                   {"md", AnswerFormat::markdown},
+                                   {"csv", AnswerFormat::csv},
+                                   {"json", AnswerFormat::json},
+                                   {"html", AnswerFormat::html}};
+
+std::optional<AnswerFormat> format_named(std::string_view name) {
+    for (const NamedFormat& each : formats) {
+        if (each.name == name) return each.format;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
 
 void deliver(const Invocation& invocation, std::string_view text) {
     const std::string& file = invocation.text("output");
@@ -12,15 +37,27 @@ void deliver(const Invocation& invocation, std::string_view text) {
     write_file(file, text);
 }
 
-void deliver_page(const Invocation& invocation, const std::function<std::string()>& page) {
+void deliver_page(const Invocation& invocation, const reports::Answer& answer) {
     if (!invocation.has("html")) return;
     const std::string& file = invocation.text("html");
     if (file == "-") {
         throw UsageError(
-            "--html -: standard output is taken by the answer in words or CSV; name a file, as page.html");
+            "--html -: the answer itself goes to standard output; name a file, such as page.html");
     }
-    write_file(file, page());
+    write_file(file, reports::answer_html(answer));
     say(fmt::format("Wrote {}.", file));
+}
+
+AnswerFormat answer_format(const Invocation& invocation, AnswerFormat otherwise) {
+    if (invocation.has("json")) return AnswerFormat::json;
+    if (invocation.has("format")) return format_named(invocation.text("format")).value_or(otherwise);
+    const std::string ending = std::filesystem::path(invocation.text("output")).extension().string();
+    return ending.empty() ? otherwise : format_named(ending.substr(1)).value_or(otherwise);
+}
+
+void deliver_answer(const Invocation& invocation, const reports::Answer& answer) {
+    deliver_page(invocation, answer);
+    deliver(invocation, reports::answer_in(answer, answer_format(invocation, AnswerFormat::text)));
 }
 
 }  // namespace capstan::cli

@@ -1,19 +1,25 @@
 #pragma once
 
-#include <functional>
-#include <string>
 #include <string_view>
 
 #include "capstan/cli/command.h"
 #include "capstan/platform/files.h"
 #include "capstan/platform/standard_streams.h"
+#include "capstan/reports/answer.h"
 
 namespace capstan::cli {
 
-/// Writes the answer where --output says.
+/// Writes a text where --output says.
 void deliver(const Invocation& invocation, std::string_view text);
 
-/// Writes the page where --html says, if it does, and says so on standard error. `page` makes its text.
-void deliver_page(const Invocation& invocation, const std::function<std::string()>& page);
+/// Writes the page of an answer where --html says, if it does, and says so on standard error.
+void deliver_page(const Invocation& invocation, const reports::Answer& answer);
+
+/// Writes an answer where --output says, in the form that --json, --format or the ending of the file's name
+/// asks for, else as text; and its page where --html says.
+void deliver_answer(const Invocation& invocation, const reports::Answer& answer);
+
+/// The form of an answer as the options ask for it, else `otherwise`.
+reports::AnswerFormat answer_format(const Invocation& invocation, reports::AnswerFormat otherwise);
 
 }  // namespace capstan::cli

@@ -5,15 +5,16 @@
 namespace capstan::cli {
 
 const Option trajectories_option = {
-    "output",
-    'o',
-    OptionKind::text,
-    "FILE",
-    "Also write the trajectories to FILE, as CSV; - writes them to standard output, and no table.",
-    ""};
+    .name = "output",
+    .letter = 'o',
+    .kind = OptionKind::string,
+    .value = "FILE",
+    .meaning =
+        "Also write the trajectories to FILE, as CSV; - writes them to standard output, and no table."};
 
 ExitCode deliver_experiment(const Invocation& invocation, const std::string& trajectories_csv,
-                            const std::string& answer) {
+                            const reports::Answer& answer) {
+    deliver_page(invocation, answer);
     if (invocation.has("output")) {
         if (invocation.text("output") == "-") {
             write_standard_output(trajectories_csv);
@@ -21,7 +22,8 @@ ExitCode deliver_experiment(const Invocation& invocation, const std::string& tra
         }
         write_file(invocation.text("output"), trajectories_csv);
     }
-    write_standard_output(answer);
+    write_standard_output(invocation.has("json") ? reports::answer_json(answer)
+                                                 : reports::answer_text(answer));
     return ExitCode::success;
 }
 

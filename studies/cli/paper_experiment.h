@@ -6,6 +6,7 @@
 #include "capstan/cli/command.h"
 #include "capstan/cli/exit_code.h"
 #include "capstan/paper/pretension_ramps.h"
+#include "capstan/reports/answer.h"
 
 namespace capstan::cli {
 
@@ -15,7 +16,7 @@ extern const Option trajectories_option;
 /// The trajectories as CSV to where the option says; then the answer on standard output, unless they went
 /// there.
 ExitCode deliver_experiment(const Invocation& invocation, const std::string& trajectories_csv,
-                            const std::string& answer);
+                            const reports::Answer& answer);
 
 /// `run(setting, pretension_N)` for each cable setting of the paper's bench: settings x pretensions.
 template <typename Run>

@@ -16,6 +16,7 @@
 #include "capstan/cli/usage_error.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/platform/nearest_name.h"
+#include "capstan/reports/page_frame.h"
 #include "capstan/storage/error.h"
 
 namespace capstan::cli {
@@ -101,7 +102,7 @@ ExitCode dispatch(const std::vector<std::string>& words) {
 }  // namespace
 
 std::string program_version() {
-    return CAPSTAN_VERSION;
+    return reports::program_version();
 }
 
 ExitCode run_program(const std::vector<std::string>& words) {

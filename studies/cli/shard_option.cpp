@@ -10,9 +10,12 @@
 namespace capstan::cli {
 
 const Option shard_option{
-    "shard", '\0', OptionKind::text, "I/N",
-    "Run only part I of N into a file of its own; I from 1. `capstan study merge` joins "
-    "all N, to the bits of one run. Given again, it goes on where it was."};
+    .name = "shard",
+    .kind = OptionKind::string,
+    .value = "I/N",
+    .meaning =
+        "Run only part I of N into a file of its own; I from 1. `capstan study merge` joins "
+        "all N, to the bits of one run. Given again, it goes on where it was."};
 
 Shard parse_shard(const std::string& text) {
     Shard shard;

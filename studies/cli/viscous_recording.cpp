@@ -4,21 +4,19 @@
 
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
-#include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
 
 namespace capstan::cli {
 
 namespace {
 
-using nlohmann::ordered_json;
+using reports::Data;
 
 constexpr double motor_step_rad = 7.85e-4;  // an encoder of 8000 steps a turn
 
-ordered_json sidecar(const std::string& name, const paper::CableSetting& setting,
-                     const paper::ViscousComparison& comparison) {
+Data sidecar(const std::string& name, const paper::CableSetting& setting,
+             const paper::ViscousComparison& comparison) {
     const PullPull pair = paper::paper_bench(setting, comparison.pretension_N, 1);
     const Cable& cable = pair.cable_a();
     const double step_s = comparison.samples[1].time_s - comparison.samples[0].time_s;
@@ -34,7 +32,8 @@ ordered_json sidecar(const std::string& name, const paper::CableSetting& setting
               {"load_torque", "N m"}}},
             {"nominal",
              {{"L", cable.length_m()},
-              {"R_profile", {{{"s0", 0.0}, {"s1", cable.length_m()}, {"R", setting.bend_radius_m}}}},
+              {"R_profile",
+               Data::list({Data{{"s0", 0.0}, {"s1", cable.length_m()}, {"R", setting.bend_radius_m}}})},
               {"r_input", pair.pulleys().motor_radius_m},
               {"r_load", pair.pulleys().load_radius_m},
               {"K", cable.axial_stiffness_N() / cable.length_m()},
@@ -42,14 +41,13 @@ ordered_json sidecar(const std::string& name, const paper::CableSetting& setting
               {"mu_s", cable.static_friction()}}},
             {"noise_std", {{"load_torque", comparison.bench.torque_noise_Nm}}},
             {"encoder_step", {{"motor_angle", motor_step_rad}}},
-            {"tension_sensors", ordered_json::array()},
-            {"runs",
-             {{{"run", 1},
-               {"protocol", "exp2"},
-               {"t_session_start", 0.0},
-               {"T0", comparison.pretension_N},
-               {"output", "handle"},
-               {"driven", {"motor_torque", "load_angle"}}}}}};
+            {"tension_sensors", Data::list()},
+            {"runs", Data::list({Data{{"run", 1},
+                                      {"protocol", "exp2"},
+                                      {"t_session_start", 0.0},
+                                      {"T0", comparison.pretension_N},
+                                      {"output", "handle"},
+                                      {"driven", Data::list({"motor_torque", "load_angle"})}}})}};
 }
 
 }  // namespace
@@ -63,7 +61,7 @@ void write_viscous_recording(const std::filesystem::path& csv, const paper::Cabl
                        motor_step_rad * std::round(sample.bench_motor_angle_rad / motor_step_rad),
                        sample.load_angle_rad, sample.bench_torque_Nm);
     write_file(std::filesystem::path(csv).replace_extension(".json"),
-               json_text(sidecar(csv.stem().string(), setting, comparison)));
+               reports::json_text(sidecar(csv.stem().string(), setting, comparison)));
     write_file(csv, text);
 }
 

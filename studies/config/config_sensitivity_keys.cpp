@@ -9,7 +9,7 @@ namespace {
 using StudyKey = ConfigKey<StudyPlan>;
 
 StudyKey uncertain(std::string name, const std::string& what, std::vector<double> SensitivityPlan::*range) {
-    return real_list<StudyPlan>(
+    return number_list<StudyPlan>(
         {"sensitivity", std::move(name), "",
          "The smallest and the largest factor on " + what + "; [1, 1]: it is certain."},
         above_zero,
@@ -29,26 +29,26 @@ void add_sensitivity_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
         uncertain("stiffness_ratio", "the cable's axial stiffness", &SensitivityPlan::stiffness_ratio));
     keys.push_back(uncertain("pretension_ratio", "the pretension", &SensitivityPlan::pretension_ratio));
     keys.push_back(uncertain("noise_ratio", "the sensors' noise and bias", &SensitivityPlan::noise_ratio));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {at, "sensors", "", "The number of sensors that the advice is for."}, {1, true, 64},
         std::int64_t{standard.sensors}, [](auto& plan, int) -> auto& { return plan.sensitivity.sensors; }));
-    keys.push_back(text(
+    keys.push_back(string(
         {at, "method", "",
          "The fusion method that the advice is for; \"any\": the one that suits a layout best."},
         standard.method, [](auto& plan, int) -> auto& { return plan.sensitivity.method; }));
-    keys.push_back(text(
+    keys.push_back(string(
         {at, "regime", "", "The regime that the advice is for, or \"duty_cycle\"."}, standard.regime,
         [](auto& plan, int) -> auto& { return plan.sensitivity.regime; }));
-    keys.push_back(real(
+    keys.push_back(number(
         {at, "tolerance_N", "N", "The advice has changed where another layout is better by more than this."},
         above_zero, standard.tolerance_N,
         [](auto& plan, int) -> auto& { return plan.sensitivity.tolerance_N; }));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {at, "repetitions", "",
          "Draws of noise for each set of parameters; as many fresh ones judge what they chose."},
         {40, true, 1e6}, std::int64_t{standard.repetitions},
         [](auto& plan, int) -> auto& { return plan.sensitivity.repetitions; }));
-    keys.push_back(whole(
+    keys.push_back(integer(
         {at, "trajectories", "",
          "Walks through the ranges; each asks for one set of parameters more than there are "
          "parameters."},

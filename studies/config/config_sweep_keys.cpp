@@ -9,7 +9,7 @@ namespace {
 using StudyKey = ConfigKey<StudyPlan>;
 
 StudyKey swept_ratio(std::string name, const std::string& what, std::vector<double> Sweep::*list) {
-    StudyKey key = real_list<StudyPlan>(
+    StudyKey key = number_list<StudyPlan>(
         {"sweep", std::move(name), "", "Factors on " + what + ", one study each; none: as above."},
         above_zero, {}, [list](auto& plan, int) -> auto& { return plan.sweep.*list; });
     key.allowed.may_be_empty = true;
@@ -17,7 +17,7 @@ StudyKey swept_ratio(std::string name, const std::string& what, std::vector<doub
 }
 
 StudyKey swept_segments() {
-    StudyKey key{"sweep", "segments", {ValueKind::whole_numbers, "", {2, true, max_estimated_segments}}};
+    StudyKey key{"sweep", "segments", {ValueKind::integers, "", {2, true, max_estimated_segments}}};
     key.help = "Numbers of segments, one study each; none: as above.";
     key.default_value = std::vector<std::int64_t>{};
     key.read = [](const StudyPlan& plan, int) -> ConfigValue {
@@ -38,7 +38,7 @@ void add_sweep_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
                                &Sweep::curvature_ratio));
     keys.push_back(swept_ratio("stiffness_ratio", "the cable's axial stiffness", &Sweep::stiffness_ratio));
     keys.push_back(swept_segments());
-    keys.push_back(whole(
+    keys.push_back(integer(
         {"sweep", "instants_per_regime", "",
          "When a regime is reached depends on the transmission: take this many instants, spread evenly over all "
          "samples that are in the regime, instead of the regime's samples. 0: its samples."},

@@ -13,7 +13,7 @@ namespace {
 using StudyKey = ConfigKey<StudyPlan>;
 
 StudyKey ratio_key(const std::string& name, const std::string& of, double TrueCable::*ratio) {
-    return real(
+    return number(
         {"truth", name, "", "Of " + of + ", in parts of what [transmission] says."}, {0.01, true, 100.0},
         1.0, [ratio](auto& plan, int) -> auto& { return plan.truth.*ratio; });
 }

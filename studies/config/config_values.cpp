@@ -34,20 +34,20 @@ class ValueReading {
         if (allowed_.takes_all && node.value_exact<std::string>() == "all")
             return ConfigValue{std::string("all")};
         switch (allowed_.kind) {
-            case ValueKind::text:
+            case ValueKind::string:
                 return text_of(node);
             case ValueKind::choice:
                 return name_of_list(node);
-            case ValueKind::yes_or_no:
+            case ValueKind::boolean:
                 return flag_of(node);
-            case ValueKind::whole_number:
-                return whole_of(node);
-            case ValueKind::real_number:
-                return real_of(node);
-            case ValueKind::whole_numbers:
-                return list_of<std::int64_t>(node, &ValueReading::whole_of);
-            case ValueKind::real_numbers:
-                return reals_of(node);
+            case ValueKind::integer:
+                return integer_of(node);
+            case ValueKind::number:
+                return number_of(node);
+            case ValueKind::integers:
+                return list_of<std::int64_t>(node, &ValueReading::integer_of);
+            case ValueKind::numbers:
+                return numbers_of(node);
             case ValueKind::names:
                 return list_of<std::string>(node, &ValueReading::name_of_list);
             case ValueKind::node_sets:
@@ -60,7 +60,7 @@ class ValueReading {
 
     Value text_of(const toml::node& node) {
         const auto text = node.value_exact<std::string>();
-        if (!text) return wrong_type(node, "a text in quotes");
+        if (!text) return wrong_type(node, "a string in quotes");
         if (text->empty()) return refuse(node, "is empty; give it a text");
         return *text;
     }
@@ -73,22 +73,22 @@ class ValueReading {
 
     Value name_of_list(const toml::node& node) {
         const auto name = node.value_exact<std::string>();
-        if (!name) return wrong_type(node, "a text in quotes");
+        if (!name) return wrong_type(node, "a string in quotes");
         const std::vector<std::string>& names = allowed_.names;
         if (std::find(names.begin(), names.end(), *name) == names.end())
             return refuse(node, fmt::format("\"{}\" is not known{}", *name, suggestion(*name, names)));
         return *name;
     }
 
-    Value whole_of(const toml::node& node) {
+    Value integer_of(const toml::node& node) {
         const auto value = node.value_exact<std::int64_t>();
-        if (!value) return wrong_type(node, "a whole number");
+        if (!value) return wrong_type(node, "an integer");
         if (!allowed_.limits.admits(static_cast<double>(*value)))
             return out_of_range(node, std::to_string(*value));
         return *value;
     }
 
-    Value real_of(const toml::node& node) {
+    Value number_of(const toml::node& node) {
         if (!node.is_number()) return wrong_type(node, "a number");
         const double value = *node.value<double>();
         if (!std::isfinite(value)) return refuse(node, "is " + number_text(value) + "; it must be finite");
@@ -120,7 +120,7 @@ class ValueReading {
         return items;
     }
 
-    Value reals_of(const toml::node& node) {
+    Value numbers_of(const toml::node& node) {
         const toml::array* array = node.as_array();
         if (array == nullptr) return wrong_type(node, "a list in [ ]");
         if (array->empty() && !allowed_.may_be_empty)
@@ -128,7 +128,7 @@ class ValueReading {
         std::vector<double> values;
         bool good = true;
         for (const toml::node& element : *array) {
-            const Value value = real_of(element);
+            const Value value = number_of(element);
             good = good && value.has_value();
             if (value) values.push_back(std::get<double>(*value));
         }
@@ -153,7 +153,7 @@ class ValueReading {
                 good = false;
                 continue;
             }
-            const Value nodes = list_of<std::int64_t>(element, &ValueReading::whole_of);
+            const Value nodes = list_of<std::int64_t>(element, &ValueReading::integer_of);
             good = good && nodes.has_value();
             if (nodes) sets.push_back(std::get<std::vector<std::int64_t>>(*nodes));
         }

@@ -54,19 +54,19 @@ struct ToToml {
 
 std::string_view kind_words(ValueKind kind) {
     switch (kind) {
-        case ValueKind::text:
+        case ValueKind::string:
             return "text";
-        case ValueKind::whole_number:
+        case ValueKind::integer:
             return "whole number";
-        case ValueKind::real_number:
+        case ValueKind::number:
             return "number";
-        case ValueKind::yes_or_no:
+        case ValueKind::boolean:
             return "true or false";
         case ValueKind::choice:
             return "";
-        case ValueKind::whole_numbers:
+        case ValueKind::integers:
             return "list of whole numbers";
-        case ValueKind::real_numbers:
+        case ValueKind::numbers:
             return "list of numbers";
         case ValueKind::names:
             return "list of names";

@@ -7,8 +7,8 @@
 
 namespace capstan::config {
 
-/// What is wrong with the values of a plan, at the lines of the keys that they belong to. `known`: problems of
-/// reading the same file; what follows from one of them is left out.
+/// What is wrong with the values of a plan, at the lines of the keys that they belong to. `known`: problems
+/// of reading the same file; what follows from one of them is left out.
 std::vector<ConfigProblem> value_problems(const ReadConfig& config, const std::vector<ConfigProblem>& known);
 std::vector<ConfigProblem> value_problems(const ReadBench& bench, const std::vector<ConfigProblem>& known);
 

@@ -19,9 +19,9 @@ std::string_view type_words(const toml::node& node) {
         case toml::node_type::array:
             return "a list";
         case toml::node_type::string:
-            return "a text";
+            return "a string";
         case toml::node_type::integer:
-            return "a whole number";
+            return "an integer";
         case toml::node_type::floating_point:
             return "a number with a fraction";
         case toml::node_type::boolean:

@@ -1,5 +1,6 @@
 // Queuing the diagnosis of a recording, and reading stored diagnoses.
-#include "capstan/reports/diagnosis_report.h"
+#include "capstan/answers/recording_answers.h"
+#include "capstan/answers/study_answers.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/diagnosis_store.h"
@@ -39,9 +40,8 @@ std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
     storage::Database database = context.open();
     for (const auto& each : storage::list_diagnoses(database)) {
         if (each.diagnosis_id == diagnosis_id)
-            return reports::diagnosis_json(storage::load_diagnosis(database, diagnosis_id))
-                       .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-                   "\n";
+            return reports::answer_json(
+                answers::stored_diagnosis_answer(storage::load_diagnosis(database, diagnosis_id)));
     }
     throw BadRequest("there is no diagnosis " + std::to_string(diagnosis_id), 404);
 }
@@ -51,10 +51,8 @@ std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
 std::vector<Route> diagnosis_routes(RouteContext& context) {
     const auto list = [&](const httplib::Request&, httplib::Response& response) {
         storage::Database database = context.open();
-        send_text(
-            response,
-            context.options.answers.rows_json(storage::run_read_only(database, storage::diagnoses_query)),
-            "application/json");
+        send_text(response, answers::rows_json(storage::run_read_only(database, storage::diagnoses_query)),
+                  "application/json");
     };
     const auto start_diagnosis = [&](const httplib::Request& request, httplib::Response& response) {
         send_json(response, job_json(start(context, request)), 202);

@@ -1,6 +1,8 @@
 // Running studies: starting them from a text or a named configuration, watching, stopping and resuming them.
 #include <algorithm>
 
+#include "capstan/cable/invalid_input.h"
+#include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/platform/files.h"
 #include "capstan/service/exchange.h"
@@ -10,6 +12,14 @@
 namespace capstan::service {
 
 namespace {
+
+std::vector<StudyPlan> studies_of(const std::string& toml, const std::string& name) {
+    try {
+        return config::runnable_studies(config::parse_config(toml, name));
+    } catch (const InvalidInput& error) {
+        throw BadRequest(error.what());
+    }
+}
 
 std::vector<std::string> config_names(const ServiceOptions& options) {
     std::vector<std::string> names;
@@ -36,7 +46,7 @@ ordered_json start(RouteContext& context, const nlohmann::json& body) {
     const std::string toml =
         by_name ? config_named(context.options, name) : member<std::string>(body, "config_toml");
     ordered_json started = ordered_json::array();
-    for (const StudyPlan& plan : context.options.answers.read_config(toml, name))
+    for (const StudyPlan& plan : studies_of(toml, name))
         started.push_back(
             job_json(context.queue.add_study(plan.name, config::config_text(plan, config::Comments::none))));
     return started;

@@ -1,5 +1,6 @@
 // The expected error of layouts that a user draws.
 #include "capstan/cable/invalid_input.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
 
@@ -17,7 +18,7 @@ std::shared_ptr<LayoutScorer> scorer_of(RouteContext& context, std::int64_t stud
     study_state(database, study_id);
     if (context.scorers.size() >= max_scorers) context.scorers.clear();
     return context.scorers[study_id] =
-               std::make_shared<LayoutScorer>(context.options.answers.stored_plan(database, study_id));
+               std::make_shared<LayoutScorer>(load_stored_study(database, study_id).plan);
 }
 
 LayoutQuestion question_of(const nlohmann::json& body) {

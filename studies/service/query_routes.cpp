@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <semaphore>
 
+#include "capstan/answers/study_answers.h"
+#include "capstan/reports/plain_tables.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/error.h"
@@ -67,9 +69,9 @@ SentAnswer sent(RouteContext& context, const std::string& sql, const std::string
     const auto kept = context.query_answers.get(
         format + " " + sql, database_state(context), ReportShelf::Freshness::just_made, [&] {
             const storage::QueryResult result = answer(context, sql);
-            const Answers& answers = context.options.answers;
-            return (result.truncated ? "t" : "f") +
-                   (format == "csv" ? answers.rows_csv(result) : answers.rows_json(result));
+            return (result.truncated ? "t" : "f") + (format == "csv"
+                                                         ? reports::csv_text(result.columns, result.rows)
+                                                         : answers::rows_json(result));
         });
     return {kept->front() == 't', kept->substr(1)};
 }

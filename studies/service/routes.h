@@ -11,6 +11,7 @@
 #include "capstan/service/layout_scorer.h"
 #include "capstan/service/report_shelf.h"
 #include "capstan/service/service.h"
+#include "capstan/storage/database.h"
 
 namespace capstan::service {
 

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "capstan/service/answers.h"
 #include "capstan/service/job_queue.h"
 #include "capstan/service/request_guard.h"
 
@@ -17,7 +16,6 @@ struct ServiceOptions {
     JobCommands commands;                          ///< with the database's path
     std::optional<std::filesystem::path> configs;  ///< folder whose *.toml may be started by name
     double query_limit_s = 5.0;                    ///< of a guest's SQL
-    Answers answers;
 };
 
 /// The HTTP service on one results database: its pages, its REST interface (openapi.json) and its queue of

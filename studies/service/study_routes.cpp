@@ -1,7 +1,10 @@
 // Stored studies: the list, the progress of each, and its conclusions.
+#include "capstan/answers/placement_answers.h"
+#include "capstan/answers/study_answers.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
+#include "capstan/storage/error.h"
 #include "capstan/storage/live_queries.h"
 
 namespace capstan::service {
@@ -21,27 +24,35 @@ Handler of_study(const RouteContext& context, const StudyHandler& answer) {
     };
 }
 
+std::string recommendation_json(storage::Database& database, std::int64_t study_id) {
+    try {
+        return reports::answer_json(
+            answers::recommendation_answer(answers::read_conclusions(database, study_id)));
+    } catch (const storage::Error& error) {  // not complete yet
+        throw BadRequest(error.what(), 409);
+    }
+}
+
 }  // namespace
 
 std::vector<Route> study_routes(RouteContext& context) {
-    const Answers& answers = context.options.answers;
     const auto list = [&](const httplib::Request&, httplib::Response& response) {
         storage::Database database = context.open();
-        send_text(response, answers.rows_json(storage::run_read_only(database, storage::studies_query)),
+        send_text(response, answers::rows_json(storage::run_read_only(database, storage::studies_query)),
                   "application/json");
     };
     const auto rows_of = [&](std::string_view query) {
-        return of_study(context, [&answers, query](storage::Database& database, std::int64_t id,
-                                                   httplib::Response& response) {
-            send_text(response, answers.rows_json(storage::run_read_only(database, query, {id})),
-                      "application/json");
-        });
+        return of_study(
+            context, [query](storage::Database& database, std::int64_t id, httplib::Response& response) {
+                send_text(response, answers::rows_json(storage::run_read_only(database, query, {id})),
+                          "application/json");
+            });
     };
     const auto show = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
-        send_text(response, answers.study(database, id), "application/json");
+        send_text(response, reports::answer_json(answers::study_answer(database, id)), "application/json");
     };
     const auto recommend = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
-        send_text(response, answers.recommendation(database, id), "application/json");
+        send_text(response, recommendation_json(database, id), "application/json");
     };
     const auto report = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
         const auto text = context.about_study("report", database, id,

@@ -1,4 +1,4 @@
-"""A running `capstan serve`, and requests to it that may be as wrong as a stranger's."""
+"""A running `capstan serve`, and requests to it that may be as wrong as those of an attacker."""
 
 import http.client
 import json

@@ -59,7 +59,7 @@ class Answers(CapstanTest):
         self.told = self.run_capstan("study", "run", CONFIGS / "quick.toml", "--stats")
 
     def test_words_on_stdout_progress_on_stderr(self):
-        self.assertIn("put ", self.told.stdout)
+        self.assertIn("use ", self.told.stdout)
         self.assertNotIn("units", self.told.stdout)
         self.assertIn("4 of 4 units", self.told.stderr)
         self.assertIn("Processor time", self.told.stderr)
@@ -116,7 +116,7 @@ class Answers(CapstanTest):
         self.run_capstan("study", "show", "1", expect=3)
         self.run_capstan("study", "show", "2")
 
-    def test_another_price_of_a_sensor_changes_the_recommendation(self):
+    def test_another_worthwhile_gain_changes_the_recommendation(self):
         def count(gain):
             answer = self.run_capstan("recommend", "--json", "--worthwhile-gain", gain).stdout
             return json.loads(answer)["recommendations"][0]["sensor_count"]

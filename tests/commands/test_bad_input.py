@@ -27,7 +27,7 @@ class BadConfiguration(CapstanTest):
                      "x.toml:3: transmission.segmnets: unknown key; did you mean 'segments'?")
 
     def test_wrong_type(self):
-        self.refused('repetitions = "many"\n', "x.toml:1: repetitions: is a text, but must be a whole number")
+        self.refused('repetitions = "many"\n', "x.toml:1: repetitions: is a string, but must be an integer")
 
     def test_negative_length(self):
         self.refused("[[transmission.curvature]]\nlength_m = -1\n", "x.toml:2: ", "is -1 m, but must be above 0")
@@ -144,14 +144,14 @@ class BadPlace(CapstanTest):
 
     def test_full_disk_keeps_what_is_done(self):
         study = ("study", "run", CONFIGS / "paper.toml", "--repetitions", "20")
-        self.run_capstan(*study, "--db", "whole.db")
+        self.run_capstan(*study, "--db", "complete.db")
         disk = self.small_disk("1m")
         done = self.run_capstan(*study, "--db", "disk/x.db", expect=3)
         self.assertIn("the disk is full", done.stderr)
         self.assertIn("capstan study resume", done.stderr)
         subprocess.run(["mount", "-o", "remount,size=30m", disk], check=True)
         self.run_capstan("study", "resume", "--db", "disk/x.db")
-        self.assert_same_bits(self.tables("whole.db"), self.tables("disk/x.db"))
+        self.assert_same_bits(self.tables("complete.db"), self.tables("disk/x.db"))
 
     def test_full_disk_leaves_no_half_file(self):
         disk = self.small_disk("16k")
@@ -172,14 +172,14 @@ class BadPlace(CapstanTest):
     def test_a_study_survives_the_loss_of_standard_error(self):
         """Full, closed, or a pipe whose reader has gone: the messages are lost, the study is not."""
         command = [PROGRAM, "study", "run", str(CONFIGS / "quick.toml"), "--db"]
-        self.run_capstan("study", "run", CONFIGS / "quick.toml", "--db", "whole.db")
+        self.run_capstan("study", "run", CONFIGS / "quick.toml", "--db", "complete.db")
         for name, redirection in (("full", "2>/dev/full"), ("closed", "2>&-"), ("gone", "2> >(:)")):
             with self.subTest(name):
                 database = f"{name}.db"
                 done = subprocess.run(["bash", "-c", f'sleep 0.1; "$@" {redirection}', "bash", *command, database],
                                       cwd=self.folder, stdout=subprocess.DEVNULL)
                 self.assertEqual(done.returncode, 0)
-                self.assert_same_bits(self.tables("whole.db"), self.tables(database))
+                self.assert_same_bits(self.tables("complete.db"), self.tables(database))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Described benches and the paper's experiments: CSV that adds up, pages that are whole, messages that help."""
+"""Described benches and the paper's experiments: CSV that adds up, pages that are complete, messages that help."""
 
 import csv
 import json

@@ -42,7 +42,7 @@ class Compare(CapstanTest):
         self.assertIn("| noise[1].multiplicative_ratio | 0.05 | 0.2 |", words.replace("\\", ""))
         page = self.compare("--format", "html")
         self.assertIn('<figure id="figure-best"', page)
-        self.assertIn("First: study 1 (quick). Second: study 2 (noisier).", page)
+        self.assertIn("study 1 (quick) and study 2 (noisier)", page)
         self.assertLess(len(page), 3e6)
         self.assertIn("no study 'nothing'", self.run_capstan("report", "--compare", "nothing", 2, expect=3).stderr)
 

@@ -42,7 +42,7 @@ class Concurrency(CapstanTest):
         heard, answers = [], []
         done = threading.Event()
 
-        def hear(words, process):
+        def collect(words, process):
             answer, messages = process.communicate()
             if process.returncode != 0 or "lock" in messages.lower() or "busy" in messages.lower():
                 heard.append((words, process.returncode, messages))
@@ -51,13 +51,13 @@ class Concurrency(CapstanTest):
         def write(mine):
             for seed in mine:
                 words = ("study", "run", f"{seed}.toml", "--db", "shared.db", "--jobs", 1)
-                hear(words, self.start_capstan(*words))
+                collect(words, self.start_capstan(*words))
 
         def read(number):
             turn = number
             while not done.is_set() or turn == number:
                 words = (*QUESTIONS[turn % len(QUESTIONS)], "--db", "shared.db")
-                answers.append(len(hear(words, self.start_capstan(*words))))
+                answers.append(len(collect(words, self.start_capstan(*words))))
                 turn += 1
 
         writers = [threading.Thread(target=write, args=(seeds[first::2],)) for first in range(2)]

@@ -1,6 +1,6 @@
 """Killed at random moments, a study, a merge, a migration, a report and a job of the service lose nothing that was said to be done.
 
-CAPSTAN_CRASHES says how many moments (10); they are the same ones in every run. After each kill the database is whole, what was
+CAPSTAN_CRASHES says how many moments (10); they are the same ones in every run. After each kill the database is intact, what was
 reported as done is there, and going on ends with the bits of a run that nobody disturbed."""
 
 import json
@@ -57,7 +57,7 @@ class Crash(ServiceTest):
             for path in self.folder.glob(pattern):
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
 
-    def assert_whole(self, name):
+    def assert_intact(self, name):
         self.assertEqual(integrity(self.folder / name), ["ok"], name)
 
     def units_done(self, name):
@@ -77,8 +77,8 @@ class Crash(ServiceTest):
         return units, complete
 
     def test_a_study(self):
-        lasts_s = self.lasting("study", "run", "small.toml", "--db", "whole{turn}.db", "--progress", "json")
-        expected = self.tables("whole0.db")
+        lasts_s = self.lasting("study", "run", "small.toml", "--db", "complete{turn}.db", "--progress", "json")
+        expected = self.tables("complete0.db")
         self.assertEqual(len(expected["work_unit"]), UNITS)
         most = 0
         for _ in range(EACH):
@@ -88,7 +88,7 @@ class Crash(ServiceTest):
             most = max(most, units)
             done = (0, "")
             if (self.folder / "killed.db").exists():
-                self.assert_whole("killed.db")
+                self.assert_intact("killed.db")
                 if (self.folder / "killed.db").stat().st_size > 0:
                     done = self.units_done("killed.db")
             self.assertGreaterEqual(done[0], units)
@@ -107,19 +107,19 @@ class Crash(ServiceTest):
         for number, name in enumerate(shards, 1):
             self.run_capstan("study", "run", "small.toml", "--shard", f"{number}/{len(shards)}", "--db", name)
         rows = [self.tables(name) for name in shards]
-        lasts_s = self.lasting("study", "merge", "--db", "whole{turn}.db", *shards)
-        expected = self.tables("whole0.db")
+        lasts_s = self.lasting("study", "merge", "--db", "complete{turn}.db", *shards)
+        expected = self.tables("complete0.db")
         for _ in range(EACH):
             self.remove("merged.db*")
             self.killed(lasts_s, "study", "merge", "--db", "merged.db", *shards)
             if (self.folder / "merged.db").exists():
-                self.assert_whole("merged.db")
+                self.assert_intact("merged.db")
                 self.assert_same_bits(expected, self.tables("merged.db"))
             else:
                 self.run_capstan("study", "merge", "--db", "merged.db", *shards)
                 self.assert_same_bits(expected, self.tables("merged.db"))
             for name, before in zip(shards, rows):
-                self.assert_whole(name)
+                self.assert_intact(name)
                 self.assert_same_bits(before, self.tables(name))
         print(f"merge: {self.killed_under_way} of {EACH} killed under way", flush=True)
 
@@ -128,22 +128,22 @@ class Crash(ServiceTest):
         version = schema_version(self.folder / "old.db")
         old = self.tables("old.db")
         for turn in range(3):
-            shutil.copy(self.folder / "old.db", self.folder / f"whole{turn}.db")
-        lasts_s = self.lasting("whole{turn}.db", program=MIGRATE_FILE)
-        expected = self.tables("whole0.db")
-        migrated = schema_version(self.folder / "whole0.db")
+            shutil.copy(self.folder / "old.db", self.folder / f"complete{turn}.db")
+        lasts_s = self.lasting("complete{turn}.db", program=MIGRATE_FILE)
+        expected = self.tables("complete0.db")
+        migrated = schema_version(self.folder / "complete0.db")
         self.assertGreater(migrated, version)
         versions = []
         for _ in range(EACH):
             self.remove("older.db*")
             shutil.copy(self.folder / "old.db", self.folder / "older.db")
             self.killed(lasts_s, "older.db", program=MIGRATE_FILE)
-            self.assert_whole("older.db")
+            self.assert_intact("older.db")
             versions.append(schema_version(self.folder / "older.db"))
             self.assertIn(versions[-1], (version, migrated))
             copy = self.folder / f"older.db.version{version}"
             if copy.exists():
-                self.assert_whole(copy.name)
+                self.assert_intact(copy.name)
                 self.assert_same_bits(old, self.tables(copy.name))
             self.assertTrue(versions[-1] == version or copy.exists(), "nothing is migrated without a copy beside it")
             self.assert_same_bits(old if versions[-1] == version else expected, self.tables("older.db"))
@@ -153,8 +153,8 @@ class Crash(ServiceTest):
 
     def test_a_report(self):
         self.run_capstan("study", "run", "small.toml", "--db", "small.db")
-        lasts_s = self.lasting("report", "--db", "small.db", "-o", "whole{turn}.html")
-        expected = (self.folder / "whole0.html").read_bytes()
+        lasts_s = self.lasting("report", "--db", "small.db", "-o", "complete{turn}.html")
+        expected = (self.folder / "complete0.html").read_bytes()
         absent = 0
         for turn in range(EACH):
             self.remove("report.html*")
@@ -167,13 +167,13 @@ class Crash(ServiceTest):
             absent += found == before
             self.run_capstan("report", "--db", "small.db", "-o", "report.html")
             self.assertEqual((self.folder / "report.html").read_bytes(), expected)
-        self.assert_whole("small.db")
+        self.assert_intact("small.db")
         print(f"report: {self.killed_under_way} of {EACH} killed under way, {absent} left what there was before", flush=True)
 
     def test_a_job_of_the_service(self):
         toml = SMALL_STUDY.format(seed=1)
-        self.run_capstan("study", "run", "small.toml", "--db", "whole.db")
-        expected = self.tables("whole.db")
+        self.run_capstan("study", "run", "small.toml", "--db", "complete.db")
+        expected = self.tables("complete.db")
         most = 0
         for _ in range(EACH):
             self.remove("served.db*")
@@ -185,7 +185,7 @@ class Crash(ServiceTest):
             most = max(most, units)
             process.send_signal(signal.SIGKILL)
             process.communicate()
-            self.assert_whole("served.db")
+            self.assert_intact("served.db")
             again = self.serve("--jobs", 2)
             self.assertGreaterEqual(sum(study["units_done"] for study in self.get("/api/studies")), units)
             self.assertEqual(self.await_job(job, "done")["study_id"], 1)
@@ -193,7 +193,7 @@ class Crash(ServiceTest):
             self.assert_same_bits(expected, self.tables("served.db"))
             again.send_signal(signal.SIGTERM)
             again.communicate()
-            self.assert_whole("served.db")
+            self.assert_intact("served.db")
         print(f"service: {EACH} killed, up to unit {most} of {UNITS}", flush=True)
 
 

@@ -30,10 +30,13 @@ class DiagnosisReport(ServiceTest):
         self.assertIn("| " + made["ranked"][0]["effect"] + " |", self.report("md"))
 
         rows = list(csv.DictReader(io.StringIO(self.report("csv"))))
-        probabilities = {row["name"]: float(row["value"]) for row in rows if row["part"] == "effect"}
-        self.assertEqual(probabilities, {each["effect"]: each["probability"] for each in made["ranked"]})
-        closed = {row["name"]: float(row["value"]) for row in rows if row["quantity"] == "rms_held_out"}
-        self.assertEqual(closed, {each["channel"]: each["rms_held_out"] for each in made["channels"]})
+        cells = {(row["table"], row["row"], row["column"]): row["value"] for row in rows}
+        count = len(made["ranked"])
+        self.assertEqual([{"effect": cells["probability", str(k), "effect"],
+                           "probability": float(cells["probability", str(k), "probability"])} for k in range(1, count + 1)],
+                         made["ranked"])
+        for number, channel in enumerate(made["channels"], 1):
+            self.assertEqual(float(cells["channels", str(number), "rms_held_out"]), channel["rms_held_out"])
 
         page = self.report("html")
         for part in ("<h1>case001</h1>", 'id="figure-ranking"', 'id="figure-gap_map"', made["ranked"][0]["effect"]):

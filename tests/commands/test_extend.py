@@ -19,7 +19,7 @@ class Extend(CapstanTest):
         self.run_capstan(*STUDY, 50, "--db", "a.db")
         done = self.run_capstan("study", "extend", "--repetitions", 130, "--db", "a.db", "--jobs", 2)
         self.assertIn("130 repetitions", done.stderr)
-        self.assertIn("where to put tension sensors", done.stdout)
+        self.assertIn("Recommendations", done.stdout)
         self.assert_same_bits(expected, self.tables("a.db"))
 
     def test_killed_and_called_again(self):

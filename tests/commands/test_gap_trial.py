@@ -45,7 +45,7 @@ class GapTrial(CapstanTest):
         self.generate()
         self.answer_rightly()
         words = self.run_capstan("gap-trial", *SMALL, "--keep", "kept").stdout  # nothing left to diagnose
-        self.assertIn("100.0%", words)
+        self.assertIn("100.0 %", words)
         score = json.loads(self.run_capstan("gap-trial", "--unseal", "kept/labels.json", "--json").stdout)
         self.assertEqual(score["groups"][0]["top1"], {"hits": 2, "of": 2, "fraction": 1.0,
                                                       "interval_95": score["groups"][0]["top1"]["interval_95"]})

@@ -30,7 +30,7 @@ class Place(CapstanTest):
                 beside = {layout["how"] for layout in count["beside"]}
                 self.assertLessEqual({"even", "distal", "both"}, beside)
         words = self.run_capstan("place", *PAPER).stdout
-        self.assertIn("the exact optimum of 12282 layouts and methods", words)
+        self.assertIn("12282 candidates (layouts times fusion methods)", words)
 
     def test_any_number_of_jobs_gives_the_same_bits(self):
         answers = {self.run_capstan("place", *PAPER, "--json", "--jobs", jobs).stdout for jobs in (1, 2, 7)}
@@ -101,7 +101,7 @@ class Duty(CapstanTest):
         told = self.run_capstan("place", *PAPER, "--duty", "bench.csv")
         self.assertIn("duty cycle from bench.csv: mass", told.stderr)
         words = self.run_capstan("duty", "bench.csv").stdout
-        self.assertIn("duty_fraction = ", words)
+        self.assertIn("duty_fraction", words)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""`capstan sensitivity`: what would change the advice, the same whatever the threads."""
+"""`capstan sensitivity`: the advice for, the same whatever the threads."""
 
 import json
 import unittest
@@ -22,9 +22,9 @@ class Sensitivity(CapstanTest):
 
     def test_words_and_page(self):
         words = self.run_capstan("sensitivity", self.small(), "--html", "advice.html").stdout
-        self.assertIn("what would change the advice", words)
+        self.assertIn("the advice for", words)
         self.assertIn("friction coefficient", words)
-        self.assertIn("flip", words)
+        self.assertIn("the advice changes", words)
         self.assertIn("Regret of the advice along each parameter", (self.folder / "advice.html").read_text())
 
     def test_refuses_a_range_without_the_configured_value(self):

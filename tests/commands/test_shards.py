@@ -46,13 +46,13 @@ class Shards(CapstanTest):
         return names
 
     def test_one_three_and_eight_shards_have_the_bits_of_one_run(self):
-        self.run_capstan("study", "run", *STUDY, "--db", "whole.db")
-        expected = self.tables("whole.db")
+        self.run_capstan("study", "run", *STUDY, "--db", "complete.db")
+        expected = self.tables("complete.db")
         for count in (1, 3, 8):
             names = self.run_shards(count)
             self.run_capstan("study", "merge", "--db", f"merged{count}.db", *reversed(names))
             self.assert_same_bits(expected, self.tables(f"merged{count}.db"))
-        self.assertEqual(self.run_capstan("recommend", "--db", "whole.db").stdout,
+        self.assertEqual(self.run_capstan("recommend", "--db", "complete.db").stdout,
                          self.run_capstan("recommend", "--db", "merged3.db").stdout)
 
     def test_every_part_belongs_to_exactly_one_shard(self):
@@ -65,7 +65,7 @@ class Shards(CapstanTest):
         self.assertEqual(set.union(*done), set(range(56)))
 
     def test_a_killed_shard_goes_on_to_the_same_bits(self):
-        self.run_capstan("study", "run", *STUDY, "--db", "whole.db")
+        self.run_capstan("study", "run", *STUDY, "--db", "complete.db")
         names = self.run_shards(2)
         for units in (1, 3, 14, 20):
             process = self.start_capstan("study", "run", *STUDY, "--shard", "1/2", "--db", f"killed{units}.db",
@@ -77,7 +77,7 @@ class Shards(CapstanTest):
             process.communicate()
             self.run_shard(1, 2, f"killed{units}.db")
             self.run_capstan("study", "merge", "--db", f"merged{units}.db", f"killed{units}.db", names[1])
-            self.assert_same_bits(self.tables("whole.db"), self.tables(f"merged{units}.db"))
+            self.assert_same_bits(self.tables("complete.db"), self.tables(f"merged{units}.db"))
 
     def test_two_programs_in_one_shard_do_no_harm(self):
         """As after a node that was only thought dead."""
@@ -96,18 +96,18 @@ class Shards(CapstanTest):
 
     def test_a_sweep_in_shards_has_the_bits_of_one_run(self):
         study = (self.write("sweep.toml", SWEEP),)
-        self.run_capstan("study", "run", *study, "--db", "whole.db")
-        listed = json.loads(self.run_capstan("study", "list", "--json", "--db", "whole.db").stdout)
+        self.run_capstan("study", "run", *study, "--db", "complete.db")
+        listed = json.loads(self.run_capstan("study", "list", "--json", "--db", "complete.db").stdout)
         self.assertEqual(len(listed), 8)
         self.assertEqual(len({one["name"] for one in listed}), 8)
         self.assertEqual({one["status"] for one in listed}, {"complete"})
         names = self.run_shards(5, study)
         self.run_capstan("study", "merge", "--db", "merged.db", *names)
-        self.assert_same_bits(self.tables("whole.db"), self.tables("merged.db"))
+        self.assert_same_bits(self.tables("complete.db"), self.tables("merged.db"))
 
-    def test_a_killed_sweep_is_resumed_as_a_whole(self):
+    def test_a_killed_sweep_is_resumed_completely(self):
         study = (self.write("sweep.toml", SWEEP),)
-        self.run_capstan("study", "run", *study, "--db", "whole.db")
+        self.run_capstan("study", "run", *study, "--db", "complete.db")
         process = self.start_capstan("study", "run", *study, "--db", "killed.db", "--progress", "json")
         for line in process.stderr:
             if '"done":13,' in line:
@@ -115,7 +115,7 @@ class Shards(CapstanTest):
         process.send_signal(signal.SIGKILL)
         process.communicate()
         self.run_capstan("study", "resume", "all", "--db", "killed.db")
-        self.assert_same_bits(self.tables("whole.db"), self.tables("killed.db"))
+        self.assert_same_bits(self.tables("complete.db"), self.tables("killed.db"))
 
     def test_a_study_of_a_sweep_is_a_study_of_its_own(self):
         self.run_capstan("study", "run", self.write("sweep.toml", SWEEP), "--db", "sweep.db")
@@ -172,8 +172,8 @@ class MergeRefuses(CapstanTest):
         self.assertIn("copy.db is shard 2 of 2, and so is 2.db; leave one out", self.refusal("1.db", "2.db", "copy.db"))
 
     def test_shards_of_another_count(self):
-        self.shard("whole.db", "1/1")
-        self.assertIn("whole.db is shard 1 of 1, but 1.db is one of 2", self.refusal("1.db", "2.db", "whole.db"))
+        self.shard("complete.db", "1/1")
+        self.assertIn("complete.db is shard 1 of 1, but 1.db is one of 2", self.refusal("1.db", "2.db", "complete.db"))
 
     def test_shards_of_another_study(self):
         self.shard("seed.db", "2/2", "--seed", "9")
@@ -230,9 +230,9 @@ class MergeRefuses(CapstanTest):
 
 class Plan(CapstanTest):
     def test_counts_are_those_of_the_study(self):
-        self.run_capstan("study", "run", *STUDY, "--db", "whole.db")
+        self.run_capstan("study", "run", *STUDY, "--db", "complete.db")
         plan = json.loads(self.run_capstan("study", "plan", *STUDY, "--json", "--seconds", "0.2", "--shards", 8).stdout)
-        tables = self.tables("whole.db")
+        tables = self.tables("complete.db")
         self.assertEqual(plan["cells"], len(tables["cell"]))
         self.assertEqual(plan["parts"], 28)
         self.assertEqual(plan["readings"], 28 * 100 * 11)
@@ -242,9 +242,9 @@ class Plan(CapstanTest):
     def test_predicted_intervals_are_those_of_the_study(self):
         """The pilot sees all parts, a quarter of the repetitions: widths agree to the noise of a standard error."""
         config = (CONFIGS / "quick.toml", "--repetitions", "800")
-        self.run_capstan("study", "run", *config, "--db", "whole.db")
+        self.run_capstan("study", "run", *config, "--db", "complete.db")
         plan = json.loads(self.run_capstan("study", "plan", *config, "--json", "--seconds", "1000").stdout)
-        connection = sqlite3.connect(self.folder / "whole.db")
+        connection = sqlite3.connect(self.folder / "complete.db")
         self.addCleanup(connection.close)
         widths = sorted(row[0] for row in connection.execute("SELECT (interval_high_N - interval_low_N) / 2 FROM cell"))
         self.assertEqual(plan["pilot_parts"], plan["parts"])

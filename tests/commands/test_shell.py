@@ -69,13 +69,13 @@ class Shell(CapstanTest):
             self.assertEqual((done.returncode, done.stderr), (0, ""), page.name)
             self.assertIn("NAME", re.sub(".\b", "", done.stdout))  # without overstrikes
 
-    def test_the_doctor_finds_a_whole_database_whole(self):
+    def test_the_doctor_reports_an_intact_database(self):
         told = self.run_capstan("doctor").stdout
-        self.assertIn("capstan.db: not there", told)
+        self.assertIn("capstan.db: does not exist yet", told)
         self.run_capstan("study", "run", CONFIGS / "quick.toml", "--progress", "none")
-        self.assertIn("capstan.db: whole", self.run_capstan("doctor").stdout)
+        self.assertIn("capstan.db: integrity check passed", self.run_capstan("doctor").stdout)
         told = json.loads(self.run_capstan("doctor", "--json").stdout)
-        self.assertTrue(told["database"]["is_whole"])
+        self.assertTrue(told["database"]["is_intact"])
         self.assertEqual((told["database"]["studies"], told["database"]["running_studies"]), (1, 0))
         self.assertRegex(told["simd"], r"^(AVX|SSE|NEON|EMU|SCALAR)")
 

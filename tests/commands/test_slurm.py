@@ -39,8 +39,8 @@ class WithoutSlurm(CapstanTest):
         self.shell(folder, "merge.sbatch")
         self.shell(folder, "merge.sbatch")  # as after the failure of a node
         self.assertEqual(self.status(folder)["merge"]["state"], "done")
-        self.run_capstan("study", "run", *QUICK, "--db", "whole.db")
-        self.assert_same_bits(self.tables("whole.db"), self.tables(folder / "study.db"))
+        self.run_capstan("study", "run", *QUICK, "--db", "complete.db")
+        self.assert_same_bits(self.tables("complete.db"), self.tables(folder / "study.db"))
         self.assertIn("complete; nothing to submit", self.run_capstan(
             "study", "submit", "--slurm", *QUICK, "--shards", 3, "--directory", folder, "--dry-run").stdout)
 
@@ -92,7 +92,7 @@ class OnACluster(CapstanTest):
             return 0
 
     def test_a_node_dies_in_the_middle(self):
-        self.run_capstan("study", "run", *STUDY, "--db", "whole.db")
+        self.run_capstan("study", "run", *STUDY, "--db", "complete.db")
         self.assertIn("Submitted shards 1-8 of 8", self.submit(*STUDY))
         victim = {}
 
@@ -114,10 +114,10 @@ class OnACluster(CapstanTest):
         status = self.status()
         self.assertEqual({shard["state"] for shard in status["shards"]}, {"done"})
         self.assertEqual(status["merge"]["state"], "done")
-        self.assert_same_bits(self.tables("whole.db"), self.tables("study/study.db"))
+        self.assert_same_bits(self.tables("complete.db"), self.tables("study/study.db"))
 
     def test_submitted_again_only_what_is_missing_runs(self):
-        self.run_capstan("study", "run", *QUICK, "--db", "whole.db")
+        self.run_capstan("study", "run", *QUICK, "--db", "complete.db")
         self.capstan("study", "submit", "--slurm", *QUICK, "--shards", 5, "--directory", "study", "--dry-run")
         self.run_capstan("study", "run", *QUICK, "--shard", "2/5", "--db", "study/shard-2-of-5.db")
         text = "not a database, but long enough to be looked at" * 40
@@ -133,7 +133,7 @@ class OnACluster(CapstanTest):
         (self.folder / "study/shard-4-of-5.db").unlink()
         self.assertIn("Submitted shards 4 of 5", self.submit(*QUICK, shards=5))
         self.wait_for_the_merge()
-        self.assert_same_bits(self.tables("whole.db"), self.tables("study/study.db"))
+        self.assert_same_bits(self.tables("complete.db"), self.tables("study/study.db"))
         self.assertIn("nothing to submit", self.submit(*QUICK, shards=5))
 
     def test_submitted_twice_at_once_nothing_runs_twice(self):

@@ -77,8 +77,8 @@ class DiskFaults(FaultyTest):
         self.assertGreater(failed, tried // 2)
 
     def test_a_study(self):
-        self.run_capstan("study", "run", "small.toml", "--db", "whole.db")
-        expected = self.tables("whole.db")
+        self.run_capstan("study", "run", "small.toml", "--db", "complete.db")
+        expected = self.tables("complete.db")
         words = ("study", "run", "small.toml", "--db", "faulty.db", "--jobs", 1, "--progress", "none")
 
         def look(succeeded):
@@ -98,12 +98,12 @@ class DiskFaults(FaultyTest):
         for number, name in enumerate(shards, 1):
             self.run_capstan("study", "run", "small.toml", "--shard", f"{number}/{len(shards)}", "--db", name)
         rows = [self.tables(name) for name in shards]
-        self.run_capstan("study", "merge", "--db", "whole.db", *shards)
-        expected = self.tables("whole.db")
+        self.run_capstan("study", "merge", "--db", "complete.db", *shards)
+        expected = self.tables("complete.db")
         words = ("study", "merge", "--db", "merged.db", "--progress", "none", *shards)
 
         def look(succeeded):
-            self.assertEqual((self.folder / "merged.db").exists(), succeeded, "whole or not at all")
+            self.assertEqual((self.folder / "merged.db").exists(), succeeded, "complete or not at all")
             if succeeded:
                 self.assert_whole("merged.db")
                 self.assert_same_bits(expected, self.tables("merged.db"))
@@ -119,9 +119,9 @@ class DiskFaults(FaultyTest):
     def test_a_migration(self):
         self.run_capstan("study", "run", "small.toml", "--db", "old.db")
         old = self.tables("old.db")
-        shutil.copy(self.folder / "old.db", self.folder / "whole.db")
-        self.run_program(MIGRATE_FILE, "whole.db")
-        expected = self.tables("whole.db")
+        shutil.copy(self.folder / "old.db", self.folder / "complete.db")
+        self.run_program(MIGRATE_FILE, "complete.db")
+        expected = self.tables("complete.db")
 
         def prepare():
             self.remove("older.db*")

@@ -24,8 +24,8 @@ class MemoryFaults(FaultyTest):
 
     def test_a_study(self):
         self.write("tiny.toml", TINY)
-        self.run_capstan("study", "run", "tiny.toml", "--db", "whole.db")
-        expected = self.tables("whole.db")
+        self.run_capstan("study", "run", "tiny.toml", "--db", "complete.db")
+        expected = self.tables("complete.db")
         words = ("study", "run", "tiny.toml", "--db", "faulty.db", "--jobs", 1, "--progress", "none")
         count, answer = self.count_of(*words)
         self.assertGreater(count, 1000)

@@ -8,7 +8,6 @@
 #include <memory>
 #include <thread>
 
-#include "capstan/cli/service_answers.h"
 #include "capstan/service/service.h"
 #include "sample_database.h"
 #include "target.h"
@@ -24,7 +23,7 @@ class Host {
   public:
     explicit Host(const fuzz::TemporaryFolder& folder)
         : jobs_(folder.path() / "sample.db.jobs"),
-          service_({{}, {"/bin/true", folder.path() / "sample.db", 1}, {}, 0.5, cli::service_answers()}),
+          service_({{}, {"/bin/true", folder.path() / "sample.db", 1}, {}, 0.5}),
           thread_([this] { service_.run(); }) {}
     ~Host() {
         service_.stop();

@@ -23,11 +23,11 @@ TEST(ShardFile, SaysWhichShardItIs) {
 TEST(ShardFile, HoldsTheSameStudiesAsACompleteFile) {
     const TemporaryFolder folder;
     Database shard = Database::open_or_create(folder / "shard.db", Journal::rollback);
-    Database whole = Database::open_or_create(folder / "whole.db");
+    Database complete = Database::open_or_create(folder / "complete.db");
     begin_shard(shard, {1, 2}, {example_study(), example_study()});
     for (const std::int64_t id : {1, 2}) {
-        EXPECT_EQ(begin_study(whole, example_study()), id);
-        EXPECT_EQ(load_study(shard, id), load_study(whole, id));
+        EXPECT_EQ(begin_study(complete, example_study()), id);
+        EXPECT_EQ(load_study(shard, id), load_study(complete, id));
     }
 }
 

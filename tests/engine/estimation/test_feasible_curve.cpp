@@ -92,7 +92,7 @@ TEST(FeasibleCurve, RefusesAPriorThatItCannotSample) {
     }
 }
 
-// At the end of its range a sensor says "at least that": certain far below the true tension, a coin's toss
+// At the end of its range a sensor says "at least that": certain far below the true tension, a probability of one half
 // where the tension is the range itself, and never less likely for more tension.
 TEST(CurveLikelihood, ASaturatedReadingSaysAtLeastThat) {
     const Instant instant = paper_instant(112);

@@ -130,13 +130,13 @@ TEST_P(EveryEffect, GrowsFromNothing) {
     static const Track base = with_effects({});
     BenchEffects faint;
     GetParam().apply(faint, typical(GetParam(), 1e-4));
-    BenchEffects whole;
-    GetParam().apply(whole, typical(GetParam(), 1.0));
+    BenchEffects full;
+    GetParam().apply(full, typical(GetParam(), 1.0));
     EXPECT_LT(rms_difference(with_effects(faint).motor_angle_rad, base.motor_angle_rad),
-              0.05 * rms_difference(with_effects(whole).motor_angle_rad, base.motor_angle_rad) + 1e-5);
+              0.05 * rms_difference(with_effects(full).motor_angle_rad, base.motor_angle_rad) + 1e-5);
 }
 
-// Over whole cycles hand and motor put in at least as much work as they get back.
+// Over complete cycles hand and motor put in at least as much work as they get back.
 TEST_P(EveryEffect, GivesNoWorkAway) {
     BenchEffects effects;
     GetParam().apply(effects, typical(GetParam(), 2.0));

@@ -102,14 +102,14 @@ TEST(BenchRun, AnEffectSwitchesToTheSimulationThatHasIt) {
     // So little that only the simulation itself could make a difference.
     drag[0] = 1e-6;
     EXPECT_EQ(effects_there(plan.effects), std::vector<std::string>{"viscous_friction"});
-    const auto hardly = run(plan);
+    const auto little_friction = run(plan);
     drag[0] = 20.0;
     const auto much = run(plan);
-    ASSERT_EQ(ideal.size(), hardly.size());
+    ASSERT_EQ(ideal.size(), little_friction.size());
     double apart_Nm = 0.0;
     double dragged_Nm = 0.0;
     for (std::size_t k = 0; k < ideal.size(); ++k) {
-        apart_Nm = std::max(apart_Nm, std::abs(ideal[k].load_torque_Nm - hardly[k].load_torque_Nm));
+        apart_Nm = std::max(apart_Nm, std::abs(ideal[k].load_torque_Nm - little_friction[k].load_torque_Nm));
         dragged_Nm = std::max(dragged_Nm, std::abs(ideal[k].load_torque_Nm - much[k].load_torque_Nm));
     }
     EXPECT_LT(apart_Nm, 0.05) << "the discretisation, of a peak of 1 N m";

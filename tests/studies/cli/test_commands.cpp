@@ -37,7 +37,7 @@ TEST(CommandLine, FillsInDefaults) {
     const Invocation invocation = parse_command_line(*find_command("study run"), {"x.toml"});
     EXPECT_EQ(invocation.argument("CONFIG"), "x.toml");
     EXPECT_EQ(invocation.text("db"), "capstan.db");
-    EXPECT_EQ(invocation.whole("jobs"), 0);
+    EXPECT_EQ(invocation.integer("jobs"), 0);
     EXPECT_FALSE(invocation.has("json"));
 }
 

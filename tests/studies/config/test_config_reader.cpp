@@ -58,7 +58,7 @@ TEST(ConfigReader, KeyInTheWrongSectionIsSentToTheRightOne) {
 
 TEST(ConfigReader, WrongTypeSaysWhatIsThereAndWhatMustBe) {
     EXPECT_THAT(problems_in("repetitions = \"many\"\n"),
-                ElementsAre("1: repetitions: is a text, but must be a whole number"));
+                ElementsAre("1: repetitions: is a string, but must be an integer"));
     EXPECT_THAT(problems_in("repetitions = 2.5\n"), ElementsAre(HasSubstr("is a number with a fraction")));
     EXPECT_THAT(problems_in("motion = 3\n"), ElementsAre(HasSubstr("must be a table")));
     EXPECT_THAT(problems_in("[noise]\nlabel = \"x\"\n"), ElementsAre(HasSubstr("[[noise]]")));

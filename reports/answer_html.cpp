@@ -1,0 +1,90 @@
+// The page of an answer.
+#include <fmt/format.h>
+
+#include "capstan/reports/answer.h"
+#include "capstan/reports/figure_html.h"
+#include "capstan/reports/html_text.h"
+#include "capstan/reports/page_data.h"
+#include "capstan/reports/page_frame.h"
+
+namespace capstan::reports {
+namespace {
+
+std::string row_html(const std::vector<std::string>& cells) {
+    std::string html = "<tr>";
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        const std::string cell = escape_html(cells[k]);
+        html += k == 0 ? "<th scope=\"row\">" + cell + "</th>" : "<td class=\"number\">" + cell + "</td>";
+    }
+    return html + "</tr>\n";
+}
+
+std::string table_html(const AnswerTable& table) {
+    const auto cells = cells_of(table);
+    std::string heads;
+    for (std::size_t k = 0; k < cells[0].size(); ++k)
+        heads += fmt::format("<th scope=\"col\"{}>{}</th>", k == 0 ? "" : " class=\"number\"",
+                             escape_html(cells[0][k]));
+    std::string rows;
+    for (std::size_t k = 1; k < cells.size(); ++k) rows += row_html(cells[k]);
+    return fmt::format(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"numbers\"><caption>{0}</caption>"
+        "<thead><tr>{1}</tr></thead><tbody>\n{2}</tbody></table></div>\n",
+        escape_html(table.caption), heads, rows);
+}
+
+std::string figures_html(const Tables& tables, const std::string& page, const std::string& section) {
+    std::string html;
+    for (const Figure& figure : figures()) {
+        if (figure.page != page || figure.section != section) continue;
+        if (figure.per != "run") {
+            html += figure_html(tables, figure, {});
+            continue;
+        }
+        for (const Row& run : tables["run"].each())
+            html += figure_html(tables, figure, {.regime = {}, .run = run.integer("run")});
+    }
+    return html;
+}
+
+std::string making_html(const Answer& answer) {
+    std::string html;
+    if (!answer.config_text.empty()) {
+        html +=
+            "<details class=\"config\"><summary>Configuration, every key written out</summary><pre "
+            "tabindex=\"0\">" +
+            escape_html(answer.config_text) + "</pre></details>\n";
+    }
+    return html +
+           "<h3>All tables</h3>\n<p>Six significant digits, as drawn.</p>\n<ul id=\"downloads\"></ul>\n";
+}
+
+}  // namespace
+
+std::string answer_html(const Answer& answer) {
+    const Tables drawn(answer.drawn);
+    PageFrame frame;
+    std::vector<SectionLink> links;
+    for (const AnswerSection& section : answer.sections) {
+        const std::string heading = section.heading.empty() ? "The numbers" : section.heading;
+        std::string content;
+        for (const AnswerTable& table : section.tables) content += table_html(table);
+        content += figures_html(drawn, answer.id, section.id);
+        if (!section.note.empty()) content += "<p class=\"intro\">" + escape_html(section.note) + "</p>\n";
+        frame.main_html += section_html(section.id, heading, section.prose, content);
+        links.push_back({section.id, heading});
+    }
+    frame.main_html +=
+        section_html("making", "The data", "What the figures draw, to save as CSV.", making_html(answer));
+    links.push_back({"making", "The data"});
+    frame.document_title = answer.title + " – capstan";
+    frame.kind = answer.kind;
+    frame.title = answer.title;
+    frame.verdict = answer.headline;
+    frame.navigation_html = navigation_html(frame.main_html, links, "");
+    frame.footer = "Made by capstan " + program_version() + ".";
+    frame.data_json = page_data(drawn, answer.id);
+    return page_html(frame);
+}
+
+}  // namespace capstan::reports

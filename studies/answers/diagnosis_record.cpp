@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/answers/recording_answers.h"
+#include "capstan/gap/gap_map.h"
+#include "capstan/gap_trial/sealed_labels.h"
+#include "capstan/platform/files.h"
+#include "capstan/reports/page_frame.h"
+
+namespace capstan::answers {
+
+namespace {
+
+using reports::Data;
+
+std::optional<double> if_number(double value) {
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+// Empty where the log cannot be read again, as from a pipe.
+std::string hash_of(const std::filesystem::path& log) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(log, none)) return "";
+    return gap_trial::sha256(read_file(log));
+}
+
+storage::DiagnosisCauseRecord cause_record(const gap::FittedCause& cause) {
+    storage::DiagnosisCauseRecord record{cause.effect, cause.variant,    cause.component,
+                                         cause.end,    cause.position_m, {}};
+    for (const gap::FittedNumber& number : cause.numbers)
+        record.numbers.push_back({number.name, number.value, number.unit});
+    std::sort(record.numbers.begin(), record.numbers.end(),  // as they come back
+              [](const auto& a, const auto& b) { return a.name < b.name; });
+    return record;
+}
+
+storage::DiagnosisChannelRecord channel_record(const gap::ChannelGap& channel) {
+    return {channel.channel,
+            channel.unit,
+            channel.noise,
+            channel.before_rms,
+            channel.after_rms,
+            channel.held_out_rms,
+            channel.runner_up_rms,
+            if_number(channel.closed),
+            if_number(channel.closed_low),
+            if_number(channel.closed_high)};
+}
+
+std::string verdict_name(const gap::Diagnosis& diagnosis) {
+    const std::string& first = diagnosis.ranked.front().effect;
+    if (first == "none" || first == "unknown" || diagnosis.causes.size() < 2) return first;
+    return diagnosis.causes[0].effect + " + " + diagnosis.causes[1].effect;
+}
+
+}  // namespace
+
+std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
+    const gap::RankedEffect& first = diagnosis.ranked.front();
+    char probability[16];
+    std::snprintf(probability, sizeof probability, "%.2f", first.probability);
+    if (first.effect == "none")
+        return std::string("There is no gap beyond noise and the floor of the model (probability ") +
+               probability + ").";
+    if (first.effect == "unknown")
+        return std::string("There is a gap that no known effect explains (probability ") + probability +
+               "). The numbers below are those of the best known effect.";
+    if (diagnosis.causes.size() > 1)
+        return "Two causes act together: " + diagnosis.causes[0].effect + " and " +
+               diagnosis.causes[1].effect + ".";
+    return "The cause is " + first.effect + " (probability " + probability + ").";
+}
+
+storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap::Diagnosis& diagnosis,
+                                          const std::filesystem::path& log) {
+    storage::DiagnosisRecord record;
+    record.recording = recording.name;
+    record.log_file = log.string();
+    if (!log.empty()) record.log_sha256 = hash_of(log);
+    record.program_version = reports::program_version();
+    std::vector<int> runs;
+    for (const RecordedRun& run : recording.runs) runs.push_back(run.number);
+    record.runs = json_line(Data(runs));
+    record.verdict = verdict_name(diagnosis);
+    record.confidence_fraction = diagnosis.ranked.front().probability;
+    record.component = diagnosis.component;
+    record.cable_end = diagnosis.end;
+    record.position_m = diagnosis.position_m;
+    record.worst_run = diagnosis.gap.worst_run;
+    record.worst_channel = diagnosis.gap.worst_channel;
+    record.friction_ratio = diagnosis.friction_ratio;
+    record.stiffness_ratio = diagnosis.stiffness_ratio;
+    record.pretension_ratio = diagnosis.pretension_ratio;
+    record.misfit_before_ratio = diagnosis.misfit_before;
+    record.misfit_after_ratio = diagnosis.misfit_after;
+    record.independent_samples_count = diagnosis.independent_samples;
+    record.sentence = verdict_sentence(diagnosis);
+    record.gap_sentence = gap::gap_sentence(diagnosis.gap.map);
+    for (const gap::RankedEffect& each : diagnosis.ranked)
+        record.effects.push_back({each.effect, each.probability});
+    for (const gap::FittedCause& each : diagnosis.causes) record.causes.push_back(cause_record(each));
+    for (const gap::CandidateScore& each : diagnosis.candidates) {
+        record.candidates.push_back({json_line(Data(each.effects)), json_line(Data(each.variants)),
+                                     static_cast<int>(each.open_numbers), each.misfit, each.nominal_penalty,
+                                     json_line(Data(each.visibility)), each.evidence});
+    }
+    for (const gap::ChannelGap& each : diagnosis.gap.channels)
+        record.channels.push_back(channel_record(each));
+    for (const gap::GapFraction& each : diagnosis.gap.map)
+        record.gap.push_back({each.by, each.name, each.fraction, each.low, each.high, each.of_samples});
+    return record;
+}
+
+}  // namespace capstan::answers

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/answers/recording_answers.h"
+
+namespace capstan::answers {
+
+namespace {
+
+using estimate::ChannelSet;
+using estimate::LeftOutChannel;
+using estimate::ModelTrust;
+using estimate::SensedCable;
+using estimate::SensedRun;
+using estimate::TrackedSample;
+using reports::Data;
+using reports::Table;
+
+// Of all curves together, so that the page stays below 3 MB.
+constexpr std::size_t drawn_samples = 15000;
+constexpr double two_sided_95 = 1.959964;
+
+Table estimate_table() {
+    return {"estimate",
+            "Readings, estimates and bands",
+            {"run", "channel", "time_s", "read_N", "estimate_N", "low_N", "high_N"},
+            {}};
+}
+
+// What the estimator that reads `used` says at the places of `drawn`.
+void draw(Table& table, const SensedCable& cable, const ChannelSet& used, const ChannelSet& drawn,
+          const ModelTrust& trust, double widening, const estimate::TrackingOptions& options,
+          std::size_t limit) {
+    CableSpecification specification = cable.specification;
+    specification.pretension_N = cable.runs.front().pretension_N;
+    const Cable cut(specification);
+    track(cable, used, trust, options, [&](const TrackedSample& at) {
+        const SensedRun& run = cable.runs[at.run];
+        if (at.sample % reports::drawn_every(run.time_s.size(), limit) != 0) return;
+        for (const std::size_t channel : drawn) {
+            const estimate::SensedChannel& sensed = cable.channels[channel];
+            const auto moments = at.estimator.at(spot_at(cut, sensed.position_m));
+            const double half_N =
+                std::hypot(estimate::band_N(moments, widening), two_sided_95 * sensed.noise_N);
+            table.rows.push_back({std::int64_t{run.number},
+                                  fmt::format("{} at {:.3f} m [N]", sensed.name, sensed.position_m),
+                                  run.time_s[at.sample], run.reading_N[channel][at.sample], moments.mean_N,
+                                  moments.mean_N - half_N, moments.mean_N + half_N});
+        }
+    });
+}
+
+Data trust_data(const ModelTrust& trust) {
+    return {{"wander_m", trust.wander_m}, {"error_ratio", trust.error_ratio}};
+}
+
+Data channel_data(const SensedCable& cable, const LeftOutChannel& result) {
+    const estimate::SensedChannel& channel = cable.channels[result.channel];
+    return {{"channel", channel.name},
+            {"cable", cable.name},
+            {"position_m", channel.position_m},
+            {"noise_N", channel.noise_N},
+            {"rms_N", result.rms_N},
+            {"coverage", result.coverage},
+            {"mean_band_N", result.mean_band_N},
+            {"coverage_without_widening", result.plain_coverage},
+            {"model_alone_rms_N", result.model_alone_rms_N},
+            {"paper_mean_rms_N", result.paper_mean_rms_N},
+            {"paper_mean_r_rms_N", result.paper_mean_r_rms_N},
+            {"trust", trust_data(result.trust)},
+            {"unverified_fraction", result.unverified_fraction},
+            {"widening", result.widening_known ? Data(result.widening) : Data()}};
+}
+
+reports::Answer answer_about(const Recording& recording) {
+    reports::Answer answer;
+    answer.id = "estimate";
+    answer.kind = "Tension estimated from a recording";
+    answer.title = recording.name;
+    return answer;
+}
+
+}  // namespace
+
+reports::Answer left_out_answer(const Recording& recording, const std::vector<LeftOutCable>& results,
+                                const estimate::TrackingOptions& options, Figures figures) {
+    reports::Answer answer = answer_about(recording);
+    answer.values = {{"case", recording.name}, {"channels", Data::list()}};
+    Table drawn = estimate_table();
+    std::size_t curves = 0;
+    for (const LeftOutCable& cable : results) curves += cable.channels.size() * cable.cable->runs.size();
+    double min_coverage = 1.0;
+    bool all_widened = true;
+    for (const LeftOutCable& cable : results) {
+        for (const LeftOutChannel& result : cable.channels) {
+            const std::size_t one[] = {result.channel};
+            if (figures == Figures::drawn)
+                draw(drawn, *cable.cable, all_but(*cable.cable, one), {result.channel}, result.trust,
+                     result.widening, options, drawn_samples / std::max<std::size_t>(1, curves));
+            min_coverage = std::min(min_coverage, result.coverage);
+            all_widened = all_widened && result.widening_known;
+            answer.values["channels"].push_back(channel_data(*cable.cable, result));
+        }
+    }
+    answer.headline = fmt::format(
+        "each channel predicted from the others ({} samples at {:g} Hz). The 95% band holds at least {:.1f}% of the "
+        "readings of every channel.",
+        recording.samples(), recording.sample_rate_Hz, 1e2 * min_coverage);
+    answer.sections = {
+        {.id = "runs",
+         .heading = "Channels predicted without themselves",
+         .tables = {{"channels",
+                     "",
+                     {{"channel", "channel"},
+                      {"position_m", "place", "m", ".3f"},
+                      {"noise_N", "noise", "N", ".3f"},
+                      {"rms_N", "error", "N", ".3f"},
+                      {"coverage", "in band", "", ".1%"},
+                      {"mean_band_N", "half width", "N", ".3f"},
+                      {"coverage_without_widening", "unwidened", "", ".1%"},
+                      {"model_alone_rms_N", "model", "N", ".3f"},
+                      {"paper_mean_rms_N", "Mean", "N", ".3f"},
+                      {"paper_mean_r_rms_N", "Mean-R", "N", ".3f"}},
+                     answer.values["channels"]}},
+         .note =
+             "Noise: standard deviation of one sample. Error: RMS of reading minus prediction, noise included. In "
+             "band: fraction of readings within the 95% band, whose mean half width follows; unwidened: the same "
+             "without the model error that predicting the other channels shows. Model: RMS of the model alone, "
+             "which reads nothing. Mean, Mean-R: the paper's estimators, each step from their own last "
+             "estimate; they give no band."}};
+    if (!all_widened) {
+        answer.sections.front().note +=
+            " Some bands are not widened: with fewer than three channels on a cable, the error of the model cannot "
+            "be seen without the channel that is left out.";
+    }
+    answer.drawn = {run_table(recording), std::move(drawn)};
+    return answer;
+}
+
+reports::Answer estimate_answer(const Recording& recording, const std::vector<SensedCable>& cables,
+                                const std::vector<estimate::WholeEstimate>& estimates,
+                                const estimate::TrackingOptions& options, Figures figures) {
+    reports::Answer answer = answer_about(recording);
+    answer.headline = "the tension from all channels together, drawn where a sensor can be compared with it.";
+    answer.values = {{"case", recording.name}, {"cables", Data::list()}};
+    Table drawn = estimate_table();
+    std::size_t curves = 0;
+    for (const SensedCable& cable : cables) curves += cable.channels.size() * cable.runs.size();
+    for (std::size_t c = 0; c < cables.size(); ++c) {
+        const ChannelSet all = all_but(cables[c], {});
+        if (figures == Figures::drawn)
+            draw(drawn, cables[c], all, all, estimates[c].trust, estimates[c].widening, options,
+                 drawn_samples / std::max<std::size_t>(1, curves));
+        Data channels = Data::list();
+        for (const auto& channel : cables[c].channels) channels.push_back(channel.name);
+        answer.values["cables"].push_back(
+            {{"cable", cables[c].name},
+             {"channels", channels},
+             {"trust", trust_data(estimates[c].trust)},
+             {"wander_um", 1e6 * estimates[c].trust.wander_m},
+             {"widening", estimates[c].widening_known ? Data(estimates[c].widening) : Data()}});
+    }
+    answer.sections = {
+        {.id = "runs",
+         .heading = "Estimate from all channels",
+         .tables = {{"cables",
+                     "How far the model is trusted",
+                     {{"cable", "cable"},
+                      {"channels", "channels"},
+                      {"wander_um", "random motion of an end per sample", "um", ".3g"},
+                      {"trust.error_ratio", "model error", "", ".1%"},
+                      {"widening", "widening of the band", "", ".1%"}},
+                     answer.values["cables"]}},
+         .note =
+             "Each channel went into the estimate that is drawn over it; `--leave-out each` is the harder test."}};
+    answer.drawn = {run_table(recording), std::move(drawn)};
+    return answer;
+}
+
+}  // namespace capstan::answers

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include "capstan/answers/paper_answers.h"
+
+namespace capstan::answers {
+
+namespace {
+
+using paper::PaperRamp;
+using paper::RampRun;
+using reports::Data;
+using reports::Table;
+
+using Settings = std::vector<std::vector<RampRun>>;
+
+constexpr std::size_t drawn_samples = 600;  // of a run: every 50 ms, so that ramps keep their corners
+
+// The paper's four levels belong to a setting of as many pretensions.
+const PaperRamp* papers_level(const std::vector<RampRun>& setting, std::size_t level) {
+    return setting.size() == paper::papers_ramps().size() ? &paper::papers_ramps()[level] : nullptr;
+}
+
+Data runs_data(const Settings& runs) {
+    Data rows = Data::list();
+    for (const auto& setting : runs) {
+        for (std::size_t k = 0; k < setting.size(); ++k) {
+            const RampRun& run = setting[k];
+            Data row = {{"setting", run.setting},
+                        {"pretension_N", run.pretension_N},
+                        {"peak_load_torque_Nm", run.peak_load_torque_Nm},
+                        {"dead_width_Nm", run.dead_width_Nm},
+                        {"lost_transfer_ratio", run.lost_transfer_ratio},
+                        {"rms_to_ideal_Nm", run.rms_to_ideal_Nm},
+                        {"unsolved_steps", run.unsolved_steps}};
+            if (const PaperRamp* level = papers_level(setting, k)) {
+                row["paper"] = {{"level", level->level},
+                                {"implied_peak_load_torque_Nm", level->implied_peak_Nm()},
+                                {"rms_to_ideal_Nm", level->rms_to_ideal_Nm},
+                                {"rms_of_model_Nm", level->rms_of_model_Nm},
+                                {"fraction_of_peak", level->fraction_of_peak}};
+            }
+            rows.push_back(std::move(row));
+        }
+    }
+    return rows;
+}
+
+Table ramp_table(const Settings& runs) {
+    Table table{
+        "ramp",
+        "Exp. 1 at each pretension",
+        {"setting", "pretension_N", "time_s", "motor_torque_Nm", "load_torque_Nm", "ideal_load_torque_Nm"},
+        {}};
+    for (const auto& setting : runs) {
+        for (const RampRun& run : setting) {
+            const std::size_t every = reports::drawn_every(run.samples.size(), drawn_samples);
+            for (std::size_t k = 0; k < run.samples.size(); k += every) {
+                const paper::RampSample& now = run.samples[k];
+                table.rows.push_back({run.setting, run.pretension_N, now.time_s, now.motor_torque_Nm,
+                                      now.load_torque_Nm, now.ideal_load_torque_Nm});
+            }
+        }
+    }
+    return table;
+}
+
+// Of the setting that the paper's levels belong to.
+Table numbers_table(const std::vector<RampRun>& runs) {
+    Table table{
+        "ramp_numbers",
+        "What each pretension does to the transfer",
+        {"pretension_N", "peak_load_torque_Nm", "dead_width_Nm", "lost_transfer_ratio", "rms_to_ideal_Nm"},
+        {}};
+    for (const RampRun& run : runs) {
+        table.rows.push_back({run.pretension_N, run.peak_load_torque_Nm, run.dead_width_Nm,
+                              run.lost_transfer_ratio, run.rms_to_ideal_Nm});
+    }
+    return table;
+}
+
+Table paper_table(const std::vector<RampRun>& runs) {
+    Table table{"paper_ramp",
+                "The paper's four levels, at the pretensions fitted to them",
+                {"level", "pretension_N", "implied_peak_load_torque_Nm", "rms_to_ideal_Nm"},
+                {}};
+    for (std::size_t k = 0; k < paper::papers_ramps().size(); ++k) {
+        const PaperRamp& level = paper::papers_ramps()[k];
+        table.rows.push_back(
+            {level.level, runs[k].pretension_N, level.implied_peak_Nm(), level.rms_to_ideal_Nm});
+    }
+    return table;
+}
+
+std::string what_the_settings_are() {
+    std::string text = "The load is locked, the motor torque ramps between +-0.125 N m.";
+    for (const paper::CableSetting& setting : paper::cable_settings())
+        text += " Cable " + setting.name + ": " + setting.meaning + ".";
+    return text;
+}
+
+}  // namespace
+
+reports::Answer exp1_answer(const Settings& runs) {
+    const std::vector<RampRun>& reproducing = runs.back();
+    reports::Answer answer;
+    answer.id = "exp1";
+    answer.kind = "The paper's Exp. 1";
+    answer.title = "Torque ramps against a locked load";
+    answer.headline = fmt::format(
+        "more pretension means more friction: from {:.1f} to {:.1f} N of pretension the peak load torque falls from "
+        "{:.0f} to {:.0f} mN m, while an ideal transmission gives 650 mN m.",
+        reproducing.front().pretension_N, reproducing.back().pretension_N,
+        1e3 * reproducing.front().peak_load_torque_Nm, 1e3 * reproducing.back().peak_load_torque_Nm);
+    answer.values = {{"experiment", "exp1"}, {"runs", runs_data(runs)}};
+    answer.sections = {
+        {.id = "ramps", .heading = "Torque that reaches the load", .prose = what_the_settings_are()},
+        {.id = "pretension",
+         .heading = "Effect of the pretension",
+         .tables = {{"runs",
+                     "",
+                     {{"setting", "cable"},
+                      {"pretension_N", "pretension", "N", ".1f"},
+                      {"peak_load_torque_Nm", "peak", "N m", ".3f"},
+                      {"paper.implied_peak_load_torque_Nm", "paper's", "N m", ".3f"},
+                      {"dead_width_Nm", "dead width", "N m", ".3f"},
+                      {"lost_transfer_ratio", "lost transfer", "", ".0%"},
+                      {"rms_to_ideal_Nm", "RMS to ideal", "N m", ".3f"},
+                      {"paper.rms_to_ideal_Nm", "paper's", "N m", ".3f"},
+                      {"unsolved_steps", "unsolved steps"}},
+                     answer.values["runs"]}},
+         .note =
+             "Dead width: motor torque that passes after a reversal before the load torque changes (0.25 N m is the "
+             "complete ramp). Lost transfer: 1 - peak / 650 mN m of the ideal transmission. The paper's peaks "
+             "follow from its rms errors and their fraction of the peak; its rms to the ideal is that of its "
+             "bench, ours that of the model."}};
+    answer.drawn = {ramp_table(runs), numbers_table(reproducing), paper_table(reproducing)};
+    return answer;
+}
+
+}  // namespace capstan::answers

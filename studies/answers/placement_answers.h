@@ -1,0 +1,52 @@
+#pragma once
+// Answers to: where do the sensors go, and what would change that?
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capstan/estimate/cycle_trial.h"
+#include "capstan/placement/placement_answer.h"
+#include "capstan/reports/answer.h"
+#include "capstan/sensitivity/advice_sensitivity.h"
+#include "capstan/storage/database.h"
+#include "capstan/storage/records.h"
+
+namespace capstan::answers {
+
+/// What `capstan place` found.
+reports::Answer place_answer(const StudyPlan& plan, const PlacementAnswer& found);
+
+/// What `capstan sensitivity` found.
+reports::Answer sensitivity_answer(const StudyPlan& plan, const sensitivity::SensitivityAnswer& found);
+
+/// What a complete study concludes.
+struct Conclusions {
+    std::int64_t study_id = 0;
+    storage::StudyDescription study;
+    std::vector<storage::RecommendationRecord> recommendations;
+    std::vector<storage::PaperComparisonRecord> paper_comparison;
+};
+/// Throws storage::Error if the study is not complete.
+Conclusions read_conclusions(storage::Database& database, std::int64_t study_id);
+reports::Answer recommendation_answer(const Conclusions& conclusions);
+
+/// Whether the advice of a study changes where the true cable differs from the model; `model_id` and
+/// `truth_id` are the two studies, with the same plan but for the true cable.
+reports::Answer truth_answer(storage::Database& database, std::int64_t model_id, std::int64_t truth_id);
+
+/// Each layout of a study scored over the complete motion.
+reports::Answer cycle_answer(const StudyPlan& plan, const std::vector<estimate::CycleScore>& scores,
+                             int repetitions);
+
+/// Nodes as people count them, from 1.
+std::vector<int> from_one(std::vector<int> nodes);
+/// "2 sensors", "1 sensor".
+std::string counted(std::size_t count, const std::string& thing);
+/// A fusion method's title; its name where the catalogue does not know it.
+std::string title_of_method(const std::string& name);
+/// An estimate with its 95% interval.
+reports::Data estimate_data(const IntervalEstimate& estimate);
+
+}  // namespace capstan::answers

@@ -1,0 +1,299 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "capstan/answers/placement_answers.h"
+#include "capstan/placement/recommendation.h"
+#include "capstan/storage/error.h"
+#include "capstan/storage/statement.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::answers {
+
+namespace {
+
+using reports::Data;
+using storage::RecommendationRecord;
+using storage::StudyDescription;
+
+std::vector<std::string> labels_of(const StudyDescription& study, int set_index) {
+    std::vector<std::string> labels;
+    for (const storage::LayoutRecord& layout : study.layouts) {
+        if (layout.set_index == set_index) labels.push_back(layout.label);
+    }
+    return labels;
+}
+
+const std::vector<int>& nodes_of(const StudyDescription& study, int set_index) {
+    return study.sensor_sets[static_cast<std::size_t>(set_index)].nodes;
+}
+
+std::vector<double> places_of(const StudyDescription& study, const std::vector<int>& nodes) {
+    std::vector<double> places_m;
+    for (const int node : nodes) {
+        const std::size_t before = static_cast<std::size_t>(std::max(0, node - 2));
+        const storage::CableSegmentRecord& segment = study.cable_segments[before];
+        places_m.push_back(node == 1 ? 0.0 : segment.start_m + segment.length_m);
+    }
+    return places_m;
+}
+
+// "0 m (the motor end) and 1.8 m".
+std::string places_in_words(const StudyDescription& study, const std::vector<int>& nodes) {
+    const std::vector<double> places_m = places_of(study, nodes);
+    std::string text;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        text += k == 0 ? "" : k + 1 == nodes.size() ? " and " : ", ";
+        text += fmt::format("{:.3g} m", places_m[k]);
+        if (nodes[k] == 1) text += " (the motor end)";
+        if (nodes[k] == study.study.segments + 1) text += " (the load end)";
+    }
+    return text;
+}
+
+Data choice_data(const StudyDescription& study, int set_index, const std::string& method) {
+    const std::vector<std::string> labels = labels_of(study, set_index);
+    return {{"nodes", nodes_of(study, set_index)},
+            {"places_m", places_of(study, nodes_of(study, set_index))},
+            {"layouts", labels},
+            {"layout", fmt::format("{}", fmt::join(labels, " or "))},
+            {"method", method},
+            {"method_title", title_of_method(method)}};
+}
+
+std::string scope_title(const RecommendationRecord& record) {
+    if (record.scope == "minimax_regret") return "safe in every regime";
+    if (record.scope == "duty_cycle") return "duty cycle";
+    std::string regime = record.regime;
+    std::replace(regime.begin(), regime.end(), '_', ' ');
+    return "regime " + regime;
+}
+
+Data recommendation_data(const StudyDescription& study, const RecommendationRecord& r) {
+    Data data = {{"noise", study.noise_levels[static_cast<std::size_t>(r.noise_index)].label},
+                 {"scope", r.scope},
+                 {"scope_title", scope_title(r)}};
+    if (r.scope == "regime") data["regime"] = r.regime;
+    data["sensor_count"] = r.sensor_count;
+    data.update(choice_data(study, r.set_index, r.method));
+    data["error_N"] = r.error_N;
+    data["interval_95_N"] = Data::list({r.interval_low_N, r.interval_high_N});
+    data["error_on_search_draws_N"] = searched_error_N(r);
+    data["optimism_N"] = r.error_N - searched_error_N(r);
+    data["sentence"] = r.sentence;
+    data["best_at_each_count"] = Data::list();
+    for (const auto& count : r.counts) {
+        Data entry = {{"sensor_count", count.sensor_count}};
+        entry.update(choice_data(study, count.set_index, count.method));
+        entry["error_on_search_draws_N"] = count.error_N;
+        entry["interval_95_N"] = Data::list({count.interval_low_N, count.interval_high_N});
+        data["best_at_each_count"].push_back(std::move(entry));
+    }
+    data["indistinguishable"] = Data::list();
+    for (const auto& other : r.alternatives) {
+        Data entry = choice_data(study, other.set_index, other.method);
+        entry["difference_N"] = other.difference_N;
+        entry["interval_95_N"] = Data::list({other.interval_low_N, other.interval_high_N});
+        data["indistinguishable"].push_back(std::move(entry));
+    }
+    data["indistinguishable_count"] = r.alternatives.size();
+    return data;
+}
+
+// The first few of the equally good choices, so that a designer can pick by other reasons.
+std::string alternatives_words(const StudyDescription& study, const RecommendationRecord& r) {
+    constexpr std::size_t shown = 4;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(shown, r.alternatives.size()); ++k) {
+        const auto& other = r.alternatives[k];
+        text += fmt::format("{}{} [{}] by {}", k == 0 ? " Equally good: " : "; ",
+                            labels_of(study, other.set_index).front(),
+                            fmt::join(nodes_of(study, other.set_index), ", "), title_of_method(other.method));
+    }
+    if (r.alternatives.size() > shown)
+        text += fmt::format("; and {} more (--json lists all)", r.alternatives.size() - shown);
+    return text.empty() ? "" : text + ".";
+}
+
+Data comparison_data(const std::vector<storage::PaperComparisonRecord>& rows) {
+    Data list = Data::list();
+    for (const auto& row : rows) {
+        list.push_back({{"quantity", row.quantity},
+                        {"paper_N", row.paper_N},
+                        {"relation", row.relation},
+                        {"ours_N", row.ours_N},
+                        {"standard_error_N", row.standard_error_N},
+                        {"reason", row.reason}});
+    }
+    return list;
+}
+
+reports::AnswerSection comparison_section(const Data& rows) {
+    return {.id = "paper",
+            .heading = "The paper's numbers and ours",
+            .tables = {{"paper_comparison",
+                        "",
+                        {{"quantity", "quantity"},
+                         {"relation", ""},
+                         {"paper_N", "paper", "N", ".3g"},
+                         {"ours_N", "ours", "N", ".3f"},
+                         {"standard_error_N", "standard error", "N", ".3f"},
+                         {"reason", "reason"}},
+                        rows}}};
+}
+
+std::string headline_of(const Conclusions& conclusions) {
+    if (conclusions.recommendations.empty()) return "no recommendation was made.";
+    const RecommendationRecord& last = conclusions.recommendations.back();  // the duty cycle, the last noise
+    return fmt::format(
+        "use {}, at {}, fused by {}. Expected tension error over the duty cycle with sensor noise {}: {:.3f} N.",
+        counted(static_cast<std::size_t>(last.sensor_count), "sensor"),
+        places_in_words(conclusions.study, nodes_of(conclusions.study, last.set_index)),
+        title_of_method(last.method),
+        conclusions.study.noise_levels[static_cast<std::size_t>(last.noise_index)].label, last.error_N);
+}
+
+// ---- the advice under another truth
+
+const RecommendationRecord* same_question(const Conclusions& conclusions, const RecommendationRecord& asked) {
+    for (const RecommendationRecord& each : conclusions.recommendations) {
+        if (each.scope == asked.scope && each.regime == asked.regime && each.noise_index == asked.noise_index)
+            return &each;
+    }
+    return nullptr;
+}
+
+// Mean over a regime's instants of the error of a choice. Both studies have one plan, so that the indices
+// agree.
+double error_N(storage::Database& database, std::int64_t study_id, const RecommendationRecord& choice) {
+    storage::Statement statement(
+        database,
+        "SELECT avg(c.mean_abs_error_N) FROM cell c JOIN scenario s USING (scenario_id) "
+        "JOIN sensor_set ss USING (sensor_set_id) JOIN noise_level n USING (noise_level_id) "
+        "WHERE s.study_id = ?1 AND s.regime = ?2 AND n.noise_index = ?3 AND ss.set_index = ?4 AND c.method = ?5");
+    statement.bind_all(study_id, std::string_view(choice.regime), choice.noise_index, choice.set_index,
+                       std::string_view(choice.method));
+    statement.step();
+    return statement.get<double>(0);
+}
+
+bool is_as_good(const RecommendationRecord& best, const RecommendationRecord& given) {
+    return (best.set_index == given.set_index && best.method == given.method) ||
+           std::any_of(best.alternatives.begin(), best.alternatives.end(), [&](const auto& each) {
+               return each.set_index == given.set_index && each.method == given.method;
+           });
+}
+
+}  // namespace
+
+Conclusions read_conclusions(storage::Database& database, std::int64_t study_id) {
+    Conclusions conclusions{study_id, storage::load_study(database, study_id), {}, {}};
+    if (conclusions.study.study.status != "complete") {
+        throw storage::Error(
+            fmt::format("study {} ({}) is not complete, so it has no recommendation yet. "
+                        "`capstan study resume {} --db {}` completes it.",
+                        study_id, conclusions.study.study.name, study_id, database.path().string()));
+    }
+    conclusions.recommendations = storage::read_recommendations(database, study_id);
+    conclusions.paper_comparison = storage::read_paper_comparison(database, study_id);
+    return conclusions;
+}
+
+reports::Answer recommendation_answer(const Conclusions& conclusions) {
+    const auto& study = conclusions.study.study;
+    reports::Answer answer;
+    answer.id = "recommendation";
+    answer.kind = "Sensor placement";
+    answer.title = fmt::format("Study {} ({})", conclusions.study_id, study.name);
+    answer.headline = headline_of(conclusions);
+    answer.values = {{"study_id", conclusions.study_id},
+                     {"name", study.name},
+                     {"status", study.status},
+                     {"seed", study.seed},
+                     {"repetitions", study.repetitions},
+                     {"recommendations", Data::list()},
+                     {"paper_comparison", comparison_data(conclusions.paper_comparison)}};
+    for (const auto& each : conclusions.recommendations)
+        answer.values["recommendations"].push_back(recommendation_data(conclusions.study, each));
+    answer.sections = {{.id = "recommendations",
+                        .heading = "Recommendations",
+                        .tables = {{"recommendations",
+                                    "",
+                                    {{"noise", "noise"},
+                                     {"scope_title", "for"},
+                                     {"nodes", "nodes"},
+                                     {"layout", "layout"},
+                                     {"method_title", "method"},
+                                     {"error_N", "error", "N", ".3f"},
+                                     {"interval_95_N", "95% interval", "N", ".3f"},
+                                     {"optimism_N", "optimism", "N", "+.4f"},
+                                     {"indistinguishable_count", "equally good"}},
+                                    answer.values["recommendations"]}}}};
+    for (const auto& each : conclusions.recommendations)
+        answer.sections.push_back(
+            {.id = "sentence", .prose = each.sentence + alternatives_words(conclusions.study, each)});
+    if (!conclusions.paper_comparison.empty())
+        answer.sections.push_back(comparison_section(answer.values["paper_comparison"]));
+    return answer;
+}
+
+reports::Answer truth_answer(storage::Database& database, std::int64_t model_id, std::int64_t truth_id) {
+    const Conclusions model = read_conclusions(database, model_id);
+    const Conclusions truth = read_conclusions(database, truth_id);
+    Data rows = Data::list();
+    int changes = 0;
+    for (const RecommendationRecord& given : model.recommendations) {
+        const RecommendationRecord* best = given.scope == "regime" ? same_question(truth, given) : nullptr;
+        if (best == nullptr) continue;
+        const bool stays = is_as_good(*best, given);
+        changes += stays ? 0 : 1;
+        rows.push_back(
+            {{"noise", model.study.noise_levels[static_cast<std::size_t>(given.noise_index)].label},
+             {"regime", given.regime},
+             {"advice_stays", stays},
+             {"model",
+              {{"nodes", nodes_of(model.study, given.set_index)},
+               {"method", title_of_method(given.method)},
+               {"expected_error_N", searched_error_N(given)},
+               {"true_error_N", error_N(database, truth_id, given)}}},
+             {"truth",
+              {{"nodes", nodes_of(truth.study, best->set_index)},
+               {"method", title_of_method(best->method)},
+               {"true_error_N", searched_error_N(*best)},
+               {"error_on_independent_draws_N", best->error_N},
+               {"interval_95_N", Data::list({best->interval_low_N, best->interval_high_N})}}}});
+    }
+    reports::Answer answer;
+    answer.id = "truth";
+    answer.kind = "Advice where the true cable is not the model";
+    answer.title = model.study.study.name;
+    answer.headline =
+        changes == 0 ? "the advice stays; no other choice is significantly better with the true cable."
+                     : fmt::format("the advice changes in {} of {} cases.", changes, rows.items().size());
+    answer.values = rows;
+    answer.sections = {
+        {.id = "advice",
+         .heading = "Advice of the model and of the true cable",
+         .tables = {{"advice",
+                     "",
+                     {{"regime", "regime"},
+                      {"noise", "noise"},
+                      {"model.nodes", "advice"},
+                      {"model.method", "method"},
+                      {"model.expected_error_N", "expected", "N", ".3f"},
+                      {"model.true_error_N", "true error", "N", ".3f"},
+                      {"advice_stays", "stays"},
+                      {"truth.nodes", "best"},
+                      {"truth.method", "method"},
+                      {"truth.error_on_independent_draws_N", "error", "N", ".3f"},
+                      {"truth.interval_95_N", "95% interval", "N", ".3f"}},
+                     rows}},
+         .note =
+             "Expected: the error that the model promises. True error: of the same sensors and method with the "
+             "true cable. The advice stays where no other choice is significantly better (all comparisons "
+             "together at 95%). The last columns: the best choice with the true cable, its error on "
+             "independent draws."}};
+    return answer;
+}
+
+}  // namespace capstan::answers

@@ -1,0 +1,67 @@
+#pragma once
+// Answers to: what does a recording say of its bench?
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "capstan/duty/duty_cycle.h"
+#include "capstan/estimate/left_out.h"
+#include "capstan/gap/calibration.h"
+#include "capstan/gap/diagnosis.h"
+#include "capstan/gap/twin.h"
+#include "capstan/gap_trial/trial_score.h"
+#include "capstan/recording/recording.h"
+#include "capstan/reports/answer.h"
+#include "capstan/storage/diagnosis_records.h"
+
+namespace capstan::answers {
+
+/// The verdict of a diagnosis in one sentence.
+std::string verdict_sentence(const gap::Diagnosis& diagnosis);
+
+/// A diagnosis as the database keeps it; `log`: the file that was diagnosed, whose hash is kept.
+storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap::Diagnosis& diagnosis,
+                                          const std::filesystem::path& log = {});
+
+/// A diagnosis from what the database keeps of it. The samples are not kept, so that it has no curves.
+reports::Answer stored_diagnosis_answer(const storage::DiagnosisRecord& diagnosis);
+
+/// A diagnosis with the curves of the recording and the experiment that would decide what it left open.
+reports::Answer diagnosis_answer(const Recording& recording, const gap::Diagnosis& diagnosis);
+
+/// Measured channels, the model without and with the cause, residuals and loops.
+std::vector<reports::Table> diagnosis_curves(const Recording& recording, const gap::Diagnosis& diagnosis);
+
+reports::Answer calibration_answer(const Recording& recording, const gap::Calibration& calibration);
+
+/// How often the drive was in each motion regime.
+reports::Answer duty_answer(const Recording& recording, const duty::DutyCycle& duty);
+
+/// Whether the curves of an answer are computed: only its page shows them.
+enum class Figures { none, drawn };
+
+/// The channels of one cable that were predicted without themselves.
+struct LeftOutCable {
+    const estimate::SensedCable* cable = nullptr;
+    std::vector<estimate::LeftOutChannel> channels;
+};
+reports::Answer left_out_answer(const Recording& recording, const std::vector<LeftOutCable>& results,
+                                const estimate::TrackingOptions& options, Figures figures);
+
+/// The tension estimated from all channels together, one estimate for each cable.
+reports::Answer estimate_answer(const Recording& recording, const std::vector<estimate::SensedCable>& cables,
+                                const std::vector<estimate::WholeEstimate>& estimates,
+                                const estimate::TrackingOptions& options, Figures figures);
+
+/// A recording beside its model; `modelled`: one for each run.
+reports::Answer recording_answer(const Recording& recording, const std::vector<gap::TwinRun>& modelled);
+
+/// How a blind trial of the diagnosis ended.
+reports::Answer trial_score_answer(const gap_trial::TrialOptions& options, const std::string& seal,
+                                   const gap_trial::TrialScore& score);
+
+/// The runs of a recording, for a page that draws figures for each run.
+reports::Table run_table(const Recording& recording);
+
+}  // namespace capstan::answers

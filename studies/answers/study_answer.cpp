@@ -1,0 +1,224 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "capstan/answers/placement_answers.h"
+#include "capstan/answers/study_answers.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::answers {
+
+namespace {
+
+using reports::Data;
+using storage::StudyDescription;
+
+Data scenarios_data(const StudyDescription& study) {
+    Data rows = Data::list();
+    for (std::size_t k = 0; k < study.scenarios.size(); ++k) {
+        const auto& scenario = study.scenarios[k];
+        rows.push_back({{"scenario", k + 1},
+                        {"regime", scenario.regime},
+                        {"sample", scenario.sample},
+                        {"time_s", scenario.time_s},
+                        {"motion", scenario.motion}});
+    }
+    return rows;
+}
+
+Data noise_data(const StudyDescription& study) {
+    Data rows = Data::list();
+    for (std::size_t k = 0; k < study.noise_levels.size(); ++k) {
+        const auto& level = study.noise_levels[k];
+        rows.push_back({{"noise", k + 1},
+                        {"label", level.label},
+                        {"multiplicative_ratio", level.multiplicative_ratio},
+                        {"additive_N", level.additive_N},
+                        {"bias_N", level.bias_N},
+                        {"quantisation_N", level.quantisation_N},
+                        {"range_N", level.range_N}});
+    }
+    return rows;
+}
+
+std::string description_of(const StudyDescription& study) {
+    double length_m = 0.0;
+    double wrap_rad = 0.0;
+    for (const auto& segment : study.cable_segments) {
+        length_m += segment.length_m;
+        wrap_rad += segment.wrap_angle_rad;
+    }
+    std::string methods;
+    for (const auto& method : study.fusion_methods) methods += (methods.empty() ? "" : ", ") + method.title;
+    return fmt::format(
+        "Cable: {:.4g} m in {} segments with {:.4g} rad of wrap, nodes 1 to {}. Draws: {}, seed {}. Layouts: {}, with "
+        "{} different sets of sensors. Methods: {}. Program: capstan {}.",
+        length_m, study.study.segments, wrap_rad, study.study.segments + 1,
+        counted(static_cast<std::size_t>(study.study.repetitions), "repetition"), study.study.seed,
+        study.layouts.size(), study.sensor_sets.size(), methods, study.study.program_version);
+}
+
+}  // namespace
+
+reports::Answer study_answer(storage::Database& database, std::int64_t study_id) {
+    const StudyDescription study = storage::load_study(database, study_id);
+    const std::size_t units = study.work_units.size();
+    const std::size_t done = units - storage::pending_units(database, study_id).size();
+    const auto& head = study.study;
+    Data methods = Data::list();
+    for (const auto& method : study.fusion_methods) methods.push_back(method.method);
+    reports::Answer answer;
+    answer.id = "study_description";
+    answer.kind = "A stored study";
+    answer.title = fmt::format("Study {} ({})", study_id, head.name);
+    answer.headline = fmt::format("{}, {} of {} units.", head.status, done, units);
+    answer.values = {{"study_id", study_id},
+                     {"name", head.name},
+                     {"status", head.status},
+                     {"units_done", done},
+                     {"units", units},
+                     {"program_version", head.program_version},
+                     {"seed", head.seed},
+                     {"repetitions", head.repetitions},
+                     {"segments", head.segments},
+                     {"layouts", study.layouts.size()},
+                     {"sensor_sets", study.sensor_sets.size()},
+                     {"methods", methods},
+                     {"scenarios", scenarios_data(study)},
+                     {"noise_levels", noise_data(study)},
+                     {"config_toml", head.config_toml}};
+    answer.sections = {
+        {.id = "description", .prose = description_of(study)},
+        {.id = "scenarios",
+         .heading = "Instants (scenarios)",
+         .tables = {{"scenarios",
+                     "",
+                     {{"scenario", "number"},
+                      {"regime", "regime"},
+                      {"sample", "sample"},
+                      {"time_s", "time", "s", ".3f"},
+                      {"motion", "motor end moves"}},
+                     answer.values["scenarios"]}}},
+        {.id = "noise",
+         .heading = "Noise levels",
+         .tables =
+             {{"noise_levels", "", {{"noise", "number"}, {"label", "label"}}, answer.values["noise_levels"]}},
+         .note = head.status == "complete"
+                     ? fmt::format("`capstan recommend {0}` prints its recommendations; `capstan study "
+                                   "show {0} --config` prints its configuration.",
+                                   study_id)
+                     : fmt::format("`capstan study resume {0}` completes it.", study_id)}};
+    return answer;
+}
+
+reports::Answer cost_answer(const std::string& name, const StudyCost& cost,
+                            const std::vector<StudyPlan>& plans, int shards) {
+    const double sharded_s = cost.processor_s_with(plans, shards);
+    constexpr double hour_s = 3600.0;
+    reports::Answer answer;
+    answer.id = "cost";
+    answer.kind = "Estimated cost of a study";
+    answer.title = name;
+    answer.headline =
+        fmt::format("one run takes {:.3g} core-hours on this machine.", cost.processor_s / hour_s);
+    answer.values = {{"name", name},
+                     {"studies", cost.studies},
+                     {"parts", cost.parts},
+                     {"cells", cost.cells},
+                     {"repetitions", cost.repetitions},
+                     {"readings", cost.readings},
+                     {"one_run_core_hours", cost.processor_s / hour_s},
+                     {"shards", shards},
+                     {"core_hours", sharded_s / hour_s},
+                     {"shard_s", sharded_s / shards},
+                     {"shard_preparation_s", cost.shard_preparation_s},
+                     {"parts_solved_again", parts_solved_again(plans, shards)},
+                     {"median_half_width_N", cost.median_half_width_N},
+                     {"largest_half_width_N", cost.largest_half_width_N},
+                     {"pilot_parts", cost.pilot_parts},
+                     {"pilot_repetitions", cost.pilot_repetitions}};
+    Data rows = Data::list();
+    const auto add = [&](const char* quantity, Data value, const char* unit) {
+        rows.push_back({{"quantity", quantity}, {"value", std::move(value)}, {"unit", unit}});
+    };
+    add("studies", cost.studies, "");
+    add("parts (instants times noise levels): the largest number of shards", cost.parts, "");
+    add("cells", cost.cells, "");
+    add("repetitions of each", cost.repetitions, "");
+    add("readings", cost.readings, "");
+    add("one run", cost.processor_s / hour_s, "core-hours");
+    add("number of shards", shards, "");
+    add("all shards together", sharded_s / hour_s, "core-hours");
+    add("each shard", sharded_s / shards, "s");
+    add("of it preparation", cost.shard_preparation_s, "s");
+    add("half width of a cell's 95% interval, median", cost.median_half_width_N, "N");
+    add("half width of a cell's 95% interval, largest", cost.largest_half_width_N, "N");
+    answer.sections = {
+        {.id = "cost",
+         .heading = "Size and cost",
+         .tables = {{"cost",
+                     "",
+                     {{"quantity", "quantity"}, {"value", "value", "", ".3g"}, {"unit", "unit"}},
+                     rows}},
+         .note = fmt::format("Predicted from {} parts, timed with {} repetitions each.", cost.pilot_parts,
+                             cost.pilot_repetitions)}};
+    return answer;
+}
+
+reports::Answer replay_answer(const Replay& replayed, const storage::ScenarioRecord& scenario,
+                              const std::string& noise, std::int64_t repetition) {
+    reports::Answer answer;
+    answer.id = "replay";
+    answer.kind = "One repetition of a study";
+    answer.title = fmt::format("Repetition {}", repetition);
+    answer.headline = fmt::format("sample {} ({}), noise {}.", scenario.sample, scenario.regime, noise);
+    answer.values = {
+        {"true_tension_N", replayed.true_tension_N}, {"sensors", Data::list()}, {"estimates", Data::list()}};
+    for (const ReplayedSensor& sensor : replayed.sensors) {
+        double error_N = 0.0;
+        for (std::size_t node = 0; node < sensor.tension_N.size(); ++node) {
+            error_N += std::abs(sensor.tension_N[node] - replayed.true_tension_N[node]) /
+                       static_cast<double>(sensor.tension_N.size());
+        }
+        answer.values["sensors"].push_back(
+            {{"node", sensor.node + 1},
+             {"true_N", replayed.true_tension_N[static_cast<std::size_t>(sensor.node)]},
+             {"reading_N", sensor.reading_N},
+             {"error_N", error_N},
+             {"verifying_patterns", sensor.verifying_patterns},
+             {"directions", sensor.directions},
+             {"tension_N", sensor.tension_N}});
+    }
+    for (const ReplayedEstimate& estimate : replayed.estimates) {
+        answer.values["estimates"].push_back({{"layout", estimate.layout},
+                                              {"nodes", from_one(estimate.nodes)},
+                                              {"method", estimate.method},
+                                              {"mean_abs_error_N", estimate.mean_abs_error_N},
+                                              {"tension_N", estimate.tension_N}});
+    }
+    answer.sections = {
+        {.id = "sensors",
+         .heading = "Each sensor alone, direction unknown",
+         .tables = {{"sensors",
+                     "",
+                     {{"node", "node"},
+                      {"true_N", "true tension", "N", ".3f"},
+                      {"reading_N", "reading", "N", ".3f"},
+                      {"error_N", "error", "N", ".3f"},
+                      {"directions", "directions"},
+                      {"verifying_patterns", "patterns that verify"}},
+                     answer.values["sensors"]}},
+         .note = "Directions of the segments: + towards the load, - towards the motor, 0 at rest."},
+        {.id = "estimates",
+         .heading = "Fused",
+         .tables = {{"estimates",
+                     "",
+                     {{"layout", "layout"},
+                      {"nodes", "nodes"},
+                      {"method", "method"},
+                      {"mean_abs_error_N", "error", "N", ".4f"}},
+                     answer.values["estimates"]}}}};
+    return answer;
+}
+
+}  // namespace capstan::answers

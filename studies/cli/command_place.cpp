@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "capstan/answers/placement_answers.h"
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/noise_option.h"
+#include "capstan/cli/output.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/config/plan_checks.h"
+#include "capstan/duty/duty_cycle.h"
+#include "capstan/placement/sensor_placement.h"
+#include "capstan/platform/standard_streams.h"
+#include "capstan/recording/recording_reader.h"
+
+namespace capstan::cli {
+
+namespace {
+
+// Duty shares out of a recording, in place of the configuration's.
+void take_duty(const Invocation& invocation, StudyPlan& plan) {
+    duty::DutyOptions options;
+    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    const duty::DutyCycle duty = duty::measure_duty(read_recording(invocation.text("duty")), options);
+    const double elsewhere = duty::use_duty(duty, plan);
+    std::string fractions;
+    for (const RegimeInstants& regime : plan.regimes) {
+        fractions += fmt::format("{}{} {:.1f} %", fractions.empty() ? "" : ", ", name_of(regime.regime),
+                                 100.0 * regime.duty_fraction);
+    }
+    std::string message = fmt::format("duty cycle from {}: {}", invocation.text("duty"), fractions);
+    if (elsewhere > 0.0005)
+        message +=
+            fmt::format("; {:.1f} % of the moving time is in regimes that the configuration does not have",
+                        100.0 * elsewhere);
+    say(message);
+}
+
+ExitCode run(const Invocation& invocation) {
+    config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
+    if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
+    if (invocation.has("repetitions"))
+        config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
+    if (invocation.has("duty")) take_duty(invocation, config.plan);
+    config::require_runnable(config);
+    PlacementOptions options;
+    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    options.noise_index = noise_index_of(config.plan, invocation);
+    options.runners_up = static_cast<int>(invocation.integer("runners-up"));
+    if (invocation.has("until-resolved")) options.resolve_to_N = invocation.number("until-resolved");
+    options.on_progress = [](const std::string& message) { say(message); };
+    const PlacementAnswer answer = place_sensors(config.plan, options);
+    if (invocation.has("stats")) {
+        say(fmt::format(
+            "wall time: {:.2f} s to score {} candidates, {:.2f} s on independent draws, {:.2f} s in all",
+            answer.times.score_s, answer.candidates, answer.times.fresh_s, answer.times.wall_s));
+    }
+    deliver_answer(invocation, answers::place_answer(config.plan, answer));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command place_command() {
+    return {
+        .name = "place",
+        .summary = "Search all layouts for the best ones, under constraints.",
+        .description =
+            "Scores every set of nodes with every fusion method of CONFIG on the same draws, and says for each number of "
+            "sensors which nodes are best, what error they leave, and how far the paper's families, greedy choices and the "
+            "D-optimal one are from it: in each motion regime, to be safe in every regime, and over the duty cycle. The "
+            "best of many looks better than it is, so its error is estimated again on independent draws. The section "
+            "[placement] of CONFIG says what is allowed and which error counts.",
+        .arguments = {config_argument},
+        .options =
+            {noise_option,
+             {.name = "runners-up",
+              .kind = OptionKind::integer,
+              .value = "N",
+              .meaning = "How many of the next best layouts --json lists.",
+              .default_value = "3",
+              .low = 0,
+              .high = 1000},
+             {.name = "duty",
+              .kind = OptionKind::string,
+              .value = "LOG",
+              .meaning =
+                  "Take the duty cycle from this recording instead of the configuration's duty_fraction."},
+             {.name = "until-resolved",
+              .kind = OptionKind::number,
+              .value = "N",
+              .meaning =
+                  "Draw more repetitions until, with 95 % certainty, no layout is better than the best of its count by more "
+                  "than this, in newtons.",
+              .low = 1e-6,
+              .high = 1e6},
+             seed_option,
+             repetitions_option,
+             jobs_option,
+             output_option,
+             page_option,
+             json_option,
+             stats_option,
+             help_option},
+        .examples = {"capstan place configs/paper.toml",
+                     "capstan place configs/paper.toml --html place.html -o place.txt",
+                     "capstan place my.toml --until-resolved 0.005",
+                     "capstan place my.toml --json | jq .scopes[0].counts"},
+        .run = run};
+}
+
+}  // namespace capstan::cli

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "capstan/answers/placement_answers.h"
+#include "capstan/cli/commands.h"
+#include "capstan/cli/common_options.h"
+#include "capstan/cli/noise_option.h"
+#include "capstan/cli/output.h"
+#include "capstan/config/config_studies.h"
+#include "capstan/config/plan_checks.h"
+
+namespace capstan::cli {
+
+namespace {
+
+ExitCode run(const Invocation& invocation) {
+    config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
+    if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
+    if (invocation.has("sensors"))
+        config.plan.sensitivity.sensors = static_cast<int>(invocation.integer("sensors"));
+    config::require_runnable(config);
+    sensitivity::SensitivityOptions options;
+    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    options.noise_index = noise_index_of(config.plan, invocation);
+    const auto answer = sensitivity::advice_sensitivity(config.plan, options);
+    deliver_answer(invocation, answers::sensitivity_answer(config.plan, answer));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command sensitivity_command() {
+    return {
+        .name = "sensitivity",
+        .summary = "Ask which uncertain parameter would change the advice, and at what value.",
+        .description =
+            "Friction, curvature, stiffness, pretension and noise are never known exactly. For one number of sensors "
+            "this says how much each of them, within the range that [sensitivity] of CONFIG gives it, changes what "
+            "the best layout is worth (a Morris screening of all at once), how much the advice at the configured "
+            "values then loses against the best layout there, and at what value of each parameter alone another "
+            "layout becomes better. All sets of parameters share their draws; an instant that leaves its motion "
+            "regime is replaced by the nearest sample that is in it.",
+        .arguments = {config_argument},
+        .options = {noise_option,
+                    {.name = "sensors",
+                     .kind = OptionKind::integer,
+                     .value = "N",
+                     .meaning =
+                         "The number of sensors that the advice is for, instead of the configuration's.",
+                     .low = 1,
+                     .high = 64},
+                    seed_option,
+                    jobs_option,
+                    output_option,
+                    page_option,
+                    json_option,
+                    help_option},
+        .examples = {"capstan sensitivity configs/paper.toml",
+                     "capstan sensitivity my.toml --sensors 2 --html advice.html",
+                     "capstan sensitivity my.toml --json | jq '.parameters[] | {name, flips_above}'"},
+        .run = run};
+}
+
+}  // namespace capstan::cli

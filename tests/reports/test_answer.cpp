@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "capstan/reports/answer.h"
+
+namespace capstan::reports {
+namespace {
+
+// A page with one of the two figures' tables of the comparison of solvers.
+Answer page_of(const std::string& title) {
+    Answer page;
+    page.id = "solver";
+    page.kind = "Test";
+    page.title = title;
+    page.headline = "One sentence.";
+    page.values["rates"].push_back({{"what", title}, {"count", 3}, {"interval", Data::list({0.25, 0.5})}});
+    page.sections = {{"rates",
+                      "Rates",
+                      "Words.",
+                      {{"numbers",
+                        "Numbers",
+                        {{"what", "What"}, {"count", "How many"}, {"interval", "Between", "N", ".2f"}},
+                        *page.values.find("rates")}},
+                      ""},
+                     {"agreement", "Agreement", "Words.", {}, ""}};
+    page.drawn = {
+        {"solver_rate", "Rates", {"solver", "segments", "steps_per_s"}, {{title, std::int64_t{1}, 2.0}}},
+        {"control_rate", "Paper", {"segments", "steps_per_s", "label"}, {{std::int64_t{40}, 1e3, "paper"}}},
+        {"agreement", "Nothing", {"motion", "segments", "largest_difference_N"}, {}}};
+    return page;
+}
+
+bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(AnswerPage, ShowsNumbersBesideTheFiguresOfItsSection) {
+    const std::string html = answer_html(page_of("Solvers"));
+    EXPECT_LT(html.find("<table class=\"numbers\">"), html.find("<figure id=\"figure-rate\""));
+    EXPECT_TRUE(holds(html, "default-src 'none'"));
+    EXPECT_LT(html.size(), 3'000'000U);
+}
+
+TEST(AnswerPage, LeavesOutFiguresWithoutRowsAndSectionsWithoutFigures) {
+    const std::string html = answer_html(page_of("Solvers"));
+    EXPECT_FALSE(holds(html, "id=\"figure-agreement\""));
+    EXPECT_FALSE(holds(html, "<section id=\"agreement\""));
+    EXPECT_FALSE(holds(html, "href=\"#agreement\""));
+}
+
+TEST(AnswerPage, CarriesNoFigureOfAnotherPage) {
+    EXPECT_FALSE(holds(answer_html(page_of("Solvers")), "\"error_by_count\""));
+}
+
+TEST(AnswerPage, EscapesHostileTexts) {
+    const std::string html = answer_html(page_of("</script><script>alert(1)</script>"));
+    EXPECT_FALSE(holds(html, "<script>alert"));
+    EXPECT_TRUE(holds(html, "&lt;script&gt;alert"));
+}
+
+TEST(Answer, TextShowsUnitsIntervalsAndTheHeadlineFirst) {
+    const std::string text = answer_text(page_of("Solvers"));
+    EXPECT_TRUE(text.starts_with("Solvers: One sentence.\n"));
+    EXPECT_TRUE(holds(text, "Between [N]"));
+    EXPECT_TRUE(holds(text, "0.25 to 0.50"));
+}
+
+TEST(Answer, CsvHasEveryValueOfEveryTableInFullPrecision) {
+    const std::string csv = answer_csv(page_of("A, B"));
+    EXPECT_TRUE(csv.starts_with("table,row,column,value,unit"));
+    EXPECT_TRUE(holds(csv, "numbers,1,what,\"A, B\","));
+    EXPECT_TRUE(holds(csv, "numbers,1,interval,\"[0.25,0.5]\",N"));
+}
+
+TEST(Answer, MarkdownEscapesWhatWouldEndATable) {
+    EXPECT_TRUE(holds(answer_markdown(page_of("a|b")), "a\\|b"));
+}
+
+TEST(Answer, JsonIsTheTreeOfValuesAndANumberThatIsNotFiniteIsNull) {
+    Answer answer = page_of("Solvers");
+    answer.values["error_N"] = std::nan("");
+    EXPECT_TRUE(holds(answer_json(answer), "\"error_N\": null"));
+    EXPECT_TRUE(holds(answer_json(answer), "\"count\": 3"));
+}
+
+TEST(Data, FindsByPathAndKeepsTheOrderOfNames) {
+    const Data data = {{"b", Data{{"x", 1.5}}}, {"a", true}};
+    ASSERT_NE(data.find("b.x"), nullptr);
+    EXPECT_EQ(*data.find("b.x")->number(), 1.5);
+    EXPECT_EQ(data.find("b.y"), nullptr);
+    EXPECT_EQ(json_line(data), R"({"b":{"x":1.5},"a":true})");
+}
+
+TEST(DrawnEvery, NeverDrawsMoreThanTheLimit) {
+    EXPECT_EQ(drawn_every(100, 100), 1u);
+    EXPECT_EQ(drawn_every(101, 100), 2u);
+    for (std::size_t samples = 1; samples < 500; ++samples) {
+        const std::size_t every = drawn_every(samples, 30);
+        EXPECT_LE((samples + every - 1) / every, 30u) << samples;
+    }
+}
+
+}  // namespace
+}  // namespace capstan::reports
