@@ -7,7 +7,6 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/usage_error.h"
 #include "capstan/cluster/slurm_queue.h"
-#include "capstan/cluster/slurm_scripts.h"
 #include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
 
