@@ -1,4 +1,4 @@
-#include "capstan/recording/number_table.h"
+#include "capstan/recording/csv_numbers.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 }
 
 // The numbers of one line; false, with the reason noted, if it does not hold one per column.
-bool numbers_of(std::string_view line, const NumberTable& table, const std::string& place,
+bool numbers_of(std::string_view line, const CsvNumbers& table, const std::string& place,
                 ProblemList& problems, std::vector<double>& numbers) {
     const std::vector<std::string_view> fields = fields_of(line);
     if (fields.size() != table.columns.size()) {
@@ -67,9 +67,9 @@ std::string file_text(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-NumberTable read_number_table(const std::filesystem::path& path, ProblemList& problems) {
+CsvNumbers read_csv_numbers(const std::filesystem::path& path, ProblemList& problems) {
     const std::string text = file_text(path);
-    NumberTable table;
+    CsvNumbers table;
     std::vector<double> numbers;
     std::string_view rest = text;
     for (std::size_t line_number = 1; !rest.empty(); ++line_number) {

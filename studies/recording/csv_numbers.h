@@ -9,7 +9,7 @@
 namespace capstan {
 
 /// A CSV file of numbers under one head line.
-struct NumberTable {
+struct CsvNumbers {
     std::vector<std::string> columns;
     std::vector<std::vector<double>> values;  // columns x rows
 
@@ -20,9 +20,9 @@ struct NumberTable {
 
 /// Reads such a file; what is wrong with a line goes into `problems` with the line's number, and the line is
 /// left out. Throws InvalidInput if the file cannot be read at all.
-NumberTable read_number_table(const std::filesystem::path& path, ProblemList& problems);
+CsvNumbers read_csv_numbers(const std::filesystem::path& path, ProblemList& problems);
 
-/// The whole text of a file. Throws InvalidInput if it cannot be read.
+/// The complete text of a file. Throws InvalidInput if it cannot be read.
 std::string file_text(const std::filesystem::path& path);
 
 }  // namespace capstan
