@@ -1,6 +1,6 @@
 #pragma once
 
-#include "capstan/placement/placement_answer.h"
+#include "capstan/search/placement_answer.h"
 #include "capstan/plan/study_plan.h"
 #include "capstan/reports/experiment_page.h"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "capstan/placement/placement_answer.h"
+#include "capstan/search/placement_answer.h"
 #include "capstan/plan/study_plan.h"
 
 namespace capstan::cli {

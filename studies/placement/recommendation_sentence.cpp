@@ -1,5 +1,3 @@
-#include "capstan/placement/recommendation_sentence.h"
-
 #include <algorithm>
 #include <cmath>
 

@@ -60,14 +60,14 @@ storage::CellRecord cell(int set_index, const std::string& method, double error_
     return record;
 }
 
-// Fresh draws of the hand-made kind: every error is larger by this.
-constexpr double luck_N = 0.003;
+// On the hand-made independent draws every error is larger by this.
+constexpr double optimism_N = 0.003;
 
-std::vector<PlacementCandidate> less_lucky(int, std::vector<PlacementCandidate> chosen) {
+std::vector<PlacementCandidate> independent_errors(int, std::vector<PlacementCandidate> chosen) {
     for (PlacementCandidate& candidate : chosen) {
-        for (double& error_N : candidate.error_N) error_N += luck_N;
+        for (double& error_N : candidate.error_N) error_N += optimism_N;
         for (auto& scenario_N : candidate.block_error_N) {
-            for (double& block_N : scenario_N) block_N += luck_N;
+            for (double& block_N : scenario_N) block_N += optimism_N;
         }
     }
     return chosen;
@@ -85,7 +85,7 @@ std::vector<storage::RecommendationRecord> recommended() {
         }
         storage::write_fusion(study.database(), id, scenario, result);
     }
-    return recommend(study.database(), id, {0.02}, less_lucky);
+    return recommend(study.database(), id, {0.02}, independent_errors);
 }
 
 storage::RecommendationRecord find(const std::string& scope, const std::string& regime) {
@@ -96,16 +96,16 @@ storage::RecommendationRecord find(const std::string& scope, const std::string& 
     return {};
 }
 
-TEST(Recommendation, AnswersEachRegimeAndBothWaysOfWeighingThem) {
+TEST(Recommendation, CoversEachRegimeMinimaxRegretAndDutyCycle) {
     EXPECT_EQ(recommended().size(), 4u);
 }
 
-TEST(Recommendation, StopsAtTheCountWhereTheGainFlattens) {
+TEST(Recommendation, RecommendsTheCountWhereTheGainFlattens) {
     const auto mass = find("regime", "mass");
     EXPECT_EQ(mass.sensor_count, 2);
     EXPECT_EQ(mass.set_index, 2);
     EXPECT_EQ(mass.method, "w_mean") << "a method that is told the direction is no choice";
-    EXPECT_DOUBLE_EQ(mass.error_N, 0.5 + luck_N) << "of the fresh draws";
+    EXPECT_DOUBLE_EQ(mass.error_N, 0.5 + optimism_N) << "of the independent draws";
     EXPECT_DOUBLE_EQ(searched_error_N(mass), 0.5);
     // Student's t with 39 degrees of freedom; 40 equally spaced blocks.
     const double standard_error_N = 0.001 * std::sqrt(40.0 * 41.0 / 12.0 / 40.0);
@@ -125,7 +125,7 @@ TEST(Recommendation, StopsAtTheCountWhereTheGainFlattens) {
 }
 
 // Nodes 10 and 11 are 0.002 N behind, with a standard error of the difference of about 0.003 N.
-TEST(Recommendation, NamesWhatCannotBeToldFromIt) {
+TEST(Recommendation, ListsAlternativesThatAreNotSignificantlyWorse) {
     const auto mass = find("regime", "mass");
     ASSERT_EQ(mass.alternatives.size(), 1u);
     EXPECT_EQ(mass.alternatives[0].set_index, 3);
@@ -135,7 +135,7 @@ TEST(Recommendation, NamesWhatCannotBeToldFromIt) {
 }
 
 // Regrets: mass 0.505, 1.505, 0.005, 0.007, 0; partial 0.3, 0, 0.2, 0.7, 0.195.
-TEST(Recommendation, MinimaxRegretTakesTheSmallestOfTheLargest) {
+TEST(Recommendation, MinimaxRegretMinimisesTheLargestRegret) {
     const auto safe = find("minimax_regret", "");
     EXPECT_EQ(safe.set_index, 2);
     EXPECT_NEAR(safe.error_N, 0.2, 1e-12);
@@ -144,10 +144,10 @@ TEST(Recommendation, MinimaxRegretTakesTheSmallestOfTheLargest) {
     EXPECT_NEAR(safe.counts[2].error_N, 0.195, 1e-12);
 }
 
-TEST(Recommendation, TheDutyCycleWeighsRegimesByTheirTime) {
+TEST(Recommendation, DutyCycleWeightsRegimesByTheirTime) {
     const auto duty = find("duty_cycle", "");
     EXPECT_EQ(duty.set_index, 2);
-    EXPECT_NEAR(duty.error_N, 0.75 * 0.5 + 0.25 * 0.4 + luck_N, 1e-12);
+    EXPECT_NEAR(duty.error_N, 0.75 * 0.5 + 0.25 * 0.4 + optimism_N, 1e-12);
 }
 
 TEST(Recommendation, TheSentenceNamesNodesMethodAndInterval) {
