@@ -40,7 +40,7 @@ struct MotionPattern {
     friend bool operator==(const MotionPattern&, const MotionPattern&) = default;
 };
 
-/// Direction in which segment `segment` (from 0, of `segments`) slides along its whole length; `none` for a
+/// Direction in which segment `segment` (from 0, of `segments`) slides along its complete length; `none` for a
 /// segment at rest, next to a resting node, or holding the zero-velocity point.
 constexpr Direction segment_direction(const MotionPattern& pattern, int segment, int segments) {
     if (pattern.kind == MotionKind::slack) return Direction::none;

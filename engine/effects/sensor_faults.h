@@ -5,7 +5,7 @@
 
 namespace capstan {
 
-/// What a faulty sensor or its wiring makes of a true signal (E36), in this order: hysteresis, lag, delay,
+/// What a faulty sensor or its wiring makes of a true signal, in this order: hysteresis, lag, delay,
 /// gain, offset, quantisation. By default the sensor has no fault.
 struct SensorFaults {
     double hysteresis = 0.0;  ///< half the width of the loop that the reading makes of a slow cycle

@@ -8,7 +8,7 @@
 namespace capstan {
 
 /// The median direction of each segment over several estimates (paper Sec. II.C). With an even number of
-/// estimates the median can fall between two directions; such a segment is `undecided` and nobody agrees
+/// estimates the median can fall between two directions; such a segment is `undecided` and no estimate agrees
 /// there.
 struct DirectionConsensus {
     DirectionBits directions{};

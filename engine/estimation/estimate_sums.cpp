@@ -1,5 +1,5 @@
 // Where a study with the paper's methods spends its time, so it runs on whatever SIMD the processor has
-// (Highway, chosen at run time). Profiles are padded to whole groups of nodes; each node's sum keeps its
+// (Highway, chosen at run time). Profiles are padded to complete groups of nodes; each node's sum keeps its
 // order and there is no fused multiply-add, so every processor gives the same bits.
 #include "capstan/estimation/estimate_sums.h"
 

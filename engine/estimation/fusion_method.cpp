@@ -15,12 +15,9 @@ std::string_view name_of(Knowledge knowledge) {
 }
 
 const std::vector<FusionMethod>& fusion_methods() {
-    static const std::vector<FusionMethod> methods = {
-        mean_known_direction,   mean_method,
-        mean_r_method,          weighted_mean_method,
-        weighted_mean_r_method, maximum_likelihood_method,
-        posterior_mean_method,
-    };
+#define CAPSTAN_LIST(method) method,
+    static const std::vector<FusionMethod> methods = {CAPSTAN_FUSION_METHODS(CAPSTAN_LIST)};
+#undef CAPSTAN_LIST
     return methods;
 }
 

@@ -11,8 +11,12 @@ void fuse(const FusionInput& input, std::span<double> tension_N) {
 }  // namespace
 
 const FusionMethod maximum_likelihood_method = {
-    "maximum_likelihood",      "Maximum likelihood",
-    Knowledge::feasible_curve, "the feasible state under which the readings are most likely",
-    "capstan (E10, E11)",      fuse};
+    .name = "maximum_likelihood",
+    .title = "Maximum likelihood",
+    .knowledge = Knowledge::feasible_curve,
+    .meaning = "the feasible state under which the readings are most likely",
+    .source = "capstan (E10, E11)",
+    .fuse = fuse,
+};
 
 }  // namespace capstan

@@ -10,11 +10,14 @@ void fuse(const FusionInput& input, std::span<double> tension_N) {
 
 }  // namespace
 
-const FusionMethod mean_method = {"mean",
-                                  "Mean",
-                                  Knowledge::direction_unknown,
-                                  "average of the single-sensor estimates",
-                                  "paper Sec. II.C.2",
-                                  fuse};
+const FusionMethod mean_method = {
+    .name = "mean",
+    .title = "Mean",
+    .knowledge = Knowledge::direction_unknown,
+    .meaning = "average of the single-sensor estimates",
+    .source = "paper Sec. II.C.2",
+    .fuse = fuse,
+    .averaging = Averaging{},
+};
 
 }  // namespace capstan

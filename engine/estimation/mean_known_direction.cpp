@@ -20,11 +20,12 @@ void fuse(const FusionInput& input, std::span<double> tension_N) {
 }  // namespace
 
 const FusionMethod mean_known_direction = {
-    "mean_known",
-    "Mean, direction known",
-    Knowledge::direction_known,
-    "average of the single-sensor estimates under the true direction of every segment",
-    "paper Sec. II.C.1",
-    fuse};
+    .name = "mean_known",
+    .title = "Mean, direction known",
+    .knowledge = Knowledge::direction_known,
+    .meaning = "average of the single-sensor estimates under the true direction of every segment",
+    .source = "paper Sec. II.C.1",
+    .fuse = fuse,
+};
 
 }  // namespace capstan

@@ -18,11 +18,13 @@ void fuse(const FusionInput& input, std::span<double> tension_N) {
 }  // namespace
 
 const FusionMethod mean_r_method = {
-    "mean_r",
-    "Mean-R",
-    Knowledge::direction_unknown,
-    "average, at each node, of the estimates that agree there with the median direction",
-    "paper Sec. II.C.2",
-    fuse};
+    .name = "mean_r",
+    .title = "Mean-R",
+    .knowledge = Knowledge::direction_unknown,
+    .meaning = "average, at each node, of the estimates that agree there with the median direction",
+    .source = "paper Sec. II.C.2",
+    .fuse = fuse,
+    .averaging = Averaging{.disagreeing = Averaging::Disagreeing::left_out},
+};
 
 }  // namespace capstan

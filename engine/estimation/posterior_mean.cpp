@@ -11,11 +11,12 @@ void fuse(const FusionInput& input, std::span<double> tension_N) {
 }  // namespace
 
 const FusionMethod posterior_mean_method = {
-    "posterior_mean",
-    "Posterior mean",
-    Knowledge::feasible_curve,
-    "the mean of all feasible states, each weighted by how likely it makes the readings",
-    "capstan (E10-E12)",
-    fuse};
+    .name = "posterior_mean",
+    .title = "Posterior mean",
+    .knowledge = Knowledge::feasible_curve,
+    .meaning = "the mean of all feasible states, each weighted by how likely it makes the readings",
+    .source = "capstan (E10-E12)",
+    .fuse = fuse,
+};
 
 }  // namespace capstan

@@ -82,7 +82,7 @@ RecursiveEstimator::RecursiveEstimator(const QuasiStaticStep& model, const Cable
 RecursiveReport RecursiveEstimator::step(const KnownEnds& ends, std::span<const TensionReading> readings) {
     bool finite = std::isfinite(ends.proximal_displacement_m) && std::isfinite(ends.distal_displacement_m);
     for (const TensionReading& reading : readings) finite = finite && std::isfinite(reading.value_N);
-    if (!finite) throw InvalidInput({"recursive estimator: an input of this step is no finite number"});
+    if (!finite) throw InvalidInput({"recursive estimator: an input of this step is not a finite number"});
     for (const TensionReading& reading : readings) {
         if (reading.spot.node < 0 || reading.spot.node >= model_.cable().segments())
             throw InvalidInput({"recursive estimator: a sensor beyond the cable; its nodes are 0 to " +

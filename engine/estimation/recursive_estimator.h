@@ -9,7 +9,7 @@
 
 namespace capstan {
 
-/// What is known of both ends at a sample. Where nobody measured the distal end, let it stay where it was:
+/// What is known of both ends at a sample. Where the distal end is not measured, let it stay where it was:
 /// the wander then stands for all it does.
 struct KnownEnds {
     double proximal_displacement_m = 0.0;
@@ -17,7 +17,7 @@ struct KnownEnds {
 };
 
 /// By how much each end moves in one step beyond what is known of it: standard deviations of independent
-/// normal increments (E36). They stand for motion that nobody measured and for a model that is not quite
+/// normal increments (E36). They stand for unmeasured motion and for a model that is not quite
 /// right.
 struct EndWander {
     double proximal_m = 0.0;
@@ -54,7 +54,7 @@ class RecursiveEstimator {
                        const RecursiveSettings& settings);
 
     /// One sample later. Readings may be none. Allocates nothing. Throws InvalidInput if a displacement or a
-    /// reading is no finite number or a sensor sits beyond the cable; the estimate is then unchanged.
+    /// reading is not a finite number or a sensor sits beyond the cable; the estimate is then unchanged.
     RecursiveReport step(const KnownEnds& ends, std::span<const TensionReading> readings);
 
     std::span<const double> mean_N() const { return mean_N_; }            ///< nodes: posterior mean

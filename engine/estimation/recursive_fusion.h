@@ -18,7 +18,7 @@ struct NodeReading {
 /// The paper's estimators over time: every step starts from the step before's own fused estimate, as a device
 /// would have to, not from the true state as in the paper's Sec. III.C. With one sensor this is its
 /// single-sensor estimate. Displacements are fused as tensions are, and the median direction of the sensors
-/// is the pattern that is tried first in the next step. Where no pattern verifies the whole state stays.
+/// is the pattern that is tried first in the next step. Where no pattern verifies the complete state stays.
 class RecursiveFusion {
   public:
     /// `model` must outlive it. `method` must be one that votes on an unknown direction without weights

@@ -10,7 +10,7 @@ namespace capstan {
 
 inline constexpr int max_estimated_nodes = max_estimated_segments + 1;
 
-/// Profiles are stored in whole groups of this many nodes.
+/// Profiles are stored in complete groups of this many nodes.
 inline constexpr int profile_group = 4;
 constexpr int padded_nodes(int nodes) {
     return (nodes + profile_group - 1) / profile_group * profile_group;

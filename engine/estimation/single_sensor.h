@@ -30,7 +30,7 @@ enum class DistalSide { excluded, admitted };
 ///
 /// The previous pattern is tried first, then the others by Hamming distance from it; the first that verifies
 /// is the estimate. A reading at a moving node takes the place of the boundary condition E3; a pattern in
-/// which the sensor's node rests would leave the reading unused, so it is no candidate. When none verifies
+/// which the sensor's node rests would leave the reading unused, so it is not a candidate. When none verifies
 /// the estimate is the previous state.
 class SingleSensorEstimator {
   public:

@@ -11,11 +11,14 @@ void fuse(const FusionInput& input, std::span<double> tension_N) {
 }  // namespace
 
 const FusionMethod weighted_mean_method = {
-    "w_mean",
-    "W Mean",
-    Knowledge::direction_unknown,
-    "average of the single-sensor estimates, each weighted by 1 / its sensor's mean error",
-    "paper Sec. II.C.2",
-    fuse};
+    .name = "w_mean",
+    .title = "W Mean",
+    .knowledge = Knowledge::direction_unknown,
+    .meaning = "average of the single-sensor estimates, each weighted by 1 / its sensor's mean error",
+    .source = "paper Sec. II.C.2",
+    .fuse = fuse,
+    .uses_weights = true,
+    .averaging = Averaging{.weights = Averaging::Weights::by_error},
+};
 
 }  // namespace capstan

@@ -18,13 +18,19 @@ void fuse(const FusionInput& input, std::span<double> tension_N) {
 
 }  // namespace
 
-const FusionMethod weighted_mean_r_method = {"w_mean_r",
-                                             "W Mean-R",
-                                             Knowledge::direction_unknown,
-                                             "as W Mean, leaving out at each node the estimates that "
-                                             "disagree with the median direction, without sharing "
-                                             "out their weight",
-                                             "paper Sec. II.C.2",
-                                             fuse};
+const FusionMethod weighted_mean_r_method = {
+    .name = "w_mean_r",
+    .title = "W Mean-R",
+    .knowledge = Knowledge::direction_unknown,
+    .meaning =
+        "as W Mean, leaving out at each node the estimates that "
+        "disagree with the median direction, without sharing "
+        "out their weight",
+    .source = "paper Sec. II.C.2",
+    .fuse = fuse,
+    .uses_weights = true,
+    .averaging = Averaging{.weights = Averaging::Weights::by_error,
+                           .disagreeing = Averaging::Disagreeing::left_out_unshared},
+};
 
 }  // namespace capstan

@@ -36,7 +36,7 @@ class PatternSolver {
 };
 
 /// The paper's iteration (Sec. II.B): assume a pattern, starting from the previous one; solve; check; assume
-/// the next. Order of the patterns as in engine/README.md, "How a step finds its pattern", but a whole linear
+/// the next. Order of the patterns as in engine/README.md, "How a step finds its pattern", but a complete linear
 /// system for each. Leaves `state` alone if none verifies.
 ReferenceReport advance_by_assumption(PatternSolver& solver, const CableConstants& cable, CableState& state,
                                       const EndConditions& ends);

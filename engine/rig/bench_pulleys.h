@@ -5,7 +5,7 @@
 
 namespace capstan {
 
-/// What moves a bench in one step. A torque at both pulleys moves nothing definite; a single cable's load
+/// What moves a bench in one step. A torque at both pulleys determines no motion; a single cable's load
 /// end is held at a LoadAngle.
 struct BenchInputs {
     MotorInput motor;

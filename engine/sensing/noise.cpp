@@ -9,7 +9,7 @@ namespace capstan {
 
 double reading_deviation_N(const NoiseLevel& noise, double tension_N) {
     const double multiplicative_N = noise.multiplicative_ratio * tension_N;
-    // Rounding errs evenly over a step, which has a variance of a twelfth of its square.
+    // The rounding error is uniform over a step, which has a variance of a twelfth of its square.
     return std::sqrt(multiplicative_N * multiplicative_N + noise.additive_N * noise.additive_N +
                      noise.bias_N * noise.bias_N + noise.quantisation_N * noise.quantisation_N / 12.0);
 }

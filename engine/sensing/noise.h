@@ -6,9 +6,9 @@
 
 namespace capstan {
 
-/// How a tension sensor errs (E9), as its data sheet says: reading = T (1 + multiplicative_ratio e1) +
+/// The error of a tension sensor (E9), as its data sheet says: reading = T (1 + multiplicative_ratio e1) +
 /// additive_N e2 + bias_N e3, all e standard normal; e3 belongs to the sensor and is the same at every
-/// instant of a repetition. The reading is then rounded to whole steps of the converter and ends at the
+/// instant of a repetition. The reading is then rounded to multiples of the step of the converter and ends at the
 /// range.
 struct NoiseLevel {
     double multiplicative_ratio = 0.0;

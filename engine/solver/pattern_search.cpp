@@ -53,7 +53,7 @@ std::optional<Candidate> instead_of_mass(const StepView& view, const EndConditio
 }
 
 // The first candidate did not verify: a remembered front can be too far on, and the ends' own increments can
-// mislead about the whole.
+// mislead about the complete pattern.
 std::optional<Candidate> another_that_verifies(const StepView& view, const EndConditions& ends,
                                                const Sides& sides, int& patterns_tried) {
     if (auto held = instead_of_mass(view, ends, sides, patterns_tried)) return held;

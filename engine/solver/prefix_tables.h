@@ -10,7 +10,7 @@
 
 namespace capstan {
 
-/// A whole number of SIMD vectors lies in a cache line, if the first one begins there.
+/// An integer number of SIMD vectors lies in a cache line, if the first one begins there.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;

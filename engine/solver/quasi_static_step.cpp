@@ -27,7 +27,7 @@ namespace {
 QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
     : cable_(cable), rules_(rules), tables_(cable_, rules) {}
 
-// Nearly every step takes the first pattern thought of: two sides that do not meet, or mass motion where they
+// Nearly every step takes the first candidate pattern: two sides that do not meet, or mass motion where they
 // do. That way is laid out in one piece and writes as soon as it knows; any other begins anew with the
 // search.
 [[gnu::flatten]] StepReport QuasiStaticStep::advance(CableState& state, const EndConditions& ends) const {

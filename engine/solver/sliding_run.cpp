@@ -1,4 +1,4 @@
-// The two loops over nodes are the whole cost of a step on a long cable, so they run on whatever SIMD the
+// The two loops over nodes are almost all the cost of a step on a long cable, so they run on whatever SIMD the
 // processor has (Highway, chosen at run time). No fused multiply-add and no sum in them: the same bits on
 // every processor.
 #include "capstan/solver/sliding_run.h"
@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::ScalableTag<double>;
 
-// Calls `at(node)` for whole vectors of the run, four in a row where it is long. The last one overlaps the
+// Calls `at(node)` for complete vectors of the run, four in a row where it is long. The last one overlaps the
 // one before instead of leaving single nodes over. False if the run is shorter than a vector.
 template <class AtVector>
 HWY_INLINE bool for_each_vector(const SlidingRun& run, AtVector&& at) {

@@ -11,6 +11,7 @@
 #include "capstan/plan/true_motion.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/recording/driven_inputs.h"
+#include "capstan/rig/channel_names.h"
 #include "capstan/solver/pull_pull.h"
 
 namespace capstan::duty {
@@ -96,15 +97,15 @@ class RunClassifier {
                 return channel(inputs, name)[static_cast<std::size_t>(sample)];
             };
             PullPullInputs ends;
-            if (run.drives("motor_angle")) {
-                ends.motor = MotorAngle{at("motor_angle")};
+            if (run.drives(channel::motor_angle)) {
+                ends.motor = MotorAngle{at(channel::motor_angle)};
             } else {
-                ends.motor = MotorTorque{at("motor_torque")};
+                ends.motor = MotorTorque{at(channel::motor_torque)};
             }
-            if (run.drives("load_angle")) {
-                ends.load = LoadAngle{at("load_angle")};
+            if (run.drives(channel::load_angle)) {
+                ends.load = LoadAngle{at(channel::load_angle)};
             } else {
-                ends.load = LoadTorque{at("load_torque")};
+                ends.load = LoadTorque{at(channel::load_torque)};
             }
             const PullPullState before = state;
             motion.unsolved_steps += !pair.advance(state, ends).solved();
@@ -118,7 +119,7 @@ class RunClassifier {
     RunMotion single_cable(const RecordedRun& run) const {
         const QuasiStaticStep step(cable(run), ModelRules::consistent());
         const DrivenInputs inputs = driven_inputs(recording_, run);
-        const std::vector<double>& motor_angle_rad = channel(inputs, "motor_angle");
+        const std::vector<double>& motor_angle_rad = channel(inputs, channel::motor_angle);
         RunMotion motion;
         CableState state = pretensioned(step.cable());
         const double rest_m = state.displacement_m.front();

@@ -8,6 +8,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/recording/driven_inputs.h"
 #include "capstan/recording/estimated_noise.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::estimate {
 
@@ -41,10 +42,10 @@ void demand_what_it_takes(const Recording& recording) {
             "single_cable with nominal values",
             recording.name));
     }
-    if (!recording.channel("motor_angle"))
+    if (!recording.channel(channel::motor_angle))
         problems.push_back(
             fmt::format("{}: nobody measured motor_angle, which moves the cable's near end", recording.name));
-    if (recording.mode == BenchMode::pull_pull && !recording.channel("load_angle"))
+    if (recording.mode == BenchMode::pull_pull && !recording.channel(channel::load_angle))
         problems.push_back(
             fmt::format("{}: nobody measured load_angle, which moves the cable's far end", recording.name));
     for (const RecordedRun& run : recording.runs) {
@@ -71,8 +72,9 @@ std::vector<Source> sources_of(const Recording& recording, CableName cable) {
         return recording.channel(name) && std::none_of(recording.runs.begin(), recording.runs.end(),
                                                        [&](const auto& run) { return run.drives(name); });
     };
-    if (free_everywhere("motor_torque")) add("motor_torque", 0.0, 1.0 / bench.motor_radius_m);
-    if (free_everywhere("load_torque")) add("load_torque", length_of(bench), 1.0 / bench.load_radius_m);
+    if (free_everywhere(channel::motor_torque)) add(channel::motor_torque, 0.0, 1.0 / bench.motor_radius_m);
+    if (free_everywhere(channel::load_torque))
+        add(channel::load_torque, length_of(bench), 1.0 / bench.load_radius_m);
     return sources;
 }
 
@@ -90,10 +92,10 @@ std::vector<KnownEnds> ends_of(const Recording& recording, const RecordedRun& ru
     const NominalBench& bench = *recording.nominal;
     const double side = name == CableName::a ? 1.0 : -1.0;  // E15
     const CableState rest = pretensioned(cable);
-    const std::vector<double> motor_rad = angle_of(recording, run, "motor_angle");
+    const std::vector<double> motor_rad = angle_of(recording, run, channel::motor_angle);
     const bool far_end_moves = recording.mode == BenchMode::pull_pull;
-    const std::vector<double> load_rad =
-        far_end_moves ? angle_of(recording, run, "load_angle") : std::vector<double>(run.time_s.size(), 0.0);
+    const std::vector<double> load_rad = far_end_moves ? angle_of(recording, run, channel::load_angle)
+                                                       : std::vector<double>(run.time_s.size(), 0.0);
     std::vector<KnownEnds> ends;
     for (std::size_t k = 0; k < run.time_s.size(); ++k) {
         ends.push_back({rest.displacement_m.front() - side * bench.motor_radius_m * motor_rad[k],

@@ -6,6 +6,7 @@
 
 #include "capstan/effects/effect_catalogue.h"
 #include "capstan/effects/known_causes.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
 
@@ -254,7 +255,7 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
     }
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
-        if (!ever_predicted(recording, name) || name == "load_angle") continue;
+        if (!ever_predicted(recording, name) || name == channel::load_angle) continue;
         for (CandidateCause& cause :
              sensor_causes(name, span_of(recording, channel), 1.0 / recording.sample_rate_Hz,
                            unstated_step(recording, channel)))

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
 
@@ -34,14 +35,13 @@ void demand_motion(const Recording& recording) {
                             ": the geometry of this bench is not known; effects can be told apart on "
                             "pull_pull and single_cable benches"});
     for (const RecordedRun& run : recording.runs) {
-        const bool motor = run.drives("motor_angle") || run.drives("motor_torque");
-        const bool load =
-            run.drives("load_angle") || (run.drives("load_torque") && run.drives("motor_angle"));
+        const bool motor = run.drives(channel::motor_angle) || run.drives(channel::motor_torque);
+        const bool load = run.drives(channel::load_angle) ||
+                          (run.drives(channel::load_torque) && run.drives(channel::motor_angle));
         if (!motor || (recording.mode == BenchMode::pull_pull && !load))
             throw InvalidInput(
                 {recording.name + ": run " + std::to_string(run.number) +
-                 ": the driven channels determine no motion; drive motor_torque or motor_angle, and "
-                 "load_angle"});
+                 ": the driven channels determine no motion; drive motor_torque or motor_angle, and load_angle"});
     }
 }
 
@@ -120,15 +120,15 @@ BenchInputs EffectsTwin::inputs_at(std::size_t run_index, int sample, int step_s
     };
     BenchInputs step{MotorAngle{0.0}, LoadAngle{0.0}, step_samples / recording_.sample_rate_Hz,
                      run.session_start_s + run.time_s[static_cast<std::size_t>(sample)]};
-    if (run.drives("motor_angle")) {
-        step.motor = MotorAngle{given("motor_angle")};
+    if (run.drives(channel::motor_angle)) {
+        step.motor = MotorAngle{given(channel::motor_angle)};
     } else {
-        step.motor = MotorTorque{given("motor_torque")};
+        step.motor = MotorTorque{given(channel::motor_torque)};
     }
-    if (run.drives("load_angle")) {
-        step.load = LoadAngle{given("load_angle")};
-    } else if (run.drives("load_torque")) {
-        step.load = LoadTorque{given("load_torque")};
+    if (run.drives(channel::load_angle)) {
+        step.load = LoadAngle{given(channel::load_angle)};
+    } else if (run.drives(channel::load_torque)) {
+        step.load = LoadTorque{given(channel::load_torque)};
     }
     return step;
 }
@@ -144,10 +144,11 @@ std::vector<EffectsTwin::Reader> EffectsTwin::readers_of(const RecordedRun& run)
                                    return (benches.pulleys(bench).*value)();
                                }});
         };
-        if (name == "motor_torque") of_pulleys(&BenchPulleys::motor_torque_Nm);
-        if (name == "motor_angle") of_pulleys(&BenchPulleys::motor_angle_rad);
-        if (name == "load_torque") of_pulleys(&BenchPulleys::load_torque_Nm);
-        if (name == "load_angle" && !run.drives("load_angle") && run.drives("load_torque"))
+        if (name == channel::motor_torque) of_pulleys(&BenchPulleys::motor_torque_Nm);
+        if (name == channel::motor_angle) of_pulleys(&BenchPulleys::motor_angle_rad);
+        if (name == channel::load_torque) of_pulleys(&BenchPulleys::load_torque_Nm);
+        if (name == channel::load_angle && !run.drives(channel::load_angle) &&
+            run.drives(channel::load_torque))
             of_pulleys(&BenchPulleys::load_angle_rad);
     }
     for (const TensionSensor& sensor : recording_.tension_sensors) {

@@ -7,6 +7,7 @@
 #include "capstan/gap/calibration.h"
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/lumped_drive.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
 
@@ -82,24 +83,25 @@ Recording bench_of_drive(const Recording& recording, const Recording& fitted_to)
 
     Recording bench = recording;
     bench.mode = BenchMode::pull_pull;
-    bench.channels = {scaled_channel(recording, "motor_torque", "motor_torque", "N m", 1.0),
-                      scaled_channel(recording, "motor_angle", "motor_angle", "rad", 1.0),
-                      scaled_channel(recording, "load_angle", "load_angle", "rad", 1.0),
-                      scaled_channel(recording, "load_torque", "load_torque", "N m", 1.0)};
+    bench.channels = {scaled_channel(recording, channel::motor_torque, channel::motor_torque, "N m", 1.0),
+                      scaled_channel(recording, channel::motor_angle, channel::motor_angle, "rad", 1.0),
+                      scaled_channel(recording, channel::load_angle, channel::load_angle, "rad", 1.0),
+                      scaled_channel(recording, channel::load_torque, channel::load_torque, "N m", 1.0)};
     bench.nominal = bench_with(exponent, stiffness_Nm_per_rad / (motor_radius_m * motor_radius_m) * length_m,
                                motor_radius_m * speed_ratio);
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
-        const std::vector<double>& motor_rad = samples(recording, run, "motor_angle");
+        const std::vector<double>& motor_rad = samples(recording, run, channel::motor_angle);
         bench.runs[run].pretension_N = pretension_Nm / motor_radius_m;
-        bench.runs[run].driven = {"motor_angle", "load_torque"};
+        bench.runs[run].driven = {channel::motor_angle, channel::load_torque};
         bench.runs[run].values = {
-            scaled(samples(recording, run, "motor_torque"), orientation.motor_torque_sign),
-            scaled(motor_rad, 1.0, -motor_rad.front()), scaled(samples(recording, run, "load_angle"), way),
-            scaled(samples(recording, run, "load_torque"), orientation.load_torque_sign)};
+            scaled(samples(recording, run, channel::motor_torque), orientation.motor_torque_sign),
+            scaled(motor_rad, 1.0, -motor_rad.front()),
+            scaled(samples(recording, run, channel::load_angle), way),
+            scaled(samples(recording, run, channel::load_torque), orientation.load_torque_sign)};
     }
     // Where a run's load angle counts from is not known: its mean is the model's.
     const EffectsTwin twin(bench, {});
-    const auto load_angle = static_cast<std::size_t>(*bench.channel("load_angle"));
+    const auto load_angle = static_cast<std::size_t>(*bench.channel(channel::load_angle));
     for (std::size_t run = 0; run < bench.runs.size(); ++run) {
         std::vector<double>& measured = bench.runs[run].values[load_angle];
         measured = scaled(measured, 1.0, mean_of(twin.run(run, {}).values[load_angle]) - mean_of(measured));
@@ -156,17 +158,18 @@ Recording bench_of_band(const Recording& recording, const Recording& fitted_to) 
     const auto as_bench = [&](const Recording& of) {
         Recording bench = of;
         bench.mode = BenchMode::single_cable;
-        bench.channels = {scaled_channel(of, "tension_1", "motor_torque", "N m", motor_radius_m),
-                          scaled_channel(of, "displacement", "motor_angle", "rad", 1.0 / motor_radius_m),
-                          scaled_channel(of, "displacement", "load_angle", "rad", 1.0 / motor_radius_m),
-                          scaled_channel(of, "tension_2", "load_torque", "N m", motor_radius_m)};
+        bench.channels = {
+            scaled_channel(of, "tension_1", channel::motor_torque, "N m", motor_radius_m),
+            scaled_channel(of, "displacement", channel::motor_angle, "rad", 1.0 / motor_radius_m),
+            scaled_channel(of, "displacement", channel::load_angle, "rad", 1.0 / motor_radius_m),
+            scaled_channel(of, "tension_2", channel::load_torque, "N m", motor_radius_m)};
         bench.tension_sensors.clear();
         bench.nominal = bench_with(start.exponent, start.axial_stiffness_N, motor_radius_m);
         for (std::size_t run = 0; run < of.runs.size(); ++run) {
             const std::vector<double>& at_m = samples(of, run, "displacement");
             const std::vector<double> turned =
                 scaled(at_m, way / motor_radius_m, -way * at_m.front() / motor_radius_m);
-            bench.runs[run].driven = {"motor_angle", "load_angle"};
+            bench.runs[run].driven = {channel::motor_angle, channel::load_angle};
             bench.runs[run].output = OutputKind::handle;
             bench.runs[run].values = {scaled(samples(of, run, "tension_1"), motor_radius_m), turned, turned,
                                       scaled(samples(of, run, "tension_2"), motor_radius_m)};

@@ -7,6 +7,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/predicted_channels.h"
+#include "capstan/rig/channel_names.h"
 #include "capstan/solver/pull_pull.h"
 
 namespace capstan::gap {
@@ -80,10 +81,10 @@ class KnownBench : public Twin {
 class PullPullTwin final : public KnownBench {
   public:
     PullPullTwin(const Recording& recording, int segments) : KnownBench(recording, segments) {
-        demand_driven({"motor_angle", "motor_torque"});
-        demand_driven({"load_angle", "load_torque"});
+        demand_driven({channel::motor_angle, channel::motor_torque});
+        demand_driven({channel::load_angle, channel::load_torque});
         for (const RecordedRun& run : recording.runs) {
-            if (!run.drives("load_angle") && !run.drives("motor_angle"))
+            if (!run.drives(channel::load_angle) && !run.drives(channel::motor_angle))
                 throw InvalidInput(
                     {fmt::format("{}: run {}: torques at both pulleys leave the angles undetermined; "
                                  "drive load_angle or motor_angle",
@@ -95,27 +96,27 @@ class PullPullTwin final : public KnownBench {
         const PullPull pair(cable(run, values), cable(run, values),
                             {bench().motor_radius_m, bench().load_radius_m});
         const RecordedRun& recorded_run = recorded(run);
-        const bool by_motor_angle = recorded_run.drives("motor_angle");
-        const bool by_load_angle = recorded_run.drives("load_angle");
+        const bool by_motor_angle = recorded_run.drives(channel::motor_angle);
+        const bool by_load_angle = recorded_run.drives(channel::load_angle);
         PredictedChannels channels = predictions(run);
         PullPullState state = pair.at_rest();
         for (int sample = 0; sample < recorded_run.samples(); ++sample) {
             PullPullInputs inputs;
             if (by_motor_angle) {
-                inputs.motor = MotorAngle{channels.driven("motor_angle", sample)};
+                inputs.motor = MotorAngle{channels.driven(channel::motor_angle, sample)};
             } else {
-                inputs.motor = MotorTorque{channels.driven("motor_torque", sample)};
+                inputs.motor = MotorTorque{channels.driven(channel::motor_torque, sample)};
             }
             if (by_load_angle) {
-                inputs.load = LoadAngle{channels.driven("load_angle", sample)};
+                inputs.load = LoadAngle{channels.driven(channel::load_angle, sample)};
             } else {
-                inputs.load = LoadTorque{channels.driven("load_torque", sample)};
+                inputs.load = LoadTorque{channels.driven(channel::load_torque, sample)};
             }
             if (!pair.advance(state, inputs).solved()) channels.count_unsolved();
-            channels.predict("motor_torque", sample, pair.motor_torque_Nm(state));
-            channels.predict("motor_angle", sample, state.motor_angle_rad);
-            channels.predict("load_angle", sample, state.load_angle_rad);
-            channels.predict("load_torque", sample, pair.load_torque_Nm(state));
+            channels.predict(channel::motor_torque, sample, pair.motor_torque_Nm(state));
+            channels.predict(channel::motor_angle, sample, state.motor_angle_rad);
+            channels.predict(channel::load_angle, sample, state.load_angle_rad);
+            channels.predict(channel::load_torque, sample, pair.load_torque_Nm(state));
             for (const TensionSensor& sensor : recording().tension_sensors) {
                 const CableState& sensed = sensor.cable == CableName::a ? state.cable_a : state.cable_b;
                 channels.predict(sensor.channel, sample,
@@ -129,7 +130,7 @@ class PullPullTwin final : public KnownBench {
 class SingleCableTwin final : public KnownBench {
   public:
     SingleCableTwin(const Recording& recording, int segments) : KnownBench(recording, segments) {
-        demand_driven({"motor_angle"});
+        demand_driven({channel::motor_angle});
     }
 
     TwinRun run(std::size_t run, std::span<const double> values) const override {
@@ -138,12 +139,12 @@ class SingleCableTwin final : public KnownBench {
         CableState state = pretensioned(step.cable());
         const double rest_m = state.displacement_m.front();
         for (int sample = 0; sample < recorded(run).samples(); ++sample) {
-            const double reeled_in_m = bench().motor_radius_m * channels.driven("motor_angle", sample);
+            const double reeled_in_m = bench().motor_radius_m * channels.driven(channel::motor_angle, sample);
             const StepReport report = step.advance(
                 state, {EndCondition::position_m(rest_m - reeled_in_m), EndCondition::position_m(0.0)});
             if (!report.verified) channels.count_unsolved();
-            channels.predict("motor_torque", sample, bench().motor_radius_m * state.tension_N.front());
-            channels.predict("load_torque", sample, bench().load_radius_m * state.tension_N.back());
+            channels.predict(channel::motor_torque, sample, bench().motor_radius_m * state.tension_N.front());
+            channels.predict(channel::load_torque, sample, bench().load_radius_m * state.tension_N.back());
             for (const TensionSensor& sensor : recording().tension_sensors)
                 channels.predict(sensor.channel, sample,
                                  tension_at_N(step.cable(), state, sensor.position_m));

@@ -5,6 +5,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/predicted_channels.h"
+#include "capstan/rig/channel_names.h"
 #include "capstan/solver/pull_pull.h"
 
 namespace capstan::gap {
@@ -56,8 +57,8 @@ struct LoopWork {
 LoopWork loop_work(const Recording& recording) {
     LoopWork loop;
     for (const RecordedRun& run : recording.runs) {
-        const std::vector<double>& angle = samples_of(recording, run, "motor_angle");
-        const std::vector<double>& torque = samples_of(recording, run, "motor_torque");
+        const std::vector<double>& angle = samples_of(recording, run, channel::motor_angle);
+        const std::vector<double>& torque = samples_of(recording, run, channel::motor_torque);
         // Whatever is stored in a constant torque comes back; only friction's share counts.
         const double mean_torque = mean_of(torque);
         for (std::size_t sample = 1; sample < angle.size(); ++sample) {
@@ -74,8 +75,8 @@ double load_covariation(const Recording& recording) {
     std::vector<double> motor;
     std::vector<double> load;
     for (const RecordedRun& run : recording.runs) {
-        motor.push_back(mean_of(samples_of(recording, run, "motor_torque")));
-        load.push_back(mean_of(samples_of(recording, run, "load_torque")));
+        motor.push_back(mean_of(samples_of(recording, run, channel::motor_torque)));
+        load.push_back(mean_of(samples_of(recording, run, channel::load_torque)));
     }
     double sum = 0.0;
     for (std::size_t run = 0; run < motor.size(); ++run)
@@ -89,7 +90,7 @@ class LumpedDrive final : public Twin {
     explicit LumpedDrive(const Recording& recording)
         : recording_(recording), orientation_(drive_orientation(recording)) {
         for (const RecordedRun& run : recording.runs) {
-            if (!run.drives("motor_angle") || !run.drives("load_torque"))
+            if (!run.drives(channel::motor_angle) || !run.drives(channel::load_torque))
                 throw InvalidInput(
                     {recording.name + ": a lumped drive is driven by motor_angle and load_torque"});
             inputs_.push_back(driven_inputs(recording, run));
@@ -113,22 +114,23 @@ class LumpedDrive final : public Twin {
         const PullPull pair = pair_of(values);
         PredictedChannels channels(recording_, recorded, inputs_[run]);
         PullPullState state = pair.at_rest();
-        const double start_rad = channels.driven("motor_angle", 0);
+        const double start_rad = channels.driven(channel::motor_angle, 0);
         const double way = orientation_.load_per_motor_angle < 0.0 ? -1.0 : 1.0;
         std::vector<double> load_angle_rad;  // samples
         for (int sample = 0; sample < recorded.samples(); ++sample) {
-            const double torque_Nm = orientation_.load_torque_sign * channels.driven("load_torque", sample);
-            const PullPullReport report = pair.advance(
-                state,
-                {MotorAngle{channels.driven("motor_angle", sample) - start_rad}, LoadTorque{torque_Nm}});
+            const double torque_Nm =
+                orientation_.load_torque_sign * channels.driven(channel::load_torque, sample);
+            const PullPullReport report =
+                pair.advance(state, {MotorAngle{channels.driven(channel::motor_angle, sample) - start_rad},
+                                     LoadTorque{torque_Nm}});
             if (!report.solved()) channels.count_unsolved();
-            channels.predict("motor_torque", sample,
+            channels.predict(channel::motor_torque, sample,
                              orientation_.motor_torque_sign * pair.motor_torque_Nm(state));
             load_angle_rad.push_back(way * state.load_angle_rad);
         }
         const double zero_rad = load_angle_zero_rad(recorded, load_angle_rad);
         for (int sample = 0; sample < recorded.samples(); ++sample)
-            channels.predict("load_angle", sample,
+            channels.predict(channel::load_angle, sample,
                              zero_rad + load_angle_rad[static_cast<std::size_t>(sample)]);
         return channels.take();
     }
@@ -146,8 +148,8 @@ class LumpedDrive final : public Twin {
 
     // Where the load angle counts from is not known: the mean of the run is the measured one.
     double load_angle_zero_rad(const RecordedRun& recorded, const std::vector<double>& predicted_rad) const {
-        if (!recording_.channel("load_angle")) return 0.0;
-        return mean_of(samples_of(recording_, recorded, "load_angle")) - mean_of(predicted_rad);
+        if (!recording_.channel(channel::load_angle)) return 0.0;
+        return mean_of(samples_of(recording_, recorded, channel::load_angle)) - mean_of(predicted_rad);
     }
 
     const Recording& recording_;
@@ -159,14 +161,16 @@ class LumpedDrive final : public Twin {
 }  // namespace
 
 DriveOrientation drive_orientation(const Recording& recording) {
-    for (const char* channel : {"motor_angle", "motor_torque", "load_torque", "load_angle"}) {
+    for (const char* channel :
+         {channel::motor_angle, channel::motor_torque, channel::load_torque, channel::load_angle}) {
         if (!recording.channel(channel))
             throw InvalidInput({recording.name + ": a lumped drive needs the channel " + channel});
     }
     DriveOrientation orientation;
-    const double motor_motion = covariation(recording, "motor_angle", "motor_angle");
+    const double motor_motion = covariation(recording, channel::motor_angle, channel::motor_angle);
     if (motor_motion > 0.0)
-        orientation.load_per_motor_angle = covariation(recording, "motor_angle", "load_angle") / motor_motion;
+        orientation.load_per_motor_angle =
+            covariation(recording, channel::motor_angle, channel::load_angle) / motor_motion;
     const LoopWork loop = loop_work(recording);
     if (orientation.load_per_motor_angle == 0.0 || loop.work_J == 0.0)
         throw InvalidInput({recording.name +

@@ -7,6 +7,8 @@
 #include <functional>
 #include <numbers>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap {
 
 namespace {
@@ -65,10 +67,10 @@ class Planner {
     explicit Planner(const Recording& recording)
         : recording_(recording),
           two_cables_(recording.mode == BenchMode::pull_pull),
-          torque_driven_(recording.runs.front().drives("motor_torque")),
-          motor_amplitude_(torque_driven_ ? amplitude(recording, "motor_torque", usual_torque_Nm)
-                                          : amplitude(recording, "motor_angle", usual_turn_rad)),
-          load_amplitude_(amplitude(recording, "load_angle", usual_turn_rad)) {}
+          torque_driven_(recording.runs.front().drives(channel::motor_torque)),
+          motor_amplitude_(torque_driven_ ? amplitude(recording, channel::motor_torque, usual_torque_Nm)
+                                          : amplitude(recording, channel::motor_angle, usual_turn_rad)),
+          load_amplitude_(amplitude(recording, channel::load_angle, usual_turn_rad)) {}
 
     std::vector<Experiment> all() {
         const std::string what = torque_driven_ ? "motor torque" : "motor angle";
@@ -122,9 +124,9 @@ class Planner {
         for (std::size_t sample = 0; sample < samples; ++sample) {
             const double time_s = static_cast<double>(sample) / recording_.sample_rate_Hz;
             run.time_s.push_back(time_s);
-            set(run, torque_driven_ ? "motor_torque" : "motor_angle", sample,
+            set(run, torque_driven_ ? channel::motor_torque : channel::motor_angle, sample,
                 motor_amplitude_ * motor(time_s));
-            set(run, "load_angle", sample, load_amplitude_ * load(time_s));
+            set(run, channel::load_angle, sample, load_amplitude_ * load(time_s));
             hand_moves |= load(time_s) != 0.0;
         }
         run.output = hand_moves ? OutputKind::handle : OutputKind::locked;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap {
 
 namespace {
@@ -13,8 +15,8 @@ namespace {
 // stretches the cables, less where it turns with the load.
 double model_floor(const std::string& channel, bool load_is_held, double spread) {
     constexpr double turning_rad = 0.13;
-    if (channel == "motor_angle") return 0.02 * spread / (1.0 + spread / turning_rad);
-    return (channel == "load_torque" && load_is_held ? 0.02 : 0.012) * spread;
+    if (channel == channel::motor_angle) return 0.02 * spread / (1.0 + spread / turning_rad);
+    return (channel == channel::load_torque && load_is_held ? 0.02 : 0.012) * spread;
 }
 
 double standard_deviation(const std::vector<double>& values) {
@@ -29,9 +31,11 @@ double standard_deviation(const std::vector<double>& values) {
 // bench was put together. At most half the run.
 int end_of_first_loading(const Recording& recording, const RecordedRun& run) {
     constexpr double near = 0.2;  // in parts of the span
-    const bool turned = run.drives("motor_angle");
+    const bool turned = run.drives(channel::motor_angle);
     const bool locked = run.output != OutputKind::handle;
-    const auto channel = recording.channel(turned ? "motor_angle" : locked ? "motor_torque" : "load_angle");
+    const auto channel = recording.channel(turned   ? channel::motor_angle
+                                           : locked ? channel::motor_torque
+                                                    : channel::load_angle);
     if (!channel || !run.drives(recording.channels[static_cast<std::size_t>(*channel)].name)) return 0;
     const std::vector<double>& samples = run.values[static_cast<std::size_t>(*channel)];
     const auto [least, most] = std::minmax_element(samples.begin(), samples.end());

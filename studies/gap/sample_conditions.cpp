@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap {
 
 namespace {
@@ -15,7 +17,7 @@ namespace {
 // The angle that shows how a run moves: the handle's where it is moved, else the motor's.
 const std::vector<double>* moving_angle(const Recording& recording, const RecordedRun& run) {
     constexpr double moves_rad = 0.02;
-    for (const char* name : {"load_angle", "motor_angle"}) {
+    for (const char* name : {channel::load_angle, channel::motor_angle}) {
         const auto channel = recording.channel(name);
         if (!channel) continue;
         const std::vector<double>& angle = run.values[static_cast<std::size_t>(*channel)];
@@ -120,7 +122,7 @@ PerRun absolute(PerRun values) {
 // The larger tension at the motor, by the torque there.
 PerRun motor_tension_N(const Recording& recording) {
     PerRun tension;
-    const auto torque = recording.channel("motor_torque");
+    const auto torque = recording.channel(channel::motor_torque);
     for (const RecordedRun& run : recording.runs) {
         std::vector<double> samples(run.time_s.size(), run.pretension_N.value_or(0.0));
         for (std::size_t sample = 0; torque && sample < samples.size(); ++sample) {

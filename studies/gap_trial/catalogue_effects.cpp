@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "capstan/gap_trial/withheld_effect.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::gap_trial {
 
@@ -207,8 +208,9 @@ WithheldEffect environment_coupling(const EffectSetting&, TrialStream& draws) {
 
 // Of the channels that a model predicts: most often the load torque.
 std::string draw_channel(const EffectSetting& setting, TrialStream& draws) {
-    if (draws.uniform(0.0, 1.0) < 0.6) return "load_torque";
-    std::vector<std::string> others = {setting.bench.is_pair() ? "motor_angle" : "motor_torque"};
+    if (draws.uniform(0.0, 1.0) < 0.6) return channel::load_torque;
+    std::vector<std::string> others = {setting.bench.is_pair() ? channel::motor_angle
+                                                               : channel::motor_torque};
     for (const TensionSensor& sensor : setting.bench.tension_sensors) others.push_back(sensor.channel);
     return others[static_cast<std::size_t>(draws.whole(static_cast<int>(others.size())))];
 }

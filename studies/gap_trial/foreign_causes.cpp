@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "capstan/gap_trial/withheld_effect.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::gap_trial {
 
@@ -78,11 +79,11 @@ WithheldEffect pretension_dip(const EffectSetting& setting, TrialStream& draws) 
 }
 
 WithheldEffect load_torque_hum(const std::string& kind, double frequency_Hz, const EffectSetting& setting) {
-    const double span = setting.spans.at("load_torque");
+    const double span = setting.spans.at(channel::load_torque);
     WithheldEffect effect =
         foreign(kind, "amplitude_Nm", 0.02 * span, 0.5 * span, [frequency_Hz](TrueEffects& e, double size) {
-            e.sensors["load_torque"].hum = size;
-            e.sensors["load_torque"].hum_Hz = frequency_Hz;
+            e.sensors[channel::load_torque].hum = size;
+            e.sensors[channel::load_torque].hum_Hz = frequency_Hz;
         });
     effect.shape = {{"frequency_Hz", frequency_Hz}};
     effect.only_sensors = true;
@@ -98,10 +99,10 @@ WithheldEffect wander(const EffectSetting& setting, TrialStream& draws) {
 }
 
 WithheldEffect clipping(const EffectSetting& setting, TrialStream&) {
-    const double highest = 0.5 * setting.spans.at("load_torque");
+    const double highest = 0.5 * setting.spans.at(channel::load_torque);
     WithheldEffect effect =
         foreign("load_torque_clipping", "fraction_cut_off", 0.1, 0.7, [highest](TrueEffects& e, double size) {
-            if (size > 0.0) e.sensors["load_torque"].clipped_above = (1.0 - size) * highest;
+            if (size > 0.0) e.sensors[channel::load_torque].clipped_above = (1.0 - size) * highest;
         });
     effect.shape = {{"highest_Nm", highest}};
     effect.only_sensors = true;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap_trial {
 
 namespace {
@@ -62,7 +64,8 @@ double TrialBench::length_m() const {
 }
 
 std::vector<std::string> TrialBench::channels() const {
-    std::vector<std::string> names = {"motor_torque", "motor_angle", "load_angle", "load_torque"};
+    std::vector<std::string> names = {channel::motor_torque, channel::motor_angle, channel::load_angle,
+                                      channel::load_torque};
     for (const TensionSensor& sensor : tension_sensors) names.push_back(sensor.channel);
     return names;
 }
@@ -80,12 +83,13 @@ TrialBench make_trial_bench(BenchKind kind, double noise_factor, TrialStream& dr
     if (bench.is_pair()) {
         bench.nominal.rotor_inertia_kg_m2 = 8.3e-6;
         bench.nominal.load_pulley_inertia_kg_m2 = 1e-4;
-        bench.noise_std = {{"motor_torque", 3e-4},
-                           {"load_torque", kind == BenchKind::uniform_tight ? 0.02 : 0.01}};
-        bench.encoder_step = {{"motor_angle", 2.0 * std::numbers::pi / 8000}, {"load_angle", fine_count_rad}};
+        bench.noise_std = {{channel::motor_torque, 3e-4},
+                           {channel::load_torque, kind == BenchKind::uniform_tight ? 0.02 : 0.01}};
+        bench.encoder_step = {{channel::motor_angle, 2.0 * std::numbers::pi / 8000},
+                              {channel::load_angle, fine_count_rad}};
     } else {
-        bench.noise_std = {{"motor_torque", 1.5e-3}, {"load_torque", 6e-3}};
-        bench.encoder_step = {{"motor_angle", fine_count_rad}, {"load_angle", fine_count_rad}};
+        bench.noise_std = {{channel::motor_torque, 1.5e-3}, {channel::load_torque, 6e-3}};
+        bench.encoder_step = {{channel::motor_angle, fine_count_rad}, {channel::load_angle, fine_count_rad}};
     }
     const bool has_sensors = draws.whole(3) == 0 || !bench.is_pair();
     if (has_sensors) bench.tension_sensors = draw_sensors(bench.is_pair() ? 3 : 5, draws);

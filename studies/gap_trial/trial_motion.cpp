@@ -5,6 +5,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap_trial {
 
 namespace {
@@ -130,7 +132,7 @@ std::vector<double> levels(double duration_s, double highest, double every_s, do
     return along(moves, duration_s);
 }
 
-const std::vector<std::string> driven_pair = {"motor_torque", "load_angle"};
+const std::vector<std::string> driven_pair = {channel::motor_torque, channel::load_angle};
 
 TrialRun locked_run(const std::string& protocol, std::vector<double> torque_Nm, double pretension_N) {
     TrialRun run;
@@ -170,7 +172,7 @@ TrialRun single_run(const std::string& protocol, std::vector<double> angle_rad, 
     TrialRun run;
     run.protocol = protocol;
     run.pretension_N = pretension_N;
-    run.driven = {"motor_angle"};
+    run.driven = {channel::motor_angle};
     run.motor_angle_rad = std::move(angle_rad);
     return run;
 }

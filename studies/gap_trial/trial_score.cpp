@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap_trial {
 
 namespace {
@@ -260,7 +262,7 @@ TrialScore score_trial(const TrialLabels& labels, const std::vector<CaseAnswer>&
     }
     score.calibration = calibrate(cases);
     score_places(cases, score);
-    score.load_torque = shrinkage_in(cases, "load_torque");
+    score.load_torque = shrinkage_in(cases, channel::load_torque);
     score.clearest_channel = shrinkage_in(cases, "");
     return score;
 }

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap_trial {
 
 namespace {
@@ -88,7 +90,7 @@ std::string trial_table(const TrialScore& score) {
     text += reliability_rows(score.calibration);
     if (score.load_torque.cases > 0) {
         text += "\nWhat the named cause leaves of the gap (RMS, median)\n";
-        text += shrinkage_row("load_torque", score.load_torque);
+        text += shrinkage_row(channel::load_torque, score.load_torque);
         text += shrinkage_row("clearest channel", score.clearest_channel);
     }
     if (!score.unanswered.empty())
@@ -124,7 +126,7 @@ std::string trial_json(const TrialOptions& options, const std::string& seal, con
                                        {"cases", bin.cases},
                                        {"mean_probability", bin.mean_probability},
                                        {"fraction_right", bin.fraction_right}});
-    json["shrinkage"] = {{"load_torque", shrinkage_json(score.load_torque)},
+    json["shrinkage"] = {{channel::load_torque, shrinkage_json(score.load_torque)},
                          {"clearest_channel", shrinkage_json(score.clearest_channel)}};
     json["unanswered"] = score.unanswered;
     return json.dump(2) + "\n";

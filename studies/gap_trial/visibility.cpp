@@ -7,15 +7,17 @@
 #include <map>
 #include <utility>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap_trial {
 
 namespace {
 
 double floor_of(const TrialBench& bench, const TrialRun& run, const std::string& channel) {
     const bool locked = run.output == OutputKind::locked;
-    if (channel == "motor_angle") return locked ? 3e-4 : 1.5e-3;
-    if (channel == "motor_torque") return 1e-3;
-    if (channel != "load_torque") return 0.15;
+    if (channel == channel::motor_angle) return locked ? 3e-4 : 1.5e-3;
+    if (channel == channel::motor_torque) return 1e-3;
+    if (channel != channel::load_torque) return 0.15;
     if (!bench.is_pair()) return 8e-3;
     if (locked) return 4e-3;
     return bench.kind == BenchKind::uniform_tight ? 0.02 : 8e-3;
@@ -62,7 +64,7 @@ ScaledChanges scaled_changes(const TrialBench& bench, const std::vector<TrialRun
     Eigen::Index rows = 0;
     const auto for_each_series = [&](const auto& body) {
         for (std::size_t channel = 0; channel < channels.size(); ++channel) {
-            if (!bench.is_pair() && channels[channel] == "load_angle") continue;
+            if (!bench.is_pair() && channels[channel] == channel::load_angle) continue;
             for (std::size_t run = 0; run < runs.size(); ++run) {
                 if (!is_driven(runs[run], channels[channel])) body(channel, run);
             }

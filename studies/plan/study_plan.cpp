@@ -107,7 +107,8 @@ void check_sensors(const StudyPlan& plan, int nodes, Problems& problems) {
 
 bool uses_weights(const StudyPlan& plan) {
     return std::any_of(plan.fusion_methods.begin(), plan.fusion_methods.end(), [](const std::string& name) {
-        return name == weighted_mean_method.name || name == weighted_mean_r_method.name;
+        const FusionMethod* method = find_fusion_method(name);
+        return method != nullptr && method->uses_weights;
     });
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace capstan {
+#include "capstan/rig/channel_names.h"
+
+namespace capstan::gap {
 
 namespace {
 
@@ -84,7 +86,7 @@ DrivenInputs driven_inputs(const Recording& recording, const RecordedRun& run) {
         const Channel& channel = recording.channels[index];
         if (!run.drives(channel.name)) continue;
         const std::vector<double>& samples = run.values[index];
-        const bool held = channel.name == "load_angle" && run.output == OutputKind::locked;
+        const bool held = channel.name == channel::load_angle && run.output == OutputKind::locked;
         inputs.values[index] = held ? std::vector<double>(samples.size(), upper_median(samples))
                                     : smoothed(samples, sample_noise(channel));
     }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace capstan {
+#include "capstan/rig/channel_names.h"
+
+namespace capstan::gap {
 
 namespace {
 
@@ -44,7 +46,7 @@ void check_constant_channels(const Recording& recording, const std::string& plac
         const bool constant = largest_span(recording, static_cast<int>(index), OutputKind::unknown) == 0.0;
         if (is_driven(recording, name)) {
             any_input_moves |= !constant;
-        } else if (constant && name != "load_angle") {  // a lock that holds well is no fault
+        } else if (constant && name != channel::load_angle) {  // a lock that holds well is no fault
             problems.add(place,
                          fmt::format("column '{}' never changes; a sensor that is not connected? Leave the "
                                      "column out, here and in the sidecar",
@@ -69,7 +71,7 @@ std::optional<double> span_ratio(const Recording& recording, const char* first, 
 
 // A handle turns the motor pulley by the ratio of the radii, give or take what the cables stretch.
 void check_angle_units(const Recording& recording, const std::string& place, ProblemList& problems) {
-    const auto ratio = span_ratio(recording, "motor_angle", "load_angle", OutputKind::handle);
+    const auto ratio = span_ratio(recording, channel::motor_angle, channel::load_angle, OutputKind::handle);
     if (!ratio) return;
     const double expected = recording.nominal->load_radius_m / recording.nominal->motor_radius_m;
     const double off = *ratio / expected;
@@ -81,7 +83,8 @@ void check_angle_units(const Recording& recording, const std::string& place, Pro
 }
 
 void check_torque_units(const Recording& recording, const std::string& place, ProblemList& problems) {
-    const auto ratio = span_ratio(recording, "load_torque", "motor_torque", OutputKind::unknown);
+    const auto ratio =
+        span_ratio(recording, channel::load_torque, channel::motor_torque, OutputKind::unknown);
     if (!ratio) return;
     const double ideal = recording.nominal->load_radius_m / recording.nominal->motor_radius_m;
     // Friction can keep a torque from the load altogether, but nothing makes it larger than exp(mu wrap)

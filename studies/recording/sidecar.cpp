@@ -7,6 +7,7 @@
 
 #include "capstan/recording/json_file.h"
 #include "capstan/recording/json_object.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan {
 
@@ -59,10 +60,10 @@ NominalBench nominal_of(const JsonObject& nominal) {
 std::string si_unit_of(const std::string& channel) {
     static const std::map<std::string, std::string> units = {
         {"t", "s"},
-        {"motor_torque", "N m"},
-        {"load_torque", "N m"},
-        {"motor_angle", "rad"},
-        {"load_angle", "rad"},
+        {channel::motor_torque, "N m"},
+        {channel::load_torque, "N m"},
+        {channel::motor_angle, "rad"},
+        {channel::load_angle, "rad"},
         {"displacement", "m"},
         {"velocity", "m/s"},
         {"friction_force", "N"},

@@ -16,10 +16,8 @@ ScoredDraws::ScoredDraws(const PreparedStudy& study, int noise_index, std::uint3
 
 std::vector<std::vector<double>> ScoredDraws::weights(const PreparedStudy& study, int noise_index, int jobs) {
     const int scenarios = static_cast<int>(study.scenarios.size());
-    const bool needed =
-        std::any_of(study.methods.begin(), study.methods.end(), [](const FusionMethod* method) {
-            return method->name == weighted_mean_method.name || method->name == weighted_mean_r_method.name;
-        });
+    const bool needed = std::any_of(study.methods.begin(), study.methods.end(),
+                                    [](const FusionMethod* method) { return method->uses_weights; });
     if (!needed) {
         return std::vector<std::vector<double>>(scenarios, std::vector<double>(study.nodes(), 1.0));
     }

@@ -2,22 +2,18 @@
 
 #include <algorithm>
 #include <cstring>
-
-#include "capstan/estimation/fusion_method.h"
+#include <stdexcept>
+#include <string>
 
 namespace capstan {
 
 namespace {
 
-// The index of a method of which any score is wanted.
-int index_of(const CandidateList& candidates, const FusionMethod& method) {
-    for (std::size_t m = 0; m < candidates.methods.size(); ++m) {
-        if (candidates.methods[m]->name != method.name) continue;
-        for (int s = 1; s < candidates.subsets.count(); ++s) {
-            if (candidates.wants(candidates.of(s, static_cast<int>(m)))) return static_cast<int>(m);
-        }
+bool any_score_wanted(const CandidateList& candidates, int method) {
+    for (int s = 1; s < candidates.subsets.count(); ++s) {
+        if (candidates.wants(candidates.of(s, method))) return true;
     }
-    return -1;
+    return false;
 }
 
 }  // namespace
@@ -25,27 +21,53 @@ int index_of(const CandidateList& candidates, const FusionMethod& method) {
 SubsetMeans::SubsetMeans(const CandidateList& candidates, std::span<const double> weight,
                          const ErrorMeasure& measure)
     : candidates_(candidates),
+      weight_(weight),
       measure_(measure),
-      mean_(index_of(candidates, mean_method)),
-      mean_r_(index_of(candidates, mean_r_method)),
-      w_mean_(index_of(candidates, weighted_mean_method)),
-      w_mean_r_(index_of(candidates, weighted_mean_r_method)),
       truth_N_(measure.truth_N.begin(), measure.truth_N.end()),
       votes_(candidates.subsets.usable_nodes()),
       fused_N_(measure.truth_N.size() + 4) {
-    const SensorSubsets& subsets = candidates.subsets;
-    const int nodes = static_cast<int>(truth_N_.size());
-    truth_N_.resize(padded_nodes(nodes), 0.0);
-    if (mean_ >= 0 || mean_r_ >= 0) {
-        equal_ = make_subset_sums(subsets, std::vector<double>(subsets.usable_nodes().size(), 1.0), nodes,
-                                  Averages::keep);
+    truth_N_.resize(padded_nodes(static_cast<int>(measure.truth_N.size())), 0.0);
+    for (int m = 0; m < static_cast<int>(candidates.methods.size()); ++m) {
+        const FusionMethod& method = *candidates.methods[m];
+        if (method.knowledge == Knowledge::direction_known)
+            throw std::logic_error(std::string(method.name) + ": a search cannot know the true direction");
+        if (method.knowledge == Knowledge::feasible_curve || !any_score_wanted(candidates, m)) continue;
+        if (method.averaging) {
+            averaged_.push_back({m, sums_for(*method.averaging), method.averaging->disagreeing});
+        } else {
+            fused_one_by_one_.push_back(m);
+        }
     }
-    if (w_mean_ >= 0 || w_mean_r_ >= 0) {
-        std::vector<double> factor;
-        for (const int node : subsets.usable_nodes()) factor.push_back(weight[node]);
-        weighted_ = make_subset_sums(subsets, std::move(factor), nodes,
-                                     measure.width > 1 ? Averages::keep : Averages::leave_out);
+}
+
+SubsetSums SubsetMeans::new_sums(std::vector<double> factor, Averages averages) const {
+    return make_subset_sums(candidates_.subsets, std::move(factor), static_cast<int>(measure_.truth_N.size()),
+                            averages);
+}
+
+// The sums with a method's weights, made for the first method that needs them.
+const SubsetSums* SubsetMeans::sums_for(const Averaging& averaging) {
+    const std::vector<int>& nodes = candidates_.subsets.usable_nodes();
+    switch (averaging.weights) {
+        case Averaging::Weights::equal:
+            if (equal_.factor.empty())
+                equal_ = new_sums(std::vector<double>(nodes.size(), 1.0), Averages::keep);
+            return &equal_;
+        case Averaging::Weights::by_error: {
+            const bool keep = measure_.width > 1 || averaging.disagreeing == Averaging::Disagreeing::left_out;
+            if (weighted_.factor.empty() || (keep && weighted_.average_N.empty())) {
+                std::vector<double> factor;
+                for (const int node : nodes) factor.push_back(weight_[node]);
+                weighted_ = new_sums(std::move(factor), keep ? Averages::keep : Averages::leave_out);
+            }
+            return &weighted_;
+        }
     }
+    return nullptr;
+}
+
+double* SubsetMeans::slot(std::span<double> error_N, int subset, int method) const {
+    return error_N.data() + static_cast<std::ptrdiff_t>(candidates_.of(subset, method)) * measure_.width;
 }
 
 void SubsetMeans::write_average(const SubsetSums& sums, int used, double* error_N) const {
@@ -57,8 +79,16 @@ void SubsetMeans::write_average(const SubsetSums& sums, int used, double* error_
     measure_.write([&](int node) { return average_N[node]; }, error_N);
 }
 
-// Of each run the row of its set, four nodes at a time: what is written beyond a run is the next one's, which
-// comes later.
+// For each run of nodes the set whose sensors agree there; all where none does.
+void SubsetMeans::find_agreement(std::uint64_t set, int used, std::uint64_t used_places) {
+    runs_ = votes_.agreement(set, used_places);
+    agreeing_.clear();
+    for (const SubsetVotes::NodeRun& run : runs_)
+        agreeing_.push_back(run.agreeing != 0 ? candidates_.subsets.at(run.agreeing) : used);
+}
+
+// Of each run the row of its set, four nodes at a time: the surplus that is written beyond a run belongs to
+// the next one, which comes later.
 void SubsetMeans::gather(const double* rows_N, int stride) {
     double* fused_N = fused_N_.data();
     for (std::size_t k = 0; k < runs_.size(); ++k) {
@@ -68,59 +98,70 @@ void SubsetMeans::gather(const double* rows_N, int stride) {
     }
 }
 
-// Mean-R: at each node the average of those who agree there; of all where nobody does.
-void SubsetMeans::write_renormalised(double* error_N) {
-    gather(equal_.average_N.data(), equal_.stride);
+void SubsetMeans::write_agreeing(const Averaged& averaged, int used, double* error_N) {
+    const SubsetSums& sums = *averaged.sums;
     const double* fused_N = fused_N_.data();
-    measure_.write([fused_N](int node) { return fused_N[node]; }, error_N);
-}
-
-// W Mean-R: the weight of those left out is not shared out.
-void SubsetMeans::write_reduced(int used, double* error_N) {
-    gather(weighted_.tension_N.data(), weighted_.stride);
-    const double* fused_N = fused_N_.data();
-    const double weight = weighted_.weight[used];
+    if (averaged.disagreeing == Averaging::Disagreeing::left_out) {
+        gather(sums.average_N.data(), sums.stride);
+        measure_.write([fused_N](int node) { return fused_N[node]; }, error_N);
+        return;
+    }
+    gather(sums.tension_N.data(), sums.stride);
+    const double weight = sums.weight[used];
     measure_.write([fused_N, weight](int node) { return fused_N[node] / weight; }, error_N);
 }
 
+void SubsetMeans::score_averages(int subset, std::span<double> error_N) {
+    const auto wanted = [&](const Averaged& each) { return wants(subset, each.method); };
+    if (std::none_of(averaged_.begin(), averaged_.end(), wanted)) return;
+    const std::uint64_t set = candidates_.subsets.places(subset);
+    const std::uint64_t used_places = votes_.used(set);
+    const int used = used_places == set ? subset : candidates_.subsets.at(used_places);
+    bool all_agree = true;
+    const bool any_leaves_out = std::any_of(averaged_.begin(), averaged_.end(), [&](const Averaged& each) {
+        return each.disagreeing != Averaging::Disagreeing::kept && wanted(each);
+    });
+    if (any_leaves_out && !votes_.alike(set)) {
+        all_agree = false;
+        find_agreement(set, used, used_places);
+    }
+    for (const Averaged& each : averaged_) {
+        if (!wanted(each)) continue;
+        if (all_agree || each.disagreeing == Averaging::Disagreeing::kept) {
+            write_average(*each.sums, used, slot(error_N, subset, each.method));
+        } else {
+            write_agreeing(each, used, slot(error_N, subset, each.method));
+        }
+    }
+}
+
+void SubsetMeans::score_one_by_one(int subset, const SensorEstimates& estimates, std::span<double> error_N) {
+    const std::vector<int> sensors = candidates_.subsets.nodes_of(subset);
+    const SensorVote vote = take_vote(estimates, sensors);
+    FusionInput input;
+    input.sensors = sensors;
+    input.unknown = estimates;
+    input.weight = weight_;
+    input.vote = &vote;
+    for (const int method : fused_one_by_one_) {
+        if (!wants(subset, method)) continue;
+        candidates_.methods[method]->fuse(input, std::span<double>(fused_N_).first(measure_.truth_N.size()));
+        measure_.write([&](int node) { return fused_N_[node]; }, slot(error_N, subset, method));
+    }
+}
+
 void SubsetMeans::score(const SensorEstimates& estimates, std::span<double> error_N) {
+    if (averaged_.empty() && fused_one_by_one_.empty()) return;
     const SensorSubsets& subsets = candidates_.subsets;
-    const bool any_equal = mean_ >= 0 || mean_r_ >= 0;
-    const bool any_weighted = w_mean_ >= 0 || w_mean_r_ >= 0;
-    if (!any_equal && !any_weighted) return;
     votes_.read(estimates);
     std::vector<const double*> profile_N;
     for (const int node : subsets.usable_nodes()) profile_N.push_back(estimates.padded_profile_N(node));
-    if (any_equal) fill_subset_sums(subsets, profile_N, truth_N_, measure_.fraction, equal_);
-    if (any_weighted) fill_subset_sums(subsets, profile_N, truth_N_, measure_.fraction, weighted_);
-
+    for (SubsetSums* sums : {&equal_, &weighted_}) {
+        if (!sums->factor.empty()) fill_subset_sums(subsets, profile_N, truth_N_, measure_.fraction, *sums);
+    }
     for (int s = 1; s < subsets.count(); ++s) {
-        const auto slot = [&](int method) {
-            return error_N.data() + static_cast<std::ptrdiff_t>(candidates_.of(s, method)) * measure_.width;
-        };
-        const auto wants = [&](int method) {
-            return method >= 0 && candidates_.wants(candidates_.of(s, method));
-        };
-        const bool wants_r = wants(mean_r_);
-        const bool wants_wr = wants(w_mean_r_);
-        if (!wants(mean_) && !wants(w_mean_) && !wants_r && !wants_wr) continue;
-        const std::uint64_t set = subsets.places(s);
-        const std::uint64_t used_places = votes_.used(set);
-        const int used = used_places == set ? s : subsets.at(used_places);
-        if (wants(mean_)) write_average(equal_, used, slot(mean_));
-        if (wants(w_mean_)) write_average(weighted_, used, slot(w_mean_));
-        if (!wants_r && !wants_wr) continue;
-        if (votes_.alike(set)) {
-            if (wants_r) write_average(equal_, used, slot(mean_r_));
-            if (wants_wr) write_average(weighted_, used, slot(w_mean_r_));
-            continue;
-        }
-        runs_ = votes_.agreement(set, used_places);
-        agreeing_.clear();
-        for (const SubsetVotes::NodeRun& run : runs_)
-            agreeing_.push_back(run.agreeing != 0 ? subsets.at(run.agreeing) : used);
-        if (wants_r) write_renormalised(slot(mean_r_));
-        if (wants_wr) write_reduced(used, slot(w_mean_r_));
+        score_averages(s, error_N);
+        if (!fused_one_by_one_.empty()) score_one_by_one(s, estimates, error_N);
     }
 }
 

@@ -60,6 +60,42 @@ TEST_P(SubsetScores, EveryLayoutHasTheErrorOfAStudy) {
     }
 }
 
+// A method without an Averaging is fused set by set: each paper's method must then have the same errors.
+TEST(SubsetMeans, AMethodWithoutSumsHasTheErrorsOfItsOwnFuse) {
+    StudyPlan plan = test::short_cable_plan(40);
+    EveryLayout every(plan);
+    std::vector<FusionMethod> slow;
+    for (const FusionMethod* method : every.candidates.methods) {
+        if (!method->averaging) continue;
+        slow.push_back(*method);
+        slow.back().averaging.reset();
+    }
+    ASSERT_EQ(slow.size(), 4u);
+    CandidateList one_by_one{every.subsets, {}, {}};
+    for (const FusionMethod& method : slow) one_by_one.methods.push_back(&method);
+    ScoredDraws draws(every.study, 0, 0, one_by_one, plan.placement.objective);
+    draws.extend(20, 2, every.weights, 1);
+    every.draws.extend(20, 2, every.weights, 1);
+    for (std::size_t scenario = 0; scenario < every.study.scenarios.size(); ++scenario) {
+        for (int subset = 1; subset < every.subsets.count(); ++subset) {
+            for (int m = 0; m < 4; ++m) {
+                const int fast = every.candidate(every.subsets.nodes_of(subset), slow[m].name);
+                EXPECT_NEAR(draws.scenarios()[scenario].error_N[one_by_one.of(subset, m)],
+                            every.draws.scenarios()[scenario].error_N[fast], 1e-12)
+                    << slow[m].name << " " << subset;
+            }
+        }
+    }
+}
+
+TEST(SubsetMeans, RefusesAMethodThatMustKnowTheDirection) {
+    StudyPlan plan = test::short_cable_plan(4);
+    EveryLayout every(plan);
+    const CandidateList known{every.subsets, {&mean_known_direction}, {}};
+    ScoredDraws draws(every.study, 0, 0, known, plan.placement.objective);
+    EXPECT_THROW(draws.extend(2, 2, every.weights, 1), std::logic_error);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Objectives, SubsetScores,
     testing::Values(Judged{"AllNodes", PlacementObjective::all_nodes,

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <array>
+
+namespace capstan::channel {
+
+// The channels of a recorded bench, beside its tension sensors, which have names of their own.
+inline constexpr const char* motor_angle = "motor_angle";
+inline constexpr const char* motor_torque = "motor_torque";
+inline constexpr const char* load_angle = "load_angle";
+inline constexpr const char* load_torque = "load_torque";
+inline constexpr std::array all = {motor_angle, motor_torque, load_angle, load_torque};
+
+}  // namespace capstan::channel
