@@ -8,7 +8,7 @@ namespace {
 
 using Problems = std::vector<KeyProblem>;
 
-// More are a page and a CSV that nobody reads, and a typing error.
+// A larger number is most likely a typing error.
 constexpr double max_samples = 1e7;
 
 void check_sines(const std::string& section, const Waveform& wave, Problems& problems) {

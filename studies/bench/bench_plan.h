@@ -11,15 +11,15 @@ namespace capstan::bench {
 
 enum class MotorDrive { torque, angle };
 
-/// What the load pulley meets.
+/// The load on the load pulley.
 enum class LoadKind {
     locked,  ///< its angle stays zero
-    handle,  ///< moved from outside: its angle is prescribed
+    handle,  ///< its angle is prescribed
     torque,  ///< it takes a torque from the transmission; zero: free
     spring,  ///< a spring to a wall that may move
 };
 
-/// A pull-pull bench and what is done with it.
+/// A pull-pull bench and its inputs.
 struct BenchPlan {
     std::string name;
     CableSpecification cable;  ///< each of the pair

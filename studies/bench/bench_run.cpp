@@ -30,7 +30,7 @@ void simulate_closed_form(const BenchPlan& plan, const PullPull& pair, const Eac
     }
 }
 
-// Tensions stand between the segments' middles, and at the pulleys.
+// Tensions are those between the middles of the segments, and at the pulleys.
 std::vector<double> node_tensions_N(const BenchSimulation& simulation, int cable, const Cable& description) {
     std::vector<double> tension_N = {simulation.motor_tension_N(cable)};
     for (int node = 1; node < description.segments(); ++node)

@@ -19,9 +19,9 @@ struct BenchInstant {
     std::vector<double> tension_b_N;  // nodes
 };
 
-/// Simulates the plan from rest: by the closed-form step, or where any effect is there by BenchSimulation.
-/// Calls `each` with every sample in turn, the first one at rest. Throws InvalidInput if the plan makes no
-/// bench.
+/// Simulates the plan from rest: by the closed-form step, or with effects by BenchSimulation.
+/// Calls `each` with every sample in turn, the first one at rest. Throws InvalidInput if the plan is not
+/// a bench.
 void simulate_bench(const BenchPlan& plan, const std::function<void(const BenchInstant&)>& each);
 
 }  // namespace capstan::bench

@@ -30,7 +30,7 @@ double ramp(const Waveform& wave, double time_s) {
 }
 
 double step(const Waveform& wave, double time_s) {
-    // A time of k holds, rounded down by a hair, is the k-th step all the same.
+    // A time of k holds that was rounded down still belongs to the k-th step.
     constexpr double rounding = 1e-9;
     const auto steps = static_cast<std::size_t>(std::floor(time_s / wave.hold_s + rounding));
     return wave.levels[steps % wave.levels.size()];

@@ -8,10 +8,10 @@ enum class WaveformKind {
     constant,
     sines,  ///< a sum of sines
     ramps,  ///< between +- an amplitude from zero, with a dwell at each end
-    steps,  ///< one level after the other, again and again
+    steps,  ///< one level after the other, repeated
 };
 
-/// How an input goes over time. Its values are N m or rad, as the input says.
+/// An input over time. The input determines the unit of its values, N m or rad.
 struct Waveform {
     WaveformKind kind = WaveformKind::constant;
     double level = 0.0;                ///< constant
@@ -22,7 +22,7 @@ struct Waveform {
     double slope_per_s = 0.0;          ///< ramps
     double dwell_s = 0.0;              ///< ramps
     std::vector<double> levels;        ///< steps
-    double hold_s = 0.0;               ///< steps: how long each level lasts
+    double hold_s = 0.0;               ///< steps: duration of each level
 
     double at(double time_s) const;
 };

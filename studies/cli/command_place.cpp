@@ -10,7 +10,7 @@
 #include "capstan/config/config_reader.h"
 #include "capstan/config/plan_checks.h"
 #include "capstan/duty/duty_cycle.h"
-#include "capstan/placement/sensor_placement.h"
+#include "capstan/search/sensor_placement.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/recording_reader.h"
 

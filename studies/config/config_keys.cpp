@@ -212,7 +212,8 @@ std::vector<StudyKey> all_keys() {
     keys.push_back(number(
         {"recommendation", "worthwhile_gain_N", "N",
          "One more sensor must lower the error by this much to be recommended."},
-        zero_or_more, 0.02, [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));
+        zero_or_more, default_worthwhile_gain_N,
+        [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));
     add_placement_keys(keys);
     add_sensitivity_keys(keys);
     add_sweep_keys(keys);

@@ -122,7 +122,8 @@ void add_estimation_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
         {at, "curve_points", "",
          "Points along the curve of feasible states; a multiple of 8. The grid leaves an error of its own, inverse to "
          "their number: under 0.01 N with 128 in the paper's cable. Take more for sensors that are as good as that."},
-        {8, true, 100000}, std::int64_t{128}, [](auto& plan, int) -> auto& { return plan.curve_points; }));
+        {8, true, 100000}, std::int64_t{default_curve_points},
+        [](auto& plan, int) -> auto& { return plan.curve_points; }));
 }
 
 }  // namespace capstan::config

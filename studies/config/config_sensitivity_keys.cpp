@@ -45,7 +45,7 @@ void add_sensitivity_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
         [](auto& plan, int) -> auto& { return plan.sensitivity.tolerance_N; }));
     keys.push_back(integer(
         {at, "repetitions", "",
-         "Draws of noise for each set of parameters; as many fresh ones judge what they chose."},
+         "Draws of noise for each set of parameters; as many independent ones judge the choice."},
         {40, true, 1e6}, std::int64_t{standard.repetitions},
         [](auto& plan, int) -> auto& { return plan.sensitivity.repetitions; }));
     keys.push_back(integer(

@@ -18,8 +18,8 @@ namespace capstan::duty {
 
 namespace {
 
-// The bench's numbers, as a calibration orders them.
-struct BenchNumbers {
+// The parameters of the bench, in the order of a calibration.
+struct CalibratedValues {
     double dynamic_friction = 0.0;
     double static_friction = 0.0;
     double axial_stiffness_N = 0.0;
@@ -33,7 +33,7 @@ struct RunMotion {
 
 class RunClassifier {
   public:
-    RunClassifier(const Recording& recording, const DutyOptions& options, const BenchNumbers& numbers)
+    RunClassifier(const Recording& recording, const DutyOptions& options, const CalibratedValues& numbers)
         : recording_(recording), options_(options), numbers_(numbers) {}
 
     RunMotion classify(const RecordedRun& run) const {
@@ -63,7 +63,7 @@ class RunClassifier {
         return Cable(specification);
     }
 
-    // What one cable did from one sample to the next, `weight` of a cable.
+    // Adds the motion of one cable between two samples, counted as `weight` of a cable.
     void count(const CableState& before, const CableState& now, double weight, RunMotion& motion) const {
         const double still_m = options_.still_m_per_s * sample_s();
         const auto moved_m = [&](auto end) {
@@ -109,7 +109,7 @@ class RunClassifier {
             }
             const PullPullState before = state;
             motion.unsolved_steps += !pair.advance(state, ends).solved();
-            if (sample == 0) continue;  // from rest to wherever the recording begins
+            if (sample == 0) continue;  // from rest to the beginning of the recording
             count(before.cable_a, state.cable_a, 0.5, motion);
             count(before.cable_b, state.cable_b, 0.5, motion);
         }
@@ -137,7 +137,7 @@ class RunClassifier {
 
     const Recording& recording_;
     const DutyOptions& options_;
-    BenchNumbers numbers_;
+    CalibratedValues numbers_;
 };
 
 }  // namespace
@@ -152,7 +152,7 @@ double DutyCycle::fraction(Regime regime) const {
     const double moving_s = all.moving_s();
     if (!(moving_s > 0.0)) {
         throw InvalidInput(
-            {fmt::format("nothing moved in this recording: its cables stood still for {:.1f} s; lower "
+            {fmt::format("nothing moves in this recording: its cables stand still for {:.1f} s; lower "
                          "the speed below which a cable stands still, or record the drive at work",
                          all.still_s)});
     }
@@ -173,7 +173,7 @@ DutyCycle measure_duty(const Recording& recording, const DutyOptions& options) {
     const std::vector<double> values =
         options.parameters ? gap::read_parameter_values(*options.parameters, twin->parameters())
                            : gap::nominal_values(*twin);
-    const BenchNumbers numbers{values[0], values[1], values[2], values[3]};
+    const CalibratedValues numbers{values[0], values[1], values[2], values[3]};
 
     const RunClassifier classifier(recording, options, numbers);
     std::vector<RunMotion> motions(recording.runs.size());

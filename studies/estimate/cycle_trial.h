@@ -14,7 +14,7 @@ struct CycleOptions {
     int jobs = 1;
 };
 
-/// One layout, scored over a whole motion: every sample from the second on, every node, every repetition.
+/// One layout, scored over a complete motion: every sample from the second on, every node, every repetition.
 struct CycleScore {
     Layout layout;
     double wander_m = 0.0;        ///< of the distal end in a sample; the most likely of a few on other draws

@@ -15,8 +15,8 @@ constexpr double two_sided_95 = 1.959964;
 
 // The squared model error, in parts of the tension, that one reading asks for so as to be just within the
 // band.
-void add_asked(const SensedCable& cable, const ChannelSet& used, std::size_t predicted,
-               const ModelTrust& trust, const TrackingOptions& options, std::vector<double>& asked) {
+void add_needed(const SensedCable& cable, const ChannelSet& used, std::size_t predicted,
+                const ModelTrust& trust, const TrackingOptions& options, std::vector<double>& needed) {
     const SensedChannel& channel = cable.channels[predicted];
     const Cable cut([&] {
         CableSpecification specification = cable.specification;
@@ -31,15 +31,16 @@ void add_asked(const SensedCable& cable, const ChannelSet& used, std::size_t pre
                               std::pow(channel.noise_N, 2);
         // A slack cable's error is no part of its tension; a newton keeps the ratio finite.
         const double tension_N = std::max(moments.mean_N, 1.0);
-        asked.push_back(std::max(within, 0.0) / (tension_N * tension_N));
+        needed.push_back(std::max(within, 0.0) / (tension_N * tension_N));
     });
 }
 
 // E39.
-double widening_of(std::vector<double> asked) {
-    if (asked.empty()) return 0.0;
-    const auto place = asked.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(asked.size()));
-    std::nth_element(asked.begin(), place, asked.end());
+double widening_of(std::vector<double> needed) {
+    if (needed.empty()) return 0.0;
+    const auto place =
+        needed.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(needed.size()));
+    std::nth_element(needed.begin(), place, needed.end());
     return std::sqrt(*place);
 }
 
@@ -62,15 +63,15 @@ LeftOutChannel left_out(const SensedCable& cable, std::size_t predicted, const T
     const std::size_t one[] = {predicted};
     const ChannelSet used = all_but(cable, one);
     result.trust = likeliest_trust(cable, used, options);
-    std::vector<double> asked;
+    std::vector<double> needed;
     if (used.size() >= 2) {
         for (const std::size_t other : used) {
             const std::size_t two[] = {predicted, other};
-            add_asked(cable, all_but(cable, two), other, result.trust, options, asked);
+            add_needed(cable, all_but(cable, two), other, result.trust, options, needed);
         }
     }
     result.widening_known = used.size() >= 2;
-    result.widening = widening_of(std::move(asked));
+    result.widening = widening_of(std::move(needed));
 
     const SensedChannel& channel = cable.channels[predicted];
     CableSpecification specification = cable.specification;
@@ -126,20 +127,21 @@ std::vector<LeftOutChannel> leave_out(const SensedCable& cable, const std::vecto
 }
 
 WholeEstimate prepare_whole(const SensedCable& cable, const TrackingOptions& options) {
-    WholeEstimate whole;
+    WholeEstimate estimate;
     const ChannelSet all = all_but(cable, {});
-    whole.trust = likeliest_trust(cable, all, options);
-    whole.widening_known = all.size() >= 2;
-    if (!whole.widening_known) return whole;
-    std::vector<std::vector<double>> asked(all.size());
+    estimate.trust = likeliest_trust(cable, all, options);
+    estimate.widening_known = all.size() >= 2;
+    if (!estimate.widening_known) return estimate;
+    std::vector<std::vector<double>> needed(all.size());
     parallel_for_each_index(static_cast<int>(all.size()), options.jobs, [&](int k) {
         const std::size_t predicted[] = {static_cast<std::size_t>(k)};
-        add_asked(cable, all_but(cable, predicted), predicted[0], whole.trust, options, asked[predicted[0]]);
+        add_needed(cable, all_but(cable, predicted), predicted[0], estimate.trust, options,
+                   needed[predicted[0]]);
     });
     std::vector<double> pooled;
-    for (const std::vector<double>& one : asked) pooled.insert(pooled.end(), one.begin(), one.end());
-    whole.widening = widening_of(std::move(pooled));
-    return whole;
+    for (const std::vector<double>& one : needed) pooled.insert(pooled.end(), one.begin(), one.end());
+    estimate.widening = widening_of(std::move(pooled));
+    return estimate;
 }
 
 }  // namespace capstan::estimate

@@ -8,7 +8,7 @@
 
 namespace capstan::estimate {
 
-/// A channel of a recording that says what the tension is at one place of a cable.
+/// A channel of a recording that measures the tension at one place of a cable.
 struct SensedChannel {
     std::string name;
     double position_m = 0.0;  ///< from the motor end
@@ -24,7 +24,7 @@ struct SensedRun {
     std::vector<std::vector<double>> reading_N;  // channels x samples
 };
 
-/// One cable of a recorded bench: what moved its ends, and what was read of its tension.
+/// One cable of a recorded bench: the motion of its ends and the readings of its tension.
 struct SensedCable {
     std::string name;  ///< "A", "B"
     CableSpecification specification;
@@ -36,7 +36,7 @@ struct SensedCable {
 /// measured pulley angles, freed of noise (E15); a single cable's far end stays. A single cable's torque
 /// channels that drive nothing are tensions at its ends too; those of a pair tell of both cables together
 /// and are not used. Noise that the sidecar does not state is estimated. Throws InvalidInput if there is no
-/// tension sensor, no geometry, or an end whose motion nobody measured.
+/// tension sensor, no geometry, or an end whose motion was not measured.
 std::vector<SensedCable> sensed_cables(const Recording& recording, int segments);
 
 }  // namespace capstan::estimate

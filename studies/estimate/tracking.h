@@ -7,7 +7,7 @@
 
 namespace capstan::estimate {
 
-/// What the estimator is told of the model's own errors, the same for every node (E36, E11).
+/// The assumed errors of the model, the same for every node (E36, E11).
 struct ModelTrust {
     double wander_m = 0.0;     ///< of each end in one sample beyond its measured motion, standard deviation
     double error_ratio = 0.0;  ///< of a reading, beyond its noise, in parts of the tension
@@ -19,7 +19,7 @@ struct TrackingOptions {
     int jobs = 1;
 };
 
-/// One sample of a run, with the estimator as it stands after that sample.
+/// One sample of a run, with the state of the estimator after that sample.
 struct TrackedSample {
     std::size_t run = 0;
     std::size_t sample = 0;
@@ -36,7 +36,7 @@ struct TrackingSummary {
     long steps = 0;
 };
 
-/// Runs the recursive estimator over every run, each from its own pretension, and shows each sample.
+/// Runs the recursive estimator over every run, each from its own pretension, and passes each sample on.
 TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const ModelTrust& trust,
                       const TrackingOptions& options,
                       const std::function<void(const TrackedSample&)>& show = {});

@@ -47,10 +47,10 @@ std::vector<int> best_of_regimes(const std::vector<PlacementCandidate>& candidat
     std::vector<int> best;
     for (const std::vector<double>& fraction : regime_fraction) {
         const std::vector<Score> scores = weighted_scores(candidates, fraction);
-        const auto least = std::min_element(scores.begin(), scores.end(), [](const Score& a, const Score& b) {
-            return a.objective_N < b.objective_N;
-        });
-        best.push_back(static_cast<int>(least - scores.begin()));
+        const auto best_score =
+            std::min_element(scores.begin(), scores.end(),
+                             [](const Score& a, const Score& b) { return a.objective_N < b.objective_N; });
+        best.push_back(static_cast<int>(best_score - scores.begin()));
     }
     return best;
 }
@@ -61,15 +61,9 @@ std::vector<Score> regret_scores(const std::vector<PlacementCandidate>& candidat
     std::vector<Score> worst(candidates.size());
     for (std::size_t regime = 0; regime < regime_fraction.size(); ++regime) {
         const std::vector<Score> scores = weighted_scores(candidates, regime_fraction[regime]);
-        const Score& best = scores[reference[regime]];
         for (std::size_t c = 0; c < scores.size(); ++c) {
-            const double regret_N = scores[c].objective_N - best.objective_N;
-            if (regime > 0 && regret_N <= worst[c].objective_N) continue;
-            worst[c] = scores[c];
-            worst[c].objective_N = regret_N;
-            for (std::size_t b = 0; b < best.block_objective_N.size(); ++b) {
-                worst[c].block_objective_N[b] -= best.block_objective_N[b];
-            }
+            Score regret = difference_of(scores[c], scores[reference[regime]]);
+            if (regime == 0 || regret.objective_N > worst[c].objective_N) worst[c] = std::move(regret);
         }
     }
     return worst;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "capstan/placement/intervals.h"
 #include "capstan/storage/records.h"
 #include "capstan/storage/study_store.h"
 
@@ -21,15 +22,7 @@ struct PlacementCandidate {
 std::vector<PlacementCandidate> placement_candidates(const storage::StudyDescription& study,
                                                      const std::vector<storage::CellSummary>& cells);
 
-/// What a scope judges a candidate by: the smaller the better.
-struct Score {
-    double objective_N = 0.0;
-    /// blocks: of which the objective is, to first order, the mean. A block has the same repetitions in every
-    /// scenario, so what scenarios share (a sensor's bias) is in their spread.
-    std::vector<double> block_objective_N;
-};
-
-/// Mean error over scenarios with the given shares, which sum to one.
+/// Mean error over scenarios with the given fractions, which sum to one.
 std::vector<Score> weighted_scores(const std::vector<PlacementCandidate>& candidates,
                                    const std::vector<double>& fraction);  // scenarios
 

@@ -3,17 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace capstan {
+#include "capstan/placement/intervals.h"
 
-MeanAndError mean_and_error(std::span<const double> values) {
-    const double count = static_cast<double>(values.size());
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    const double mean = sum / count;
-    double squares = 0.0;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1.0) / count) : 0.0};
-}
+namespace capstan {
 
 double quantile(std::span<double> values, double fraction) {
     const double place = fraction * static_cast<double>(values.size() - 1);

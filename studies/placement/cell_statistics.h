@@ -11,14 +11,6 @@ namespace capstan {
 /// Half the width of a 95% interval in standard errors.
 inline constexpr double normal_95 = 1.959963984540054;
 
-struct MeanAndError {
-    double mean = 0.0;
-    double standard_error = 0.0;
-};
-
-/// Mean of independent values and the standard error of that mean.
-MeanAndError mean_and_error(std::span<const double> values);
-
 /// Quantile by linear interpolation between order statistics (type 7). Reorders `values`.
 double quantile(std::span<double> values, double fraction);
 
@@ -32,7 +24,7 @@ struct BlockSums {
     std::vector<double> node_signed_error_N;  // nodes
 };
 
-/// What a cell is made of, before it is summed up.
+/// The errors that a cell summarises.
 struct CellErrors {
     int set_index = 0;
     std::string_view method;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "capstan/placement/fusion_stage.h"
-#include "capstan/placement/sensor_weights.h"
 #include "capstan/placement/single_sensor_stage.h"
 #include "capstan/storage/study_store.h"
 
@@ -29,16 +28,17 @@ std::vector<std::vector<double>> stored_sensor_errors_N(storage::Database& datab
     return errors_N;
 }
 
-StudyPlan with_fresh_repetitions(StudyPlan plan) {
-    plan.repetitions = std::min(plan.repetitions, max_fresh_repetitions);
+StudyPlan with_independent_repetitions(StudyPlan plan) {
+    plan.repetitions = std::min(plan.repetitions, max_independent_repetitions);
     return plan;
 }
 
-std::vector<PlacementCandidate> errors_on_fresh_draws(storage::Database& database, std::int64_t study_id,
-                                                      const StudyPlan& plan, int jobs, int noise_index,
-                                                      std::vector<PlacementCandidate> chosen) {
-    const StudyPlan fresh_plan = with_fresh_repetitions(plan);
-    PreparedStudy study = prepare(fresh_plan);
+std::vector<PlacementCandidate> errors_on_independent_draws(storage::Database& database,
+                                                            std::int64_t study_id, const StudyPlan& plan,
+                                                            int jobs, int noise_index,
+                                                            std::vector<PlacementCandidate> chosen) {
+    const StudyPlan independent_plan = with_independent_repetitions(plan);
+    PreparedStudy study = prepare(independent_plan);
     const std::vector<std::vector<int>> all_sets = std::move(study.sensor_sets);
     study.sensor_sets.clear();
     study.methods.clear();
@@ -53,7 +53,7 @@ std::vector<PlacementCandidate> errors_on_fresh_draws(storage::Database& databas
     const int scenarios = static_cast<int>(study.scenarios.size());
     const auto errors_N = stored_sensor_errors_N(database, study_id, scenarios, noise_index);
     for (int s = 0; s < scenarios; ++s) {
-        const StudyPoint point{s, noise_index, fresh_draws};
+        const StudyPoint point{s, noise_index, independent_draws};
         double processor_time_s = 0.0;
         FusionTimes times;
         const SolvedReadings solved = study.uses(Knowledge::direction_unknown)
@@ -76,7 +76,7 @@ FreshErrors fresh_errors(storage::Database& database, std::int64_t study_id, con
                          int jobs) {
     return
         [&database, study_id, &plan, jobs](int noise_index, const std::vector<PlacementCandidate>& chosen) {
-            return errors_on_fresh_draws(database, study_id, plan, jobs, noise_index, chosen);
+            return errors_on_independent_draws(database, study_id, plan, jobs, noise_index, chosen);
         };
 }
 

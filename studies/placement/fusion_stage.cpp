@@ -7,6 +7,7 @@
 #include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/repetition_blocks.h"
 #include "capstan/placement/repetition_profiles.h"
+#include "capstan/platform/clocks.h"
 #include "capstan/platform/parallel_for.h"
 
 namespace capstan {

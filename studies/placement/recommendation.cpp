@@ -4,10 +4,8 @@
 #include <map>
 
 #include "capstan/placement/candidate_scores.h"
-#include "capstan/placement/paired_comparison.h"
+#include "capstan/placement/intervals.h"
 #include "capstan/placement/placement_questions.h"
-#include "capstan/placement/placement_scope.h"
-#include "capstan/placement/recommendation_sentence.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan {
@@ -25,17 +23,10 @@ std::map<int, int> best_by_count(const std::vector<PlacementCandidate>& candidat
     return best;
 }
 
-// The smallest count from which no larger one gains `worthwhile_gain_N` per sensor added.
-int count_where_gain_flattens(const std::map<int, int>& best, const std::vector<Score>& scores,
-                              double worthwhile_gain_N) {
-    for (auto here = best.begin(); here != best.end(); ++here) {
-        const bool flat = std::all_of(std::next(here), best.end(), [&](const auto& more) {
-            const double gain_N = scores[here->second].objective_N - scores[more.second].objective_N;
-            return gain_N <= worthwhile_gain_N * (more.first - here->first);
-        });
-        if (flat) return here->first;
-    }
-    return best.rbegin()->first;
+std::vector<CountError> count_errors(const std::map<int, int>& best, const std::vector<Score>& scores) {
+    std::vector<CountError> by_count;
+    for (const auto& [sensors, c] : best) by_count.push_back({sensors, scores[c].objective_N});
+    return by_count;
 }
 
 // The best of each count, judged on the draws that made it the best: the interval holds for all choices of
@@ -47,15 +38,15 @@ std::vector<storage::RecommendationCountRecord> count_records(
     for (const PlacementCandidate& candidate : candidates) ++choices[candidate.sensor_count];
     std::vector<storage::RecommendationCountRecord> records;
     for (const auto& [sensors, c] : best) {
-        const double error_N = scores[c].objective_N;
-        const double reach_N = simultaneous_reach_N(scores[c].block_objective_N, choices[sensors]);
-        records.push_back({sensors, candidates[c].set_index, candidates[c].method, error_N, error_N - reach_N,
-                           error_N + reach_N});
+        const SimultaneousIntervals intervals(scores[c].block_objective_N.size(), choices[sensors], 0.05);
+        const IntervalEstimate error = intervals.of(scores[c]);
+        records.push_back({sensors, candidates[c].set_index, candidates[c].method, error.value_N, error.low_N,
+                           error.high_N});
     }
     return records;
 }
 
-// Who at the recommended count cannot be told from the recommended one.
+// The candidates with the recommended count that are not significantly worse than the recommended one.
 std::vector<storage::RecommendationAlternativeRecord> indifferent_set(
     const std::vector<PlacementCandidate>& candidates, const std::vector<Score>& scores, int recommended) {
     std::vector<int> others;
@@ -65,10 +56,10 @@ std::vector<storage::RecommendationAlternativeRecord> indifferent_set(
         }
     }
     std::vector<storage::RecommendationAlternativeRecord> alternatives;
-    for (const PairedDifference& d : simultaneous_differences(scores, recommended, others)) {
-        if (d.low_N > 0.0) continue;
-        alternatives.push_back({candidates[d.candidate].set_index, candidates[d.candidate].method,
-                                d.difference_N, d.low_N, d.high_N});
+    for (const auto& [c, difference] : simultaneous_differences(scores, recommended, others)) {
+        if (difference.low_N > 0.0) continue;
+        alternatives.push_back({candidates[c].set_index, candidates[c].method, difference.value_N,
+                                difference.low_N, difference.high_N});
     }
     std::stable_sort(alternatives.begin(), alternatives.end(),
                      [](const auto& a, const auto& b) { return a.difference_N < b.difference_N; });
@@ -84,7 +75,8 @@ struct Choice {
 Choice choose(int noise_index, const std::vector<PlacementCandidate>& candidates,
               const PlacementQuestion& question, const RecommendationPolicy& policy) {
     const std::map<int, int> best = best_by_count(candidates, question.scores);
-    const int count = count_where_gain_flattens(best, question.scores, policy.worthwhile_gain_N);
+    const int count =
+        count_where_gain_flattens(count_errors(best, question.scores), policy.worthwhile_gain_N);
     Choice choice{best.at(count), {}};
     storage::RecommendationRecord& record = choice.record;
     record.noise_index = noise_index;
@@ -111,7 +103,7 @@ std::vector<storage::RecommendationRecord> recommend(storage::Database& database
                                                      const RecommendationPolicy& policy,
                                                      const FreshErrors& fresh_errors) {
     const storage::StudyDescription study = storage::load_study(database, study_id);
-    const ScenarioShares fractions = scenario_fractions(study);
+    const ScenarioFractions fractions = scenario_fractions(study);
     std::vector<storage::RecommendationRecord> recommendations;
     for (int noise = 0; noise < static_cast<int>(study.noise_levels.size()); ++noise) {
         const auto candidates =
@@ -122,8 +114,8 @@ std::vector<storage::RecommendationRecord> recommend(storage::Database& database
         for (const PlacementQuestion& question : placement_questions(candidates, study, fractions, reference))
             choices.push_back(choose(noise, candidates, question, policy));
 
-        // On fresh draws: what was chosen, in the order of the questions, then what regrets are measured
-        // from.
+        // To be scored on independent draws: the choices in the order of the questions, then the
+        // candidates from which regrets are measured.
         std::vector<PlacementCandidate> chosen;
         for (const Choice& choice : choices) chosen.push_back(candidates[choice.candidate]);
         std::vector<int> chosen_reference;
@@ -131,12 +123,11 @@ std::vector<storage::RecommendationRecord> recommend(storage::Database& database
             chosen_reference.push_back(static_cast<int>(chosen.size()));
             chosen.push_back(candidates[each]);
         }
-        const auto asked_afresh =
+        const auto judged =
             placement_questions(fresh_errors(noise, chosen), study, fractions, chosen_reference);
         for (std::size_t q = 0; q < choices.size(); ++q) {
             storage::RecommendationRecord& record = choices[q].record;
-            const Score& score = asked_afresh[q].scores[q];
-            const IntervalEstimate error = interval_of(score.objective_N, score.block_objective_N);
+            const IntervalEstimate error = interval_of(judged[q].scores[q]);
             record.error_N = error.value_N;
             record.interval_low_N = error.low_N;
             record.interval_high_N = error.high_N;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "capstan/placement/fresh_errors.h"
@@ -9,22 +10,28 @@
 
 namespace capstan {
 
-/// What a designer trades: one more sensor must lower the error by this much [N] to be worth it.
+/// One more sensor must lower the error by this much [N] to be recommended.
 struct RecommendationPolicy {
-    double worthwhile_gain_N = 0.02;
+    double worthwhile_gain_N;
 };
 
-/// Reads the cells of a study and says, per noise level, for each regime, by minimax regret across regimes
-/// and by the duty cycle: which sensors, how many, which method, with the alternatives that paired
-/// differences on the same draws cannot tell from the best. The best of many looks better than it is on the
-/// draws that chose it, so a recommendation's error and interval are those of `fresh_errors`; the best of
-/// each count beside it keeps the study's own draws, with an interval that holds for all choices of the count
-/// together.
+/// Reads the cells of a study and recommends, per noise level, for each regime, by minimax regret across
+/// regimes and for the duty cycle: the number of sensors, their nodes and the fusion method, with the
+/// alternatives that are not significantly worse in paired differences on the same draws. The draws that
+/// chose the best of many make it look better than it is, so a recommendation's error and interval are those
+/// of `fresh_errors`, on independent draws; the best of each count keeps the study's own draws, with an
+/// interval that holds for all candidates of the count together.
 std::vector<storage::RecommendationRecord> recommend(storage::Database& database, std::int64_t study_id,
                                                      const RecommendationPolicy& policy,
                                                      const FreshErrors& fresh_errors);
 
-/// What the draws that chose a recommendation say of it [N]. Its optimism is error_N less this.
+/// The error [N] on the draws that chose a recommendation. Their optimism is error_N less this.
 double searched_error_N(const storage::RecommendationRecord& recommendation);
+
+/// The recommendation in sentences: first which sensors to use and the expected error, then the settings, the
+/// interval, the optimism of the search, the gain of one more sensor and the equally good layouts.
+std::string recommendation_sentence(const storage::StudyDescription& study,
+                                    const storage::RecommendationRecord& recommendation,
+                                    double worthwhile_gain_N);
 
 }  // namespace capstan

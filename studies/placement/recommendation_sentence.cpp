@@ -1,7 +1,6 @@
-#include "capstan/placement/recommendation_sentence.h"
-
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "capstan/placement/recommendation.h"
 
@@ -9,23 +8,93 @@ namespace capstan {
 
 namespace {
 
+// Errors and gains are given to 0.001 N.
+constexpr double smallest_shown_N = 0.0005;
+
 std::string with_digits(double value, int digits) {
     char text[32];
     std::snprintf(text, sizeof text, "%.*f", digits, value);
     return text;
 }
 
-std::string scope_words(const storage::RecommendationRecord& r) {
-    if (r.scope == "minimax_regret") return "To be safe in every regime";
-    if (r.scope == "duty_cycle") return "Over the duty cycle";
-    if (r.regime == "mass") return "When the whole cable moves";
-    if (r.regime == "partial_proximal") return "When only the motor side moves";
-    if (r.regime == "partial_distal") return "When only the load side moves";
-    return "When both sides move and the middle rests";
+std::string newtons(double value_N) {
+    return with_digits(value_N, 3) + " N";
 }
 
-// What the paper would call the set, if it has a name for it. Several families can share one: the plainest
-// name wins.
+std::string sensors(int count) {
+    return std::to_string(count) + (count == 1 ? " sensor" : " sensors");
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        const bool last = k + 1 == words.size();
+        text += (k == 0 ? "" : last ? " and " : ", ") + words[k];
+    }
+    return text;
+}
+
+// nodes: positions along the cable, from the motor end.
+std::vector<double> node_positions_m(const storage::StudyDescription& study) {
+    std::vector<double> position_m;
+    for (const storage::CableSegmentRecord& segment : study.cable_segments) {
+        if (position_m.empty()) position_m.push_back(segment.start_m);
+        position_m.push_back(segment.start_m + segment.length_m);
+    }
+    return position_m;
+}
+
+// With as few decimals, one to three, as show every place to the millimetre.
+int place_decimals(const std::vector<double>& position_m) {
+    for (int decimals = 1; decimals < 3; ++decimals) {
+        const double scale = std::pow(10.0, decimals);
+        const bool exact = std::all_of(position_m.begin(), position_m.end(), [&](double place_m) {
+            return std::abs(std::round(place_m * scale) / scale - place_m) < 0.0005;
+        });
+        if (exact) return decimals;
+    }
+    return 3;
+}
+
+// "at 1.8 m and 2.0 m (the load end)". Nodes are numbered from 1.
+std::string place_words(const storage::StudyDescription& study, const std::vector<int>& nodes) {
+    const std::vector<double> position_m = node_positions_m(study);
+    std::vector<double> chosen_m;
+    for (const int node : nodes) chosen_m.push_back(position_m.at(node - 1));
+    const int decimals = place_decimals(chosen_m);
+    std::vector<std::string> places;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        std::string place = with_digits(chosen_m[k], decimals) + " m";
+        if (nodes[k] == 1) place += " (the motor end)";
+        if (nodes[k] == static_cast<int>(position_m.size())) place += " (the load end)";
+        places.push_back(std::move(place));
+    }
+    return "at " + listed(places);
+}
+
+// The line to be read aloud.
+std::string headline(const storage::StudyDescription& study, const storage::RecommendationRecord& r) {
+    const std::string use = "Use " + sensors(r.sensor_count) + ", " +
+                            place_words(study, study.sensor_sets[r.set_index].nodes) + ". ";
+    const std::string error = with_digits(r.error_N, r.error_N < 0.0995 ? 3 : 2) + " N.";
+    if (r.scope == "minimax_regret") {
+        return use +
+               "In every motion regime the tension error exceeds that of the regime's best choice by at most " +
+               error;
+    }
+    return use + "Expected tension error: " + error;
+}
+
+std::string scope_words(const storage::RecommendationRecord& r) {
+    if (r.scope == "minimax_regret") return "all motion regimes together (minimax regret)";
+    if (r.scope == "duty_cycle") return "the duty cycle";
+    if (r.regime == "mass") return "motion of the entire cable";
+    if (r.regime == "partial_proximal") return "motion of the motor side only";
+    if (r.regime == "partial_distal") return "motion of the load side only";
+    return "motion of both sides with the middle at rest";
+}
+
+// The paper's name of the set, if it has one. Several families can share a set; the plainest name wins.
 std::string layout_words(const storage::StudyDescription& study, int set_index) {
     if (static_cast<int>(study.sensor_sets[set_index].nodes.size()) == study.study.segments + 1) {
         return " (every node)";
@@ -40,63 +109,80 @@ std::string layout_words(const storage::StudyDescription& study, int set_index) 
     return "";
 }
 
-std::string node_words(const std::vector<int>& nodes) {
-    std::string text = nodes.size() == 1 ? "node " : "nodes ";
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const bool last = k + 1 == nodes.size();
-        text += (k == 0 ? "" : last ? " and " : ", ") + std::to_string(nodes[k]);
-    }
-    return text;
+std::string use_words(const storage::StudyDescription& study, const storage::RecommendationRecord& r) {
+    const auto method = std::find_if(study.fusion_methods.begin(), study.fusion_methods.end(),
+                                     [&](const auto& m) { return m.method == r.method; });
+    const std::vector<int>& nodes = study.sensor_sets[r.set_index].nodes;
+    std::vector<std::string> numbers;
+    for (const int node : nodes) numbers.push_back(std::to_string(node));
+    return "This holds for " + scope_words(r) + " with sensor noise " +
+           study.noise_levels[r.noise_index].label + ". Mount the " +
+           (nodes.size() == 1 ? "sensor at node " : "sensors at nodes ") + listed(numbers) +
+           layout_words(study, r.set_index) + " and fuse the readings by " + method->title +
+           ". The 95% interval of the " + (r.scope == "minimax_regret" ? "excess" : "error") + " is " +
+           with_digits(r.interval_low_N, 3) + " to " + newtons(r.interval_high_N) + ".";
 }
 
-std::string error_words(const storage::RecommendationRecord& r) {
-    const std::string interval =
-        with_digits(r.interval_low_N, 3) + " to " + with_digits(r.interval_high_N, 3) + " N at 95%";
-    if (r.scope == "minimax_regret") {
-        return "it is at most " + with_digits(r.error_N, 3) + " N (" + interval +
-               ") worse than the best choice of any regime";
-    }
-    return "the mean tension error is " + with_digits(r.error_N, 3) + " N (" + interval + ")";
-}
-
-// Draws that chose the best of many flatter it.
+// The draws that chose the best of many make it look better than it is.
 std::string optimism_words(const storage::RecommendationRecord& r) {
     const double optimism_N = r.error_N - searched_error_N(r);
-    return "This is from fresh draws; on those that chose it, it looked " +
-           with_digits(std::abs(optimism_N), 4) + (optimism_N < 0.0 ? " N worse." : " N better.");
+    const std::string text = "Re-estimated on independent draws; the search's own draws ";
+    if (std::abs(optimism_N) < smallest_shown_N) return text + "gave the same error to 0.001 N.";
+    return text + (optimism_N > 0.0 ? "were optimistic by " : "were pessimistic by ") +
+           newtons(std::abs(optimism_N)) + ".";
 }
 
 std::string gain_words(const storage::RecommendationRecord& r, double worthwhile_gain_N) {
     const auto next = std::find_if(r.counts.begin(), r.counts.end(),
                                    [&](const auto& count) { return count.sensor_count > r.sensor_count; });
-    if (next == r.counts.end()) return "No larger count was studied.";
+    if (next == r.counts.end()) return "No larger number of sensors was studied.";
     const double gain_N = searched_error_N(r) - next->error_N;
     const int added = next->sensor_count - r.sensor_count;
     const std::string more = added == 1 ? "One more sensor" : std::to_string(added) + " more sensors";
-    if (gain_N <= 0.0) return more + " would gain nothing.";
-    return more + " would gain " + with_digits(gain_N, 3) + " N; a sensor is worth " +
-           with_digits(worthwhile_gain_N, 3) + " N here.";
+    if (gain_N < smallest_shown_N) return more + " would not lower the error.";
+    return more + " would lower the error by " + newtons(gain_N) +
+           " (threshold for adding a sensor: " + newtons(worthwhile_gain_N) + ").";
 }
 
-std::string alternative_words(const storage::RecommendationRecord& r) {
-    const std::size_t count = r.alternatives.size();
-    if (count == 0) return "Every other choice with as many sensors is worse beyond doubt.";
-    return std::to_string(count) + (count == 1 ? " other choice" : " other choices") +
-           " with as many sensors cannot be told from it.";
+std::string alternative_words(const storage::StudyDescription& study,
+                              const storage::RecommendationRecord& r) {
+    std::set<int> layouts;
+    int methods = 0;
+    for (const storage::RecommendationAlternativeRecord& other : r.alternatives) {
+        if (other.set_index == r.set_index) {
+            ++methods;
+        } else {
+            layouts.insert(other.set_index);
+        }
+    }
+    const auto tested =
+        std::count_if(study.sensor_sets.begin(), study.sensor_sets.end(),
+                      [&](const auto& set) { return static_cast<int>(set.nodes.size()) == r.sensor_count; });
+    const std::string with_sensors = " with " + sensors(r.sensor_count);
+    std::string text;
+    if (tested == 1) {
+        text = "No other layout" + with_sensors + " was tested.";
+    } else if (layouts.empty()) {
+        text = "All other tested layouts" + with_sensors + " are significantly worse (family-wise 95%).";
+    } else if (layouts.size() == 1) {
+        text = "One other layout" + with_sensors + " performs equally well within the statistical error.";
+    } else {
+        text = std::to_string(layouts.size()) + " other layouts" + with_sensors +
+               " perform equally well within the statistical error.";
+    }
+    if (methods == 0) return text;
+    return text + " With the recommended layout, " +
+           (methods == 1 ? "one other fusion method performs"
+                         : std::to_string(methods) + " other fusion methods perform") +
+           " equally well within the statistical error.";
 }
 
 }  // namespace
 
 std::string recommendation_sentence(const storage::StudyDescription& study,
                                     const storage::RecommendationRecord& r, double worthwhile_gain_N) {
-    const auto method = std::find_if(study.fusion_methods.begin(), study.fusion_methods.end(),
-                                     [&](const auto& m) { return m.method == r.method; });
-    const std::string count =
-        std::to_string(r.sensor_count) + (r.sensor_count == 1 ? " sensor at " : " sensors at ");
-    return scope_words(r) + " (noise " + study.noise_levels[r.noise_index].label + "): put " + count +
-           node_words(study.sensor_sets[r.set_index].nodes) + layout_words(study, r.set_index) +
-           " and fuse by " + method->title + "; " + error_words(r) + ". " + optimism_words(r) + " " +
-           gain_words(r, worthwhile_gain_N) + " " + alternative_words(r);
+    return headline(study, r) + " " + use_words(study, r) + " " + optimism_words(r) + " " +
+           gain_words(r, worthwhile_gain_N) + " " + alternative_words(study, r);
 }
 
 }  // namespace capstan

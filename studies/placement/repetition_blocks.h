@@ -20,10 +20,4 @@ struct RepetitionBlocks {
     int size(int block) const { return end(block) - first(block); }
 };
 
-/// Processor time of the calling thread so far [s]. Costs most of a microsecond.
-double thread_processor_time_s();
-
-/// Time since some fixed moment [s]; cheap.
-double wall_time_s();
-
 }  // namespace capstan

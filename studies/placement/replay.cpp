@@ -5,8 +5,6 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/fusion_stage.h"
 #include "capstan/placement/prepared_study.h"
-#include "capstan/placement/repetition_blocks.h"
-#include "capstan/placement/sensor_weights.h"
 #include "capstan/placement/single_sensor_stage.h"
 
 namespace capstan {
@@ -34,7 +32,7 @@ std::string direction_signs(const DirectionBits& bits, int segments) {
     return signs;
 }
 
-// The weights are a result of the whole single-sensor stage, so that is run as in the study.
+// The weights need the complete single-sensor stage, so it is run as in the study.
 std::vector<double> weights_of(const PreparedStudy& study, const ReplayAddress& address, int jobs) {
     std::vector<std::vector<double>> errors_N;
     for (int s = 0; s < static_cast<int>(study.scenarios.size()); ++s) {

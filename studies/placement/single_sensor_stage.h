@@ -28,9 +28,9 @@ struct StudyPoint {
     std::uint32_t first_draw = 0;  ///< random address of repetition 0; a study's own is 0
 };
 
-/// Draws that no study uses: repetitions are numbered below 2^31. What was chosen on a study's own draws is
-/// judged on these.
-inline constexpr std::uint32_t fresh_draws = std::uint32_t{1} << 31;
+/// First address of the independent draws, which no study uses: its repetitions are numbered below 2^31. A
+/// choice that was made on a study's own draws is judged on these.
+inline constexpr std::uint32_t independent_draws = std::uint32_t{1} << 31;
 
 /// Draws, reads and solves repetitions first to end - 1 into their slots.
 void solve_block(const PreparedStudy& study, const StudyPoint& point, int first, int end,
@@ -52,5 +52,14 @@ storage::SingleSensorResult summarise_sensors(const PreparedStudy& study, const 
 
 /// Mean absolute error [N] of each sensor's estimate, direction unknown.
 std::vector<double> sensor_errors_N(const storage::SingleSensorResult& result);  // nodes
+
+/// Whether the errors of one scenario are a source of the weights of another.
+bool gives_weights(const PreparedStudy& study, int source_index, int fused_index);
+
+/// Weights of the W methods for one scenario: 1 / (mean single-sensor error), the mean taken over the
+/// scenarios that the plan names as source. `errors_N` is scenarios x nodes; only the
+/// sources are read.
+std::vector<double> sensor_weights(const PreparedStudy& study,
+                                   const std::vector<std::vector<double>>& errors_N, int scenario_index);
 
 }  // namespace capstan

@@ -10,10 +10,9 @@
 #include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/fusion_stage.h"
 #include "capstan/placement/prepared_study.h"
-#include "capstan/placement/repetition_blocks.h"
-#include "capstan/placement/sensor_weights.h"
 #include "capstan/placement/single_sensor_stage.h"
 #include "capstan/placement/study_shard.h"
+#include "capstan/platform/clocks.h"
 
 namespace capstan {
 

@@ -5,7 +5,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/config/config_writer.h"
-#include "capstan/placement/paired_comparison.h"
+#include "capstan/placement/intervals.h"
 #include "capstan/placement/placement_questions.h"
 #include "capstan/storage/study_store.h"
 
@@ -26,8 +26,8 @@ double unresolved_at_each_count_N(const std::vector<PlacementCandidate>& candida
         });
         const int reference = *best;
         of_count.erase(best);
-        for (const PairedDifference& d : simultaneous_differences(scores, reference, of_count, alpha))
-            worst_N = std::max(worst_N, -d.low_N);
+        for (const auto& [c, difference] : simultaneous_differences(scores, reference, of_count, alpha))
+            worst_N = std::max(worst_N, -difference.low_N);
     }
     return worst_N;
 }
@@ -62,13 +62,13 @@ class Doubling {
     }
 
     ExtensionOutcome run(const std::string& program_version, const RunOptions& options) {
-        // A larger one that is there, killed or not, was begun because all smaller ones did not do.
+        // A larger study that exists, complete or not, was begun because no smaller one was enough.
         for (int n = repetitions_after(1); n <= resolution_.max_repetitions && n > 0; n *= 2) {
             if (find_same(database_, study_.with_repetitions(n))) doublings_ = rounds_to(n);
         }
         if (doublings_ > 0 && !run_round(program_version, options)) return outcome_;
         while (look() > resolution_.tolerance_N && can_double()) {
-            // Nobody asked for the one in between.
+            // The intermediate study was not requested.
             if (is_own_) storage::delete_study(database_, outcome_.run.study_id);
             ++doublings_;
             if (!run_round(program_version, options)) return outcome_;
@@ -120,7 +120,7 @@ StudyPlan StudyToExtend::with_repetitions(int repetitions) const {
 
 double unresolved_N(storage::Database& database, std::int64_t study_id, double alpha) {
     const storage::StudyDescription study = storage::load_study(database, study_id);
-    const ScenarioShares fractions = scenario_fractions(study);
+    const ScenarioFractions fractions = scenario_fractions(study);
     double worst_N = 0.0;
     for (int noise = 0; noise < static_cast<int>(study.noise_levels.size()); ++noise) {
         const auto candidates =

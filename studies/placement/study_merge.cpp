@@ -5,8 +5,7 @@
 #include <set>
 
 #include "capstan/config/config_reader.h"
-#include "capstan/placement/same_study.h"
-#include "capstan/placement/study_conclusion.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"

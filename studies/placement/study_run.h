@@ -13,13 +13,13 @@
 
 namespace capstan {
 
-/// Where a run has come to; called from the thread that runs the study, after every stored unit.
+/// Progress of a run; reported from the thread that runs the study, after every stored unit.
 struct StudyProgress {
     int units_done = 0;
     int units = 0;
 };
 
-/// Processor time [s] of each stage, summed over threads, and wall time [s] of the whole.
+/// Processor time [s] of each stage, summed over threads, and wall time [s] of the run.
 struct StudyTimes {
     double prepare_s = 0.0;         ///< true motion, estimators' tables
     double paper_methods_s = 0.0;   ///< readings, single-sensor estimates, votes, the paper's fusion methods
@@ -63,5 +63,10 @@ RunOutcome run_studies(storage::Database& database, std::span<const StudyPlan> p
 /// says.
 RunOutcome resume_study(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
                         const RunOptions& options);
+
+/// Draws the conclusions of a study whose units are all stored (recommendations, the paper's table) and marks
+/// it complete, in one transaction. Adds to `times`. Throws storage::Error if a unit is not done.
+void conclude_study(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                    const RunOptions& options, StudyTimes& times);
 
 }  // namespace capstan

@@ -2,10 +2,9 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/prepared_study.h"
-#include "capstan/placement/repetition_blocks.h"
-#include "capstan/placement/same_study.h"
-#include "capstan/placement/study_description.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/placement/unit_run.h"
+#include "capstan/platform/clocks.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
 
@@ -32,7 +31,8 @@ std::vector<std::int64_t> begin_or_find(storage::Database& database, const Shard
     const auto stored = storage::list_studies(database);
     const auto mark = storage::read_shard(database);  // came with the studies, in one transaction
     const std::string try_this = " Name a new file, or remove this one.";
-    if (!mark) throw storage::Error(file + " holds whole studies, so no shard can be run in it." + try_this);
+    if (!mark)
+        throw storage::Error(file + " holds complete studies, so no shard can be run in it." + try_this);
     if (mark->shard != shard.number || mark->shards != shard.count) {
         throw storage::Error(file + " is " + words_of({mark->shard, mark->shards}) + ", not " +
                              words_of(shard) + "." + try_this);

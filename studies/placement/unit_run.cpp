@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "capstan/placement/fusion_stage.h"
-#include "capstan/placement/repetition_blocks.h"
-#include "capstan/placement/sensor_weights.h"
 #include "capstan/placement/single_sensor_stage.h"
+#include "capstan/platform/clocks.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
 
@@ -29,7 +28,7 @@ class UnitRun {
 
   private:
     int scenarios() const { return static_cast<int>(study_.scenarios.size()); }
-    bool stop_asked() const { return options_.stop != nullptr && options_.stop->load(); }
+    bool stop_requested() const { return options_.stop != nullptr && options_.stop->load(); }
     bool wants(int unit) const { return work_.units.count(unit) != 0; }
     bool wants_fusion(int noise, int s) const { return wants(fusion_unit(study_, noise, s)); }
 
@@ -42,13 +41,13 @@ class UnitRun {
         return false;
     }
 
-    // False when asked to stop.
+    // False if a stop was requested.
     bool work_on_noise_level(int noise) {
         std::vector<SolvedReadings> solved(scenarios());
         std::vector<std::vector<double>> errors_N(scenarios());  // scenarios x nodes; empty: not needed
         for (int s = 0; s < scenarios(); ++s) {
             if (!needs_readings(noise, s)) continue;
-            if (stop_asked()) return false;
+            if (stop_requested()) return false;
             const StudyPoint point{s, noise};
             SolvedReadings readings = solve_readings(study_, point, options_.jobs, times_.paper_methods_s);
             const double start_s = thread_processor_time_s();
@@ -61,7 +60,7 @@ class UnitRun {
         }
         for (int s = 0; s < scenarios(); ++s) {
             if (!wants_fusion(noise, s)) continue;
-            if (stop_asked()) return false;
+            if (stop_requested()) return false;
             FusionTimes times;
             const auto weight = sensor_weights(study_, errors_N, s);
             const auto result = fuse_readings(study_, {s, noise}, solved[s], weight, options_.jobs, times);

@@ -27,7 +27,7 @@ std::vector<int> PlacementConstraints::usable_nodes() const {
     return usable;
 }
 
-// Spacing, budget and the given number each allow so many and no more.
+// Spacing, budget and max_sensors each limit the number of sensors.
 int PlacementConstraints::max_sensors() const {
     const std::vector<int> usable = usable_nodes();
     int by_spacing = 0;
@@ -83,8 +83,9 @@ bool PlacementConstraints::allow_on_the_way(const std::vector<int>& layout) cons
     return broken.empty() || (broken.size() == 1 && broken.front() == required_key);
 }
 
-// Every constraint but the required nodes only forbids, and what it forbids it forbids of every larger layout
-// too: if any layout satisfies them, so do the required nodes alone, or without any a single node.
+// Every constraint except the required nodes excludes layouts, and with a layout it excludes every larger
+// one. So if any layout satisfies them all, the required nodes alone do, or a single node if none is
+// required.
 bool PlacementConstraints::satisfiable_with(const std::vector<std::string>& keys) const {
     std::vector<std::vector<int>> smallest;
     if (holds(keys, required_key) && !plan_.required_nodes.empty()) {
@@ -103,7 +104,7 @@ bool PlacementConstraints::satisfiable_with(const std::vector<std::string>& keys
 std::vector<std::string> PlacementConstraints::clash() const {
     std::vector<std::string> keys = constraint_keys;
     if (satisfiable_with(keys)) return {};
-    // What can be left out without resolving the clash is no part of it.
+    // A constraint that can be left out while the clash remains is not part of it.
     for (const std::string& key : constraint_keys) {
         std::vector<std::string> others;
         for (const std::string& other : keys) {

@@ -7,7 +7,7 @@
 
 namespace capstan {
 
-/// The constraints that can be seen from a layout alone; which error is left after a loss needs scores.
+/// The constraints that a layout alone decides; the error after a loss needs scores.
 class PlacementConstraints {
   public:
     /// `plan` must outlive it.

@@ -8,12 +8,12 @@
 
 namespace capstan {
 
-/// Which error of a repetition a layout is judged by.
+/// The error by which a layout is judged.
 enum class PlacementObjective {
     all_nodes,    ///< mean over all nodes
     load_end,     ///< at the distal node
     worst_node,   ///< at the node where the mean over repetitions is largest
-    quantile_95,  ///< mean over all nodes, of which 95% of the repetitions stay below
+    quantile_95,  ///< 95% quantile over repetitions of the mean over all nodes
 };
 
 std::string_view name_of(PlacementObjective objective);
@@ -21,7 +21,7 @@ inline constexpr PlacementObjective all_placement_objectives[] = {
     PlacementObjective::all_nodes, PlacementObjective::load_end, PlacementObjective::worst_node,
     PlacementObjective::quantile_95};
 
-/// What a designer has to live with, and what counts as better. Nodes are counted from 0 here.
+/// The designer's constraints and objective. Nodes are counted from 0 here.
 struct PlacementPlan {
     PlacementObjective objective = PlacementObjective::all_nodes;
     std::vector<int> forbidden_nodes{};
@@ -31,7 +31,7 @@ struct PlacementPlan {
     int max_in_distal_half = 64;       ///< sensors beyond the middle of the cable
     std::vector<double> node_costs{};  // nodes; empty: each sensor costs 1
     double budget = 1e9;               ///< in the unit of node_costs
-    /// Error after losing whichever one sensor is worst to lose; a layout may not exceed it [N].
+    /// Largest allowed error after the worst loss of one sensor [N].
     double largest_error_after_loss_N = 1e9;
 };
 

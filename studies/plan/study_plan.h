@@ -64,21 +64,21 @@ struct NamedNoise {
 
 /// Where the weights of the W methods come from.
 enum class WeightSource {
-    mass_motion,  ///< the single-sensor errors in mass motion, whatever the regime: the paper's. Needs that
-                  ///< regime.
-    same_regime,  ///< those of the regime that is fused
+    mass_motion,  ///< from the single-sensor errors in mass motion, for every regime, as in the paper. Needs
+                  ///< that regime.
+    same_regime,  ///< from the single-sensor errors of the regime that is fused
 };
 
-/// A plan that stands for many: one study for every combination of these values. An empty list leaves what
-/// the plan says. Ratios multiply: both friction coefficients, the curvature of every bend, the axial
+/// A plan for many studies: one for every combination of these values. An empty list keeps the value of the
+/// plan. Ratios multiply: both friction coefficients, the curvature of every bend, the axial
 /// stiffness.
 struct Sweep {
     std::vector<double> friction_ratio;
     std::vector<double> curvature_ratio;
     std::vector<double> stiffness_ratio;
     std::vector<int> segments;
-    /// The samples of a regime move with the transmission: take this many, spread evenly over all that are in
-    /// it. 0: the plan's samples.
+    /// The samples of a regime change with the transmission: use this many, spread evenly over all samples in
+    /// the regime. 0: the plan's samples.
     int instants_per_regime = 0;
 
     bool is_there() const {
@@ -86,6 +86,13 @@ struct Sweep {
                !segments.empty() || instants_per_regime > 0;
     }
 };
+
+/// Points along the curve of feasible states. The error of the grid itself is inverse to this number; it is
+/// below 0.01 N with 128 points in the paper's cable.
+inline constexpr int default_curve_points = 128;
+
+/// A fifth of the error of about 0.1 N that the paper's cable reaches with its best layouts [N].
+inline constexpr double default_worthwhile_gain_N = 0.02;
 
 /// Everything a study is: plain values, checked by problems_of(). What a configuration file describes.
 struct StudyPlan {
@@ -106,15 +113,16 @@ struct StudyPlan {
 
     DistalSide distal_side = DistalSide::excluded;
     WeightSource weight_source = WeightSource::mass_motion;
-    double largest_distal_increment_m =
-        0.0;  ///< feasible curve: flat prior of the distal end's motion in a sample
-    int curve_points = 128;
+    /// Feasible curve: flat prior of the distal end's motion in a sample.
+    double largest_distal_increment_m = 0.0;
+    int curve_points = default_curve_points;
 
-    double worthwhile_gain_N = 0.02;  ///< one more sensor must lower the error by this to be recommended
+    /// One more sensor must lower the error by this to be recommended.
+    double worthwhile_gain_N = default_worthwhile_gain_N;
     bool compare_with_paper = false;  ///< the plan holds what the paper's table needs
 
     PlacementPlan placement;      ///< for the search over all layouts
-    SensitivityPlan sensitivity;  ///< for the sensitivity of what it advises
+    SensitivityPlan sensitivity;  ///< for the sensitivity of the recommendation
     Sweep sweep;                  ///< studies_in_sweep() makes the studies; each of them has none
 };
 

@@ -21,7 +21,7 @@ std::string ratio_words(const std::vector<double>& list, const char* what, doubl
     return text;
 }
 
-// Explicit layouts and numbers of sensors stay; "all" numbers means all of the new cable.
+// Explicit layouts and numbers of sensors are kept; "all" means all numbers of the new cable.
 void cut_into(StudyPlan& plan, int segments) {
     const int before = plan.transmission.cable.segments;
     plan.transmission.cable.segments = segments;

@@ -6,7 +6,7 @@
 
 namespace capstan {
 
-/// The studies that a plan with a sweep stands for, in order: segments, friction, curvature, stiffness, the
+/// The studies of a plan with a sweep, in order: segments, friction, curvature, stiffness, the
 /// last changing fastest. Each has a name of its own, no sweep, and the seed of the plan: all share their
 /// draws, so that differences between them are paired. Their config_toml is still that of the plan. A plan
 /// without a sweep is its only study. Throws InvalidInput if a regime is never reached.

@@ -8,9 +8,9 @@
 
 namespace capstan {
 
-/// How the true cable differs from the one that the estimators believe in; as it stands, not at all.
+/// How the true cable differs from the estimators' model; by default it does not.
 struct TrueCable {
-    // In parts of the model's.
+    // Factors on the model's values.
     double friction_ratio = 1.0;
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;

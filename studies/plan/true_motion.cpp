@@ -12,7 +12,7 @@ double sine(const EndMotion& end, double time_s) {
     return end.amplitude * std::sin(2.0 * std::numbers::pi * end.frequency_Hz * time_s + end.phase_rad);
 }
 
-// From rest, so that sample 0 is the pretensioned cable whatever the phase.
+// Relative to rest, so that sample 0 is the pretensioned cable for every phase.
 double moved_since_start(const EndMotion& end, double time_s) {
     return sine(end, std::clamp(time_s, end.start_s, end.stop_s)) - sine(end, end.start_s);
 }

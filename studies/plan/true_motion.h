@@ -11,7 +11,7 @@
 
 namespace capstan {
 
-/// What both ends prescribe at a sample of the motion.
+/// The prescribed motion of both ends at a sample.
 EndConditions ends_at(const Cable& cable, const TrueMotion& motion, int sample);
 
 /// One sample of a trajectory, with the one before.
@@ -22,7 +22,7 @@ struct TrueSample {
     const StepReport& report;
 };
 
-/// Simulates samples 1 to motion.samples and shows each.
+/// Simulates samples 1 to motion.samples and passes each on.
 void simulate(const QuasiStaticStep& step, const TrueMotion& motion,
               const std::function<void(const TrueSample&)>& show);
 
@@ -34,7 +34,7 @@ using ShowStates = std::function<void(int sample, const CableState& previous, co
 /// problems_of_truth(plan).
 void simulate_truth(const StudyPlan& plan, const ShowStates& show);
 
-/// What keeps the plan's true cable from being simulated; empty if nothing.
+/// The reasons why the plan's true cable cannot be simulated; empty if there are none.
 std::vector<KeyProblem> problems_of_truth(const StudyPlan& plan);
 
 /// The regime a motion pattern belongs to; none at rest or slack.

@@ -9,11 +9,11 @@ namespace capstan {
 
 namespace {
 
-// Of the grid on which effects are simulated: in each of the plan's segments.
+// Simulation segments in each of the plan's segments when effects are simulated.
 constexpr int min_segments = 60;
-// A node that goes this much less than the one that goes most is at rest: bristles give a little.
+// A node that moves less than this fraction of the largest motion is at rest: bristles give a little.
 constexpr double at_rest_fraction = 1e-2;
-// Displacements are the pulley's turns.
+// Displacements are turns of this pulley.
 constexpr double radius_m = 1.0;
 
 int pieces_of_each_segment(int segments) {
@@ -31,7 +31,7 @@ CableState read_off(const BenchSimulation& bench, const Cable& cable, int pieces
     return state;
 }
 
-// Which nodes moved, from both ends to the first that rests or goes the other way.
+// The moving nodes from both ends up to the first node that rests or moves the other way.
 MotionPattern pattern_between(const CableState& before, const CableState& now) {
     const int nodes = static_cast<int>(now.displacement_m.size());
     std::vector<double> moved;
@@ -57,7 +57,7 @@ MotionPattern pattern_between(const CableState& before, const CableState& now) {
     if (pattern.proximal_moving_nodes > 0) pattern.proximal_direction = way(0);
     if (pattern.distal_moving_nodes > 0) pattern.distal_direction = way(nodes - 1);
     const int moving = pattern.proximal_moving_nodes + pattern.distal_moving_nodes;
-    // A held end is part of a cable that slides all along.
+    // A held end belongs to a cable that slides along its entire length.
     const bool all_but_an_end =
         pattern.proximal_moving_nodes == nodes - 1 && pattern.distal_moving_nodes == 0;
     const bool all_but_the_first =
@@ -78,13 +78,13 @@ MotionPattern pattern_between(const CableState& before, const CableState& now) {
     return pattern;
 }
 
-// Of ends whose positions are given.
+// For ends with prescribed positions.
 BenchInputs inputs_at(const Cable& cable, const TrueMotion& motion, int sample) {
     const EndConditions ends = ends_at(cable, motion, sample);
     const EndConditions rest = ends_at(cable, motion, 0);
     const double proximal_m = ends.proximal.value - rest.proximal.value;
     const double distal_m = ends.distal.value - rest.distal.value;
-    // The motor pulley reels in where its end goes backward.
+    // The motor pulley reels in when its end moves backward.
     return {MotorAngle{-proximal_m / radius_m}, LoadAngle{-distal_m / radius_m}, 1.0 / motion.sample_rate_Hz,
             sample / motion.sample_rate_Hz};
 }

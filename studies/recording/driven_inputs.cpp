@@ -48,13 +48,13 @@ LocalParabola parabola_around(const std::vector<double>& samples, int centre, in
     return {constant, std::sqrt(misfit / (count - parabola_numbers))};
 }
 
-double median(std::vector<double> values) {
+}  // namespace
+
+double upper_median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
-
-}  // namespace
 
 std::vector<double> smoothed(const std::vector<double>& samples, double noise_std) {
     if (noise_std <= 0.0) return samples;
@@ -87,7 +87,7 @@ DrivenInputs driven_inputs(const Recording& recording, const RecordedRun& run) {
         if (!run.drives(channel.name)) continue;
         const std::vector<double>& samples = run.values[index];
         const bool held = channel.name == channel::load_angle && run.output == OutputKind::locked;
-        inputs.values[index] = held ? std::vector<double>(samples.size(), median(samples))
+        inputs.values[index] = held ? std::vector<double>(samples.size(), upper_median(samples))
                                     : smoothed(samples, sample_noise(channel));
     }
     return inputs;

@@ -1,14 +1,15 @@
 #include "capstan/recording/estimated_noise.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "capstan/recording/driven_inputs.h"
 
 namespace capstan {
 
 namespace {
 
-// Of white noise: the second difference of samples has 6 times their variance; a median of sizes is 0.6745
-// standard deviations.
+// For white noise the second difference of samples has 6 times their variance, and the median of absolute
+// values is 0.6745 standard deviations.
 double noise_of(const Recording& recording, std::size_t channel) {
     std::vector<double> sizes;
     for (const RecordedRun& run : recording.runs) {
@@ -17,9 +18,7 @@ double noise_of(const Recording& recording, std::size_t channel) {
             sizes.push_back(std::abs(values[sample - 1] - 2.0 * values[sample] + values[sample + 1]));
     }
     if (sizes.empty()) return 0.0;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return *middle / (0.6745 * std::sqrt(6.0));
+    return upper_median(std::move(sizes)) / (0.6745 * std::sqrt(6.0));
 }
 
 }  // namespace
@@ -28,7 +27,7 @@ Recording with_estimated_noise(Recording recording) {
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         Channel& described = recording.channels[channel];
         if (described.noise_std) continue;
-        // Second differences of a rounded channel are steps: what they explain is no noise beside them.
+        // Second differences of a rounded channel are encoder steps; noise below the step is not added.
         const double found = noise_of(recording, channel);
         described.noise_std = found > described.step.value_or(0.0) ? found : 0.0;
     }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/recording/number_table.h"
+#include "capstan/recording/csv_numbers.h"
 
 namespace capstan {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capstan/recording/number_table.h"
+#include "capstan/recording/csv_numbers.h"
 #include "capstan/recording/recording_checks.h"
 #include "capstan/recording/sidecar.h"
 
@@ -13,14 +13,14 @@ namespace capstan {
 
 namespace {
 
-std::optional<std::size_t> column_of(const NumberTable& table, const std::string& name) {
+std::optional<std::size_t> column_of(const CsvNumbers& table, const std::string& name) {
     const auto found = std::find(table.columns.begin(), table.columns.end(), name);
     if (found == table.columns.end()) return std::nullopt;
     return static_cast<std::size_t>(found - table.columns.begin());
 }
 
 // The channels in the order of the file's columns: the sidecar's keys have none.
-void order_as_in(const NumberTable& table, Recording& recording) {
+void order_as_in(const CsvNumbers& table, Recording& recording) {
     const auto place = [&](const Channel& channel) {
         return column_of(table, channel.name).value_or(table.columns.size());
     };
@@ -29,7 +29,7 @@ void order_as_in(const NumberTable& table, Recording& recording) {
 }
 
 // The table's columns for `run`, `t` and each channel, in that order.
-std::vector<std::size_t> columns_of(const NumberTable& table, const Recording& recording,
+std::vector<std::size_t> columns_of(const CsvNumbers& table, const Recording& recording,
                                     const std::string& place, ProblemList& problems) {
     std::vector<std::string> wanted = {"run", "t"};
     for (const Channel& channel : recording.channels) wanted.push_back(channel.name);
@@ -50,14 +50,14 @@ std::vector<std::size_t> columns_of(const NumberTable& table, const Recording& r
 }
 
 // Deals the rows out to the runs, in the file's order.
-void deal_out(const NumberTable& table, const std::vector<std::size_t>& columns, const std::string& path,
+void deal_out(const CsvNumbers& table, const std::vector<std::size_t>& columns, const std::string& path,
               Recording& recording, ProblemList& problems) {
     for (RecordedRun& run : recording.runs) run.values.assign(recording.channels.size(), {});
     const std::vector<double>& numbers = table.values[columns[0]];
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const auto run = std::find_if(recording.runs.begin(), recording.runs.end(),
                                       [&](const RecordedRun& r) { return r.number == numbers[row]; });
-        const std::string place = fmt::format("{}:{}", path, NumberTable::line_of(row));
+        const std::string place = fmt::format("{}:{}", path, CsvNumbers::line_of(row));
         if (run == recording.runs.end()) {
             problems.add(place, fmt::format("run {} is not in the sidecar's list of runs", numbers[row]));
             continue;
@@ -79,7 +79,7 @@ Recording read_recording(const std::filesystem::path& path) {
 
     ProblemList problems;
     Recording recording = read_sidecar(sidecar_path, problems);
-    const NumberTable table = read_number_table(samples_path, problems);
+    const CsvNumbers table = read_csv_numbers(samples_path, problems);
     order_as_in(table, recording);
     const std::vector<std::size_t> columns =
         columns_of(table, recording, samples_path.string() + ":1", problems);

@@ -4,43 +4,37 @@
 #include <cstdio>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/placement/repetition_blocks.h"
-#include "capstan/placement/scored_draws.h"
 #include "capstan/plan/placement_constraints.h"
+#include "capstan/search/scored_draws.h"
 #include "capstan/sensitivity/uncertain_parameter.h"
 
 namespace capstan::sensitivity {
 
 namespace {
 
-// Layouts times nodes; more take many minutes under a hundred sets of parameters.
+// Layouts times nodes; above this a hundred sets of parameters take many minutes.
 constexpr double max_scored_nodes = 1.0e5;
-
-EqualBlocks blocks_of(int repetitions) {
-    const RepetitionBlocks blocks{repetitions};
-    return {blocks.count(), blocks.block_size()};  // rounds up to whole blocks
-}
 
 std::vector<const FusionMethod*> methods_of(const PreparedStudy& study) {
     std::vector<const FusionMethod*> methods;
     for (const FusionMethod* method : study.methods) {
-        const bool is_asked =
+        const bool is_wanted =
             study.plan.sensitivity.method == "any" || study.plan.sensitivity.method == method->name;
-        if (is_asked && method->knowledge != Knowledge::direction_known) methods.push_back(method);
+        if (is_wanted && method->knowledge != Knowledge::direction_known) methods.push_back(method);
     }
     return methods;
 }
 
 // Equal fraction of each regime's instants.
 std::vector<double> fractions_of(const PreparedStudy& study) {
-    const std::string& asked = study.plan.sensitivity.regime;
+    const std::string& wanted = study.plan.sensitivity.regime;
     std::vector<double> fraction;
     for (const PreparedScenario& scenario : study.scenarios) {
         const auto regime =
             std::find_if(study.plan.regimes.begin(), study.plan.regimes.end(),
                          [&](const RegimeInstants& each) { return each.regime == scenario.regime; });
         const double of_regime =
-            asked == "duty_cycle" ? regime->duty_fraction : (name_of(regime->regime) == asked ? 1.0 : 0.0);
+            wanted == "duty_cycle" ? regime->duty_fraction : (name_of(regime->regime) == wanted ? 1.0 : 0.0);
         fraction.push_back(of_regime / static_cast<double>(regime->samples.size()));
     }
     return fraction;
@@ -68,27 +62,27 @@ Advice advice_of(const CandidateList& candidates, int candidate) {
 
 std::vector<KeyProblem> problems_of_question(const StudyPlan& plan) {
     std::vector<KeyProblem> problems = problems_of(plan.sensitivity, plan.transmission.cable.segments + 1);
-    const SensitivityPlan& asked = plan.sensitivity;
-    const FusionMethod* method = find_fusion_method(asked.method);
-    const bool named = std::find(plan.fusion_methods.begin(), plan.fusion_methods.end(), asked.method) !=
+    const SensitivityPlan& question = plan.sensitivity;
+    const FusionMethod* method = find_fusion_method(question.method);
+    const bool named = std::find(plan.fusion_methods.begin(), plan.fusion_methods.end(), question.method) !=
                        plan.fusion_methods.end();
-    if (asked.method != "any" && (!named || method->knowledge == Knowledge::direction_known)) {
+    if (question.method != "any" && (!named || method->knowledge == Knowledge::direction_known)) {
         problems.push_back(
             {"sensitivity.method",
-             "\"" + asked.method +
-                 "\" is not one of estimation.methods that need not be told the direction; name "
+             "\"" + question.method +
+                 "\" is not one of estimation.methods that work without the true direction; name "
                  "one of them, or \"any\""});
     }
     if (!has_regime(plan)) {
-        problems.push_back({"sensitivity.regime", "no [[regime]] is named \"" + asked.regime +
+        problems.push_back({"sensitivity.regime", "no [[regime]] is named \"" + question.regime +
                                                       "\"; name one that is, or \"duty_cycle\""});
     }
     const int nodes = static_cast<int>(
         PlacementConstraints(plan.placement, plan.transmission.cable.segments + 1).usable_nodes().size());
-    if (nodes > 63 || SensorSubsets::how_many(nodes, asked.sensors) * nodes > max_scored_nodes) {
+    if (nodes > 63 || SensorSubsets::how_many(nodes, question.sensors) * nodes > max_scored_nodes) {
         problems.push_back(
             {"sensitivity.sensors",
-             "so many nodes have too many layouts of " + std::to_string(asked.sensors) +
+             "so many nodes have too many layouts of " + std::to_string(question.sensors) +
                  " sensors to score under many sets of parameters; ask about fewer sensors, or "
                  "forbid nodes in placement.forbidden_nodes"});
     }
@@ -131,7 +125,7 @@ std::optional<AdviceThere> AdviceQuestion::ask(const std::vector<double>& ratio,
     }
     const PlacementScope scope("regime", "", fractions_of(study));
     const auto weights = ScoredDraws::weights(study, noise_index_, 1);
-    const EqualBlocks blocks = blocks_of(plan->repetitions);
+    const EqualBlocks blocks = EqualBlocks::for_repetitions(plan->repetitions);
     const PlacementObjective objective = plan->placement.objective;
     ScoredDraws searched(study, noise_index_, 0, candidates, objective);
     searched.extend(blocks.count, blocks.size, weights, 1);
@@ -146,14 +140,12 @@ std::optional<AdviceThere> AdviceQuestion::ask(const std::vector<double>& ratio,
     const int other = given == nullptr ? best : candidate_of(candidates, *given);
     std::fill(candidates.wanted.begin(), candidates.wanted.end(), 0);
     candidates.wanted[best] = candidates.wanted[other] = 1;
-    ScoredDraws fresh(study, noise_index_, fresh_draws, candidates, objective);
-    fresh.extend(blocks.count, blocks.size, weights, 1);
-    const std::vector<double> of_best_N = scope.block_objective_N(fresh.scenarios(), best);
-    std::vector<double> apart_N = scope.block_objective_N(fresh.scenarios(), other);
-    for (std::size_t b = 0; b < apart_N.size(); ++b) apart_N[b] -= of_best_N[b];
-    const double error_N = scope.objective_N(fresh.scenarios(), best);
-    return AdviceThere{advice_of(candidates, best), interval_of(error_N, of_best_N),
-                       interval_of(scope.objective_N(fresh.scenarios(), other) - error_N, apart_N)};
+    ScoredDraws independent(study, noise_index_, independent_draws, candidates, objective);
+    independent.extend(blocks.count, blocks.size, weights, 1);
+    const Score best_score = scope.score(independent.scenarios(), best);
+    const Score other_score = scope.score(independent.scenarios(), other);
+    return AdviceThere{advice_of(candidates, best), interval_of(best_score),
+                       interval_of(difference_of(other_score, best_score))};
 }
 
 }  // namespace capstan::sensitivity

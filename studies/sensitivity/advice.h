@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "capstan/placement/placement_scope.h"
 #include "capstan/plan/study_plan.h"
+#include "capstan/search/placement_scope.h"
 
 namespace capstan::sensitivity {
 
@@ -16,15 +16,16 @@ struct Advice {
     bool operator==(const Advice&) const = default;
 };
 
-/// What is best under one set of parameters, and what it costs to stay with other advice.
+/// The best advice under one set of parameters, and the cost of keeping other advice.
 struct AdviceThere {
     Advice best;
-    IntervalEstimate best_error;  ///< on fresh draws, 95%
-    /// Error of the given advice less that of the best, on fresh draws, paired: below zero only by chance.
+    IntervalEstimate best_error;  ///< on independent draws, 95%
+    /// Error of the given advice less that of the best, paired, on independent draws: below zero only by
+    /// chance.
     IntervalEstimate regret;
 };
 
-/// Which advice is asked about: its count, method and regime come from plan.sensitivity.
+/// The question about an advice; its count, method and regime come from plan.sensitivity.
 class AdviceQuestion {
   public:
     /// Throws InvalidInput with what is wrong, or if there are too many layouts to score under many sets of
@@ -32,8 +33,8 @@ class AdviceQuestion {
     AdviceQuestion(const StudyPlan& plan, int noise_index);
 
     /// The best under the parameters (factors, one for each of uncertain_parameters()) and the regret of
-    /// `given` there; without it, of the best itself. The same draws whatever the parameters. Nothing where
-    /// the motion is never in the regime that is asked about. Works on one thread.
+    /// `given` there; without it, of the best itself. The same draws whatever the parameters. Nothing if
+    /// the motion is never in the regime of the question. Works on one thread.
     std::optional<AdviceThere> ask(const std::vector<double>& ratio, const Advice* given) const;
 
   private:

@@ -12,7 +12,7 @@ namespace capstan::sensitivity {
 
 namespace {
 
-// Steps from the configured value to each end of a range; a flip that comes back between two is not seen.
+// Steps from the configured value to each end of a range; a flip that reverts between two steps is missed.
 constexpr int scan_steps = 6;
 // A flip is found to a 64th of such a step.
 constexpr int bisections = 6;
@@ -63,7 +63,7 @@ class Analysis {
         return ratios;
     }
 
-    // Each on one thread, into a slot of its own.
+    // Each evaluation runs on one thread and fills its own slot.
     Answers ask_all(const std::vector<Ratios>& all) {
         Answers answers(all.size());
         parallel_for_each_index(static_cast<int>(all.size()), options_.jobs,
@@ -76,7 +76,7 @@ class Analysis {
         return there && there->regret.value_N > plan_.sensitivity.tolerance_N;
     }
 
-    // Factors are spread evenly by ratio, so that half and double are as far.
+    // Factors are spread evenly on a logarithmic scale.
     Ratios inside(const std::vector<double>& unit) const {
         Ratios ratios = as_configured();
         for (std::size_t k = 0; k < uncertain_.size(); ++k) {

@@ -15,15 +15,15 @@ struct ScanPoint {
     std::optional<AdviceThere> there;  ///< nothing: the motion is never in the regime
 };
 
-/// Where along one parameter the configured advice stops being good enough: where another layout is better by
-/// more than the tolerance.
+/// The value of one parameter beyond which another layout is better than the configured advice by more than
+/// the tolerance.
 struct Flip {
     double ratio = 1.0;       ///< the value nearest to the configured one at which it has changed
     double held_ratio = 1.0;  ///< the last value found at which it has not
     AdviceThere there;
 };
 
-/// What one parameter does.
+/// The influence of one parameter.
 struct ParameterSensitivity {
     std::string name;
     std::string title;
@@ -40,12 +40,12 @@ struct ParameterSensitivity {
 struct SensitivityAnswer {
     std::string noise;
     Advice advice;                                 ///< at the configured values
-    IntervalEstimate error;                        ///< its error, on fresh draws
+    IntervalEstimate error;                        ///< its error, on independent draws
     std::vector<ParameterSensitivity> parameters;  ///< those that are uncertain; catalogue order
     int screened = 0;                              ///< sets of parameters of the screening
-    int changed = 0;                               ///< of which the advice has changed in so many
-    int never = 0;                                 ///< in which the motion is never in the regime
-    double largest_regret_N = 0.0;                 ///< of the screened
+    int changed = 0;                               ///< the number of those in which the advice has changed
+    int never = 0;                  ///< the number of those in which the motion is never in the regime
+    double largest_regret_N = 0.0;  ///< of the screened
     int evaluations = 0;
 };
 
@@ -54,8 +54,8 @@ struct SensitivityOptions {
     int noise_index = 0;
 };
 
-/// What the advice at the plan's values is worth elsewhere: a screening of all parameters at once, and a scan
-/// with bisection along each alone. Throws InvalidInput with what is wrong with the plan.
+/// How the advice at the plan's values performs at other values: a screening of all parameters together, and
+/// a scan with bisection along each parameter alone. Throws InvalidInput with what is wrong with the plan.
 SensitivityAnswer advice_sensitivity(const StudyPlan& plan, const SensitivityOptions& options);
 
 }  // namespace capstan::sensitivity

@@ -19,7 +19,7 @@ struct MorrisDesign {
 
 MorrisDesign morris_design(int trajectories, int axes, std::uint64_t seed);
 
-/// What steps along one axis do to a result, in the result's unit over the whole range.
+/// The effect of steps along one axis on a result, in the result's unit over the complete range.
 struct ElementaryEffects {
     double mean = 0.0;           ///< mu
     double mean_absolute = 0.0;  ///< mu*: how much the parameter matters (Campolongo et al. 2007)

@@ -8,7 +8,6 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/cell_statistics.h"
 #include "capstan/placement/fusion_stage.h"
-#include "capstan/placement/sensor_weights.h"
 
 namespace capstan::service {
 

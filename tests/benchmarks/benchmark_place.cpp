@@ -2,7 +2,7 @@
 // by methods and threads. Real time is what a user waits; processor time over all threads says what it costs.
 #include <benchmark/benchmark.h>
 
-#include "capstan/placement/sensor_placement.h"
+#include "capstan/search/sensor_placement.h"
 #include "paper_plan.h"
 
 namespace {

@@ -214,7 +214,7 @@ class MergeRefuses(CapstanTest):
         for words in (("study", "run", *self.STUDY), ("study", "resume")):
             self.assertIn("1.db is the file of shard 1 of 2", self.run_capstan(*words, "--db", "1.db", expect=2).stderr)
         self.run_capstan("study", "run", *self.STUDY, "--db", "study.db")
-        for db, text in (("study.db", "holds whole studies"), ("2.db", "is shard 2 of 2, not shard 1 of 2")):
+        for db, text in (("study.db", "holds complete studies"), ("2.db", "is shard 2 of 2, not shard 1 of 2")):
             self.assertIn(text, self.run_capstan("study", "run", *self.STUDY, "--shard", "1/2", "--db", db, expect=3).stderr)
         message = self.run_capstan("study", "run", *self.STUDY, "--seed", "4", "--shard", "1/2", "--db", "1.db", expect=3)
         self.assertIn("1.db is a shard of another study: its seed is 1, not 4", message.stderr)

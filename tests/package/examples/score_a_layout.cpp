@@ -1,7 +1,7 @@
 // Scores two sensor layouts with every fusion method, as a study does, without a database.
 #include <capstan/estimation/fusion_method.h>
 #include <capstan/placement/fusion_stage.h>
-#include <capstan/placement/sensor_weights.h>
+#include <capstan/placement/single_sensor_stage.h>
 
 #include <cstdio>
 

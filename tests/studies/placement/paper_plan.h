@@ -48,4 +48,16 @@ inline StudyPlan small_plan(int repetitions) {
     return plan;
 }
 
+/// Five nodes, so 31 layouts; one instant in each of two regimes.
+inline StudyPlan short_cable_plan(int repetitions, std::uint64_t seed = 1) {
+    StudyPlan plan = paper_plan(repetitions);
+    plan.name = "short cable";
+    plan.seed = seed;
+    plan.transmission.cable.segments = 4;
+    plan.regimes = {{Regime::mass, {142}, 0.5}, {Regime::partial_proximal, {104}, 0.5}};
+    plan.sensor_counts = {1, 2, 3};
+    plan.curve_points = 32;
+    return plan;
+}
+
 }  // namespace capstan::test

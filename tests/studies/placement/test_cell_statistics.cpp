@@ -5,6 +5,7 @@
 #include <random>
 
 #include "capstan/placement/cell_statistics.h"
+#include "capstan/placement/intervals.h"
 #include "capstan/placement/repetition_blocks.h"
 #include "capstan/platform/parallel_for.h"
 
@@ -16,7 +17,7 @@ double quantile_of(std::vector<double> values, double fraction) {
 }
 
 // Type 7: the share runs from the smallest value at 0 to the largest at 1, linearly between their places.
-TEST(Quantile, IsThatOfTypeSeven) {
+TEST(Quantile, IsOfTypeSeven) {
     EXPECT_DOUBLE_EQ(quantile_of({40, 10, 30, 20}, 0.0), 10.0);
     EXPECT_DOUBLE_EQ(quantile_of({40, 10, 30, 20}, 0.25), 17.5);
     EXPECT_DOUBLE_EQ(quantile_of({40, 10, 30, 20}, 0.5), 25.0);
@@ -33,7 +34,7 @@ TEST(MeanAndError, FollowTheirDefinition) {
     EXPECT_EQ(mean_and_error(std::vector{5.0}).standard_error, 0.0) << "one value shows no spread";
 }
 
-TEST(RepetitionBlocks, HoldEveryRepetitionOnce) {
+TEST(RepetitionBlocks, ContainEveryRepetitionOnce) {
     for (int repetitions = 1; repetitions <= 500; ++repetitions) {
         const RepetitionBlocks blocks{repetitions};
         ASSERT_LE(blocks.count(), RepetitionBlocks::max_blocks);
@@ -47,7 +48,7 @@ TEST(RepetitionBlocks, HoldEveryRepetitionOnce) {
     }
 }
 
-TEST(ParallelForEachIndex, CallsEachOnceAndPassesExceptionsOn) {
+TEST(ParallelForEachIndex, CallsEachIndexOnceAndPassesExceptionsOn) {
     for (const int jobs : {0, 1, 3}) {
         std::vector<int> calls(1000, 0);
         parallel_for_each_index(1000, jobs, [&](int i) { ++calls[i]; });
@@ -99,7 +100,7 @@ TEST(SummariseCell, FollowsItsDefinitions) {
     EXPECT_EQ(cell.block_mean_abs_error_N, (std::vector<double>{2, 3, 1, 2}));
 }
 
-TEST(SummariseCell, TheBlocksAverageToTheMean) {
+TEST(SummariseCell, BlocksAverageToTheMean) {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     std::vector<std::array<double, 2>> errors_N(80);
@@ -111,7 +112,7 @@ TEST(SummariseCell, TheBlocksAverageToTheMean) {
 }
 
 // 2000 cells: a coverage of 95% shows as 95% +- 0.5%, so 4 standard errors are inside 93 to 97%.
-TEST(SummariseCell, TheIntervalHoldsTheTruthInNineteenOfTwentyCells) {
+TEST(SummariseCell, IntervalCoversTheTruthInNineteenOfTwentyCells) {
     std::mt19937_64 random(2);
     std::normal_distribution<double> normal;
     const double truth_N = 0.4 * std::sqrt(2.0 / std::numbers::pi);  // mean of |0.4 e|

@@ -31,12 +31,12 @@ std::vector<std::vector<double>> known_direction_errors_N(const std::vector<Name
     return errors_N;
 }
 
-TEST(NoiseLevels, NoNoiseMeansNoErrorWhenTheDirectionIsKnown) {
+TEST(NoiseLevels, NoErrorWithoutNoiseWhenTheDirectionIsKnown) {
     const auto errors_N = known_direction_errors_N({{"none", {}}});
     for (const double error_N : errors_N[0]) EXPECT_LT(error_N, 1e-12);
 }
 
-TEST(NoiseLevels, ErrorsGrowInProportionToTheNoiseOnTheSameDraws) {
+TEST(NoiseLevels, ErrorsAreProportionalToTheNoiseOnTheSameDraws) {
     const auto errors_N = known_direction_errors_N(
         {{"1 %", {0.01, 0, 0}}, {"10 %", {0.1, 0, 0}}, {"little", {0, 0.01, 0}}, {"more", {0, 0.03, 0}}});
     for (std::size_t cell = 0; cell < errors_N[0].size(); ++cell) {
@@ -45,7 +45,7 @@ TEST(NoiseLevels, ErrorsGrowInProportionToTheNoiseOnTheSameDraws) {
     }
 }
 
-TEST(NoiseLevels, AStudyOfOneLevelIsThatPartOfAStudyOfMany) {
+TEST(NoiseLevels, OneLevelHasTheSameBitsInAStudyOfMany) {
     const NamedNoise ten{"10 %", {0.1, 0, 0}};
     EXPECT_EQ(known_direction_errors_N({ten})[0], known_direction_errors_N({{"1 %", {0.01, 0, 0}}, ten})[1]);
 }

@@ -4,7 +4,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/study_extension.h"
 #include "capstan/storage/study_store.h"
-#include "every_layout.h"
+#include "paper_plan.h"
 #include "temporary_study.h"
 
 namespace capstan {
@@ -43,7 +43,7 @@ TEST(StudyExtension, HasTheBitsOfAStudyWithThatNumberFromTheStart) {
     }
 }
 
-TEST(StudyExtension, StoppedAnywhereItGoesOnToTheSameBits) {
+TEST(StudyExtension, ResumedAfterAnyStopEndsWithTheSameBits) {
     const test::Dump expected = both_run(40, 80);
     for (const int units : {0, 1, 3}) {
         test::TemporaryStudy file;
@@ -58,14 +58,14 @@ TEST(StudyExtension, StoppedAnywhereItGoesOnToTheSameBits) {
     }
 }
 
-TEST(StudyExtension, RefusesFewerRepetitionsThanThereAre) {
+TEST(StudyExtension, RejectsFewerRepetitionsThanStored) {
     test::TemporaryStudy file;
     const StudyToExtend study = begun_with(file.database(), 40);
     EXPECT_THROW(extend_study(file.database(), study, 40, "test", {}), InvalidInput);
 }
 
 // The tolerance is met on all targets or the study goes on; what it ran on the way is gone.
-TEST(UntilResolved, DoublesUntilNoTargetIsOpenAndKeepsTheLast) {
+TEST(UntilResolved, DoublesUntilEveryTargetIsResolvedAndKeepsTheLastStudy) {
     test::TemporaryStudy file;
     const StudyToExtend study = begun_with(file.database(), 40);
     const double open_N = unresolved_N(file.database(), study.study_id, 0.025);
@@ -82,7 +82,7 @@ TEST(UntilResolved, DoublesUntilNoTargetIsOpenAndKeepsTheLast) {
     expect_same(file.dump(), both_run(40, outcome.repetitions));
 }
 
-TEST(UntilResolved, StoppedOnTheWayItEndsAtTheSameStudy) {
+TEST(UntilResolved, ResumedAfterAStopEndsWithTheSameStudy) {
     test::TemporaryStudy file;
     const StudyToExtend study = begun_with(file.database(), 40);
     Resolution resolution;
@@ -99,7 +99,7 @@ TEST(UntilResolved, StoppedOnTheWayItEndsAtTheSameStudy) {
     expect_same(file.dump(), both_run(40, outcome.repetitions));
 }
 
-TEST(UntilResolved, SaysWhatIsOpenWhereTheMostRepetitionsStopIt) {
+TEST(UntilResolved, ReportsTheUnresolvedDifferenceAtTheLargestNumberOfRepetitions) {
     test::TemporaryStudy file;
     const StudyToExtend study = begun_with(file.database(), 40);
     Resolution resolution;

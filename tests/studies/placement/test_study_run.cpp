@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/placement/prepared_study.h"
 #include "capstan/placement/replay.h"
 #include "capstan/storage/study_store.h"
 #include "paper_plan.h"
@@ -42,7 +43,7 @@ TEST(StudyRun, FillsEveryTableOfItsResults) {
     }
 }
 
-TEST(StudyRun, TheNumberOfThreadsChangesNoBit) {
+TEST(StudyRun, AnyNumberOfThreadsGivesTheSameBits) {
     for (const int jobs : {2, 7}) {
         TemporaryStudy study;
         run_study(study.database(), test::small_plan(40), "test", with_jobs(jobs));
@@ -52,7 +53,7 @@ TEST(StudyRun, TheNumberOfThreadsChangesNoBit) {
 }
 
 // 4 scenarios x 2 noise levels x 2 stages are 16 units; 15 leaves one, 16 only the conclusions.
-TEST(StudyRun, StoppedAndResumedItEndsWithTheSameBits) {
+TEST(StudyRun, ResumedAfterAStopEndsWithTheSameBits) {
     const StudyPlan plan = test::small_plan(40);
     for (const int units : {0, 1, 4, 6, 11, 15}) {
         SCOPED_TRACE("stopped after " + std::to_string(units) + " units");
@@ -71,7 +72,7 @@ TEST(StudyRun, StoppedAndResumedItEndsWithTheSameBits) {
     }
 }
 
-TEST(StudyRun, StoppedTwiceItEndsWithTheSameBits) {
+TEST(StudyRun, ResumedAfterTwoStopsEndsWithTheSameBits) {
     const StudyPlan plan = test::small_plan(40);
     TemporaryStudy study;
     std::atomic<bool> stop = false;
@@ -109,7 +110,7 @@ TEST(StudyRun, WritesNothingForAPlanWithProblems) {
 }
 
 // Errors of the repetitions, replayed one by one and averaged, against the stored mean of the cell.
-TEST(Replay, ShowsTheRepetitionsThatTheStudyAveraged) {
+TEST(Replay, ReproducesTheRepetitionsOfTheStudy) {
     constexpr int repetitions = 6;
     const StudyPlan plan = test::small_plan(repetitions);
     TemporaryStudy study;
@@ -134,12 +135,23 @@ TEST(Replay, ShowsTheRepetitionsThatTheStudyAveraged) {
     }
 }
 
-TEST(Replay, RefusesAnAddressOutsideTheStudy) {
+TEST(Replay, RejectsAnAddressOutsideTheStudy) {
     const StudyPlan plan = test::small_plan(6);
     EXPECT_THROW(replay(plan, {4, 0, 0}, 1), InvalidInput);
     EXPECT_THROW(replay(plan, {0, 2, 0}, 1), InvalidInput);
     EXPECT_THROW(replay(plan, {0, 0, 6}, 1), InvalidInput);
     EXPECT_THROW(replay(plan, {-1, 0, 0}, 1), InvalidInput);
+}
+
+TEST(PreparedStudy, NamesEachSetOfNodesOnce) {
+    const StudyPlan plan = test::paper_plan(2);
+    const PreparedStudy study = prepare(plan);
+    for (std::size_t a = 0; a < study.sensor_sets.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) EXPECT_NE(study.sensor_sets[a], study.sensor_sets[b]);
+    }
+    for (const PlannedLayout& planned : study.layouts) {
+        EXPECT_EQ(study.sensor_sets[planned.set_index], planned.layout.nodes) << planned.layout.label;
+    }
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(Deal, KeepsTheInstantsOfANoiseLevelTogetherWhileThereAreEnough) {
     }
 }
 
-TEST(Deal, GivesEveryShardWorkUpToOnePartEach) {
+TEST(Deal, DealsPartsEvenlyAmongShards) {
     const std::vector<StudySize> studies{{3, 4}, {1, 3}};
     for (const int shards : {5, 8, 15}) {
         const Deal deal(studies, shards);
@@ -58,7 +58,7 @@ TEST(Shard, PartsAreInstantsTimesNoiseLevels) {
 
 // Three noise levels and five shards, so parts are dealt: shard 4 owns parts 3 and 8, the first of the second
 // study.
-TEST(Shard, RunsItsOwnUnitsOfEveryStudyAndNoOther) {
+TEST(Shard, RunsOnlyItsOwnUnitsOfEveryStudy) {
     const std::vector<StudyPlan> plans{test::small_plan(2), test::paper_plan(2)};
     test::TemporaryStudy file;
     run_shard(file.database(), plans, {4, 5}, "test", {});
@@ -70,7 +70,7 @@ TEST(Shard, RunsItsOwnUnitsOfEveryStudyAndNoOther) {
     EXPECT_EQ(pending(2), (std::set<int>{1, 2, 3, 5, 6, 7}));                                // not 0, 4
 }
 
-TEST(Shard, RefusesAFileOfWholeStudies) {
+TEST(Shard, RejectsAFileOfCompleteStudies) {
     const std::vector<StudyPlan> plans{test::small_plan(2)};
     test::TemporaryStudy file;
     run_study(file.database(), plans[0], "test", {});
@@ -81,7 +81,7 @@ TEST(Shard, RefusesAFileOfWholeStudies) {
 
 // Weights come from the two instants in mass motion; one part a shard: of the 4 shards at a noise level the
 // two with mass motion lack one of them, the others both.
-TEST(Shard, WhatItSolvesAgainForWeightsIsCounted) {
+TEST(Shard, CountsTheReadingsSolvedAgainForWeights) {
     std::vector<StudyPlan> plans{test::small_plan(2)};
     EXPECT_EQ(parts_solved_again(plans, 1), 0);
     EXPECT_EQ(parts_solved_again(plans, 2), 0);  // a noise level each
@@ -113,7 +113,7 @@ TEST(Sweep, IsAStudyForEveryCombination) {
     EXPECT_EQ(studies.back().sensor_counts.size(), 21u);  // "all" counts stay all
 }
 
-TEST(Sweep, TakesInstantsThatAreInTheirRegime) {
+TEST(Sweep, ChoosesInstantsInTheirRegime) {
     StudyPlan plan = test::paper_plan(2);
     plan.sweep.friction_ratio = {0.25, 0.5, 1.0};
     plan.sweep.instants_per_regime = 5;
@@ -141,7 +141,7 @@ TEST(Sweep, NamesTheStudyThatNeverReachesARegime) {
     }
 }
 
-TEST(Sweep, APlanWithoutOneIsItsOnlyStudy) {
+TEST(Sweep, PlanWithoutASweepIsItsOnlyStudy) {
     const StudyPlan plan = test::paper_plan(2);
     const std::vector<StudyPlan> studies = studies_in_sweep(plan);
     ASSERT_EQ(studies.size(), 1u);

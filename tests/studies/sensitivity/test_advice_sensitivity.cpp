@@ -7,7 +7,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/sensitivity/advice_sensitivity.h"
 #include "capstan/sensitivity/uncertain_parameter.h"
-#include "every_layout.h"
+#include "paper_plan.h"
 
 namespace capstan::sensitivity {
 namespace {

@@ -1,0 +1,95 @@
+#include "capstan/recording/csv_numbers.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "capstan/cable/invalid_input.h"
+
+namespace capstan {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
+        text.remove_suffix(1);
+    return text;
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+    std::vector<std::string_view> fields;
+    while (true) {
+        const std::size_t comma = line.find(',');
+        fields.push_back(trimmed(line.substr(0, comma)));
+        if (comma == std::string_view::npos) return fields;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+// The numbers of one line; false, with the reason noted, if it does not hold one per column.
+bool numbers_of(std::string_view line, const CsvNumbers& table, const std::string& place,
+                ProblemList& problems, std::vector<double>& numbers) {
+    const std::vector<std::string_view> fields = fields_of(line);
+    if (fields.size() != table.columns.size()) {
+        problems.add(place, fmt::format("{} values for {} columns; is the line cut short?", fields.size(),
+                                        table.columns.size()));
+        return false;
+    }
+    numbers.clear();
+    for (std::size_t column = 0; column < fields.size(); ++column) {
+        const std::string_view field = fields[column];
+        double number = 0.0;
+        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
+        const bool whole = error == std::errc{} && end == field.data() + field.size();
+        if (!whole || !std::isfinite(number)) {
+            problems.add(place,
+                         fmt::format("column '{}' has '{}', not a finite number; leave samples out whole "
+                                     "rather than fill them",
+                                     table.columns[column], field));
+            return false;
+        }
+        numbers.push_back(number);
+    }
+    return true;
+}
+
+}  // namespace
+
+std::string file_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path))
+        throw InvalidInput({path.string() + ": cannot be read; does the file exist?"});
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+CsvNumbers read_csv_numbers(const std::filesystem::path& path, ProblemList& problems) {
+    const std::string text = file_text(path);
+    CsvNumbers table;
+    std::vector<double> numbers;
+    std::string_view rest = text;
+    for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
+        const std::size_t end = rest.find('\n');
+        const std::string_view line = trimmed(rest.substr(0, end));
+        rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+        const std::string place = fmt::format("{}:{}", path.string(), line_number);
+        if (line_number == 1) {
+            for (const std::string_view name : fields_of(line)) table.columns.emplace_back(name);
+            table.values.resize(table.columns.size());
+        } else if (line.empty()) {
+            if (!rest.empty()) problems.add(place, "the line is empty");
+        } else if (numbers_of(line, table, place, problems, numbers)) {
+            for (std::size_t column = 0; column < numbers.size(); ++column)
+                table.values[column].push_back(numbers[column]);
+        }
+    }
+    if (table.rows() == 0)
+        problems.add(path.string(), "no samples; a head line and one line a sample are needed");
+    return table;
+}
+
+}  // namespace capstan

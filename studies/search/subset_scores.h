@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "capstan/placement/prepared_study.h"
+#include "capstan/placement/single_sensor_stage.h"
+#include "capstan/plan/placement_plan.h"
+#include "capstan/search/sensor_subsets.h"
+
+namespace capstan {
+
+/// A candidate is a sensor set with a fusion method; its number is subset * methods + method. The empty set
+/// is there and has no scores.
+struct CandidateList {
+    const SensorSubsets& subsets;
+    std::vector<const FusionMethod*> methods;  ///< none that is told the direction; catalogue order
+    /// candidates: 0 where no score is wanted; empty: all are
+    std::vector<std::uint8_t> wanted;
+
+    int count() const { return subsets.count() * static_cast<int>(methods.size()); }
+    int of(int subset, int method) const { return subset * static_cast<int>(methods.size()) + method; }
+    int subset(int candidate) const { return candidate / static_cast<int>(methods.size()); }
+    int method(int candidate) const { return candidate % static_cast<int>(methods.size()); }
+    bool wants(int candidate) const { return wanted.empty() || wanted[candidate] != 0; }
+};
+
+/// Consecutive repetitions of one size: the unit of threads, of sums and of paired differences. More
+/// repetitions are more blocks, and the old ones stay what they were.
+struct EqualBlocks {
+    int count = 0;
+    int size = 0;
+    int repetitions() const { return count * size; }
+
+    /// At least so many repetitions, in the blocks of a study.
+    static EqualBlocks for_repetitions(int repetitions);
+};
+
+/// Errors of all candidates in one scenario, block by block [N].
+struct BlockErrors {
+    int width = 1;                   ///< numbers to a candidate: 1, or one for each node
+    std::vector<double> sum_N;       // blocks x candidates x width: summed over the block's repetitions
+    std::vector<float> quantile_of;  // repetitions x candidates: only for a quantile objective
+};
+
+/// The inputs of scoring a scenario besides its readings.
+struct ScoringTask {
+    const PreparedStudy& study;
+    StudyPoint point;
+    std::span<const double> weight;  // nodes: of the W methods
+    const CandidateList& candidates;
+    PlacementObjective objective;
+    EqualBlocks blocks;
+};
+
+/// Scores blocks `first_block` on; those before stay in `errors`. Each reading is solved once and every set's
+/// sums are those of a smaller set and one sensor more. `solved` holds the repetitions of all blocks.
+void score_blocks(const ScoringTask& task, const SolvedReadings& solved, int first_block, int jobs,
+                  BlockErrors& errors);
+
+/// Bytes that the errors of one scenario take.
+double block_error_bytes(double candidates, PlacementObjective objective, const EqualBlocks& blocks,
+                         int nodes);
+
+}  // namespace capstan
