@@ -5,7 +5,7 @@
 
 #include "capstan/rig/channel_names.h"
 
-namespace capstan::gap {
+namespace capstan {
 
 namespace {
 
