@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "capstan/gap/same_benches.h"
 #include "capstan/platform/parallel_for.h"
 
 namespace capstan::gap {
@@ -30,26 +29,6 @@ double CauseFitter::independent_samples() const {
     double duration_s = 0.0;
     for (const RecordedRun& run : recording_.runs) duration_s += run.time_s.back() - run.time_s.front();
     return duration_s / correlation_time_s;
-}
-
-BenchNumbers CauseFitter::numbers(const std::vector<const CandidateCause*>& causes,
-                                  const Eigen::VectorXd& coordinates) {
-    BenchNumbers bench;
-    // A search that goes astray ends at a bench that can still be built.
-    const auto ratio = [](double logarithm) {
-        constexpr double max_log = 2.5;
-        return std::exp(std::clamp(logarithm, -max_log, max_log));
-    };
-    bench.friction_ratio = ratio(coordinates[0]);
-    bench.stiffness_ratio = ratio(coordinates[1]);
-    bench.pretension_ratio = ratio(coordinates[2]);
-    Eigen::Index next = nominal_coordinates;
-    for (const CandidateCause* cause : causes) {
-        std::vector<double> values;
-        for (const OpenNumber& number : cause->numbers) values.push_back(number.value(coordinates[next++]));
-        cause->apply(bench, values);
-    }
-    return bench;
 }
 
 // A coarse reading says in which step's reach the value was, no more: within it nothing is left.
@@ -82,13 +61,14 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
     parallel_for_each_index(static_cast<int>(runs * groups.size()), threads_, [&](int task) {
         const std::size_t run = static_cast<std::size_t>(task) % runs;
         const BenchGroup& group = groups[static_cast<std::size_t>(task) / runs];
-        if (left_out && left_out->run == run && left_out->whole_run()) return;
+        if (left_out && left_out->run == run && left_out->is_complete_run()) return;
         std::vector<BenchNumbers> moved;
         for (const SameBench& bench : group) moved.push_back(bench.numbers);
         const std::vector<TwinRun> twins = twin_.run_each(run, moved);
         for (std::size_t lane = 0; lane < twins.size(); ++lane) {
             for (const std::size_t k : group[lane].hypotheses) {
-                const auto faults = numbers(hypotheses[k].causes, hypotheses[k].coordinates).sensor_faults;
+                const auto faults =
+                    bench_numbers(hypotheses[k].causes, hypotheses[k].coordinates).sensor_faults;
                 auto smooth = faults;
                 for (auto& [channel, fault] : smooth) {
                     if (lattice_[static_cast<std::size_t>(*recording_.channel(channel))]) fault.step = 0.0;
@@ -113,21 +93,11 @@ std::vector<std::vector<double>> CauseFitter::visibility(std::span<const CauseFi
     for (const CauseFit& fit : fits) {
         hypotheses.push_back(fit.hypothesis());
         for (const CandidateCause* cause : fit.causes) {
-            Hypothesis without{{}, fit.coordinates.head(nominal_coordinates)};
+            Hypothesis without =
+                only_causes(fit.hypothesis(), [&](const CandidateCause& other) { return &other != cause; });
             if (cause->friction_std > nominal_log_std) without.coordinates[0] = 0.0;
             if (cause->stiffness_std > nominal_log_std) without.coordinates[1] = 0.0;
             if (cause->pretension_std > nominal_log_std) without.coordinates[2] = 0.0;
-            Eigen::Index next = nominal_coordinates;
-            for (const CandidateCause* other : fit.causes) {
-                const auto numbers = static_cast<Eigen::Index>(other->numbers.size());
-                if (other != cause) {
-                    without.causes.push_back(other);
-                    const Eigen::Index known = without.coordinates.size();
-                    without.coordinates.conservativeResize(known + numbers);
-                    without.coordinates.tail(numbers) = fit.coordinates.segment(next, numbers);
-                }
-                next += numbers;
-            }
             hypotheses.push_back(without);
         }
     }
@@ -135,10 +105,10 @@ std::vector<std::vector<double>> CauseFitter::visibility(std::span<const CauseFi
     std::vector<std::vector<double>> all;
     Eigen::Index column = 0;
     for (const CauseFit& fit : fits) {
-        const Eigen::Index whole = column++;
+        const Eigen::Index with_all = column++;
         std::vector<double> each;
         for (std::size_t k = 0; k < fit.causes.size(); ++k)
-            each.push_back(clearest_change(residuals.col(column++) - residuals.col(whole)));
+            each.push_back(clearest_change(residuals.col(column++) - residuals.col(with_all)));
         all.push_back(each);
     }
     return all;

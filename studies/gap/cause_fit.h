@@ -7,18 +7,24 @@
 #include <utility>
 #include <vector>
 
-#include "capstan/gap/candidate_cause.h"
 #include "capstan/gap/effects_twin.h"
+#include "capstan/gap/hypothesis.h"
 #include "capstan/gap/least_squares.h"
-#include "capstan/gap/residual_series.h"
 
 namespace capstan::gap {
 
-/// Causes with their numbers, to be looked at together.
-struct Hypothesis {
-    std::vector<const CandidateCause*> causes;
-    Eigen::VectorXd coordinates;  // friction, stiffness, pretension logarithms, then each cause's numbers
+/// Residuals of one channel in one run.
+struct ResidualSeries {
+    std::size_t run = 0;
+    std::size_t channel = 0;
+    int first_sample = 0;       ///< of those predicted; before it lies the first loading from rest
+    double scale = 1.0;         ///< noise and the model's floor together, in the channel's unit
+    std::size_t first_row = 0;  // in a vector of all residuals
+    std::size_t rows = 0;
 };
+
+/// Of every channel that the twin predicts, run by run.
+std::vector<ResidualSeries> residual_series(const Recording& recording, const EffectsTwin& twin);
 
 /// Part of a recording that a fit does not see: of a run, from one fraction of its samples to another.
 struct LeftOut {
@@ -26,7 +32,7 @@ struct LeftOut {
     double from = 0.0;
     double to = 1.0;
 
-    bool whole_run() const { return from == 0.0 && to == 1.0; }
+    bool is_complete_run() const { return from == 0.0 && to == 1.0; }
     /// First and one past the last of this many.
     std::pair<std::size_t, std::size_t> rows(std::size_t count) const {
         return {static_cast<std::size_t>(from * static_cast<double>(count)),
@@ -62,9 +68,6 @@ class CauseFitter {
         double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
-    /// The bench with these causes at these coordinates.
-    static BenchNumbers numbers(const std::vector<const CandidateCause*>& causes,
-                                const Eigen::VectorXd& coordinates);
     /// Residuals of the data, a column a hypothesis.
     Eigen::MatrixXd data_residuals(std::span<const Hypothesis> hypotheses,
                                    std::optional<LeftOut> left_out = {}) const;
@@ -104,7 +107,5 @@ class CauseFitter {
     std::size_t data_rows_ = 0;
     double prior_weight_ = 1.0;
 };
-
-inline constexpr int nominal_coordinates = 3;
 
 }  // namespace capstan::gap

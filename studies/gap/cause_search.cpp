@@ -29,24 +29,6 @@ double min_sum(const std::vector<ScoredFit>& fits) {
     return least;
 }
 
-Hypothesis with(Hypothesis present, const Screened& added) {
-    present.causes.push_back(added.cause);
-    const Eigen::Index known = present.coordinates.size();
-    present.coordinates.conservativeResize(known + added.start.size());
-    present.coordinates.tail(added.start.size()) = added.start;
-    return present;
-}
-
-// One of a pair's causes as it is there.
-Hypothesis only(const CauseFit& pair, std::size_t kept) {
-    Eigen::Index first = nominal_coordinates;
-    for (std::size_t k = 0; k < kept; ++k) first += static_cast<Eigen::Index>(pair.causes[k]->numbers.size());
-    const auto count = static_cast<Eigen::Index>(pair.causes[kept]->numbers.size());
-    Hypothesis one{{pair.causes[kept]}, Eigen::VectorXd(nominal_coordinates + count)};
-    one.coordinates << pair.coordinates.head(nominal_coordinates), pair.coordinates.segment(first, count);
-    return one;
-}
-
 // A wrong nominal number beside a cause that lets the same number go far already.
 bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
     const auto goes_far = [](double std) { return std > nominal_log_std; };
@@ -112,7 +94,7 @@ void CauseSearch::fit_best(const std::vector<Screened>& screened, std::vector<Sc
              0.2 + 0.4 * static_cast<double>(fits.size()) / (max_fitted + nominal_coordinates));
         CauseFitter::FitOptions options;
         options.pruned_sum_of_squares = pruned_factor * min_sum(fits);
-        fits.push_back(scored(fitter_.fit(with(nominal_, each), options)));
+        fits.push_back(scored(fitter_.fit(with_cause(nominal_, each.cause, each.start), options)));
     }
 }
 
@@ -131,7 +113,7 @@ void CauseSearch::fit_confusable(const std::vector<Screened>& screened, std::vec
         if (found == screened.end()) continue;
         CauseFitter::FitOptions options;
         options.pruned_sum_of_squares = pruned_factor * min_sum(singles);
-        singles.push_back(scored(fitter_.fit(with(nominal_, *found), options)));
+        singles.push_back(scored(fitter_.fit(with_cause(nominal_, found->cause, found->start), options)));
     }
     sort_by_evidence(singles);
 }
@@ -154,7 +136,11 @@ std::vector<ScoredFit> CauseSearch::pairs_with(const std::vector<ScoredFit>& sin
     for (int round = 0; round < max_exchanges && !pairs.empty(); ++round) {
         if (!worth_a_second_cause(pairs.front().misfit, nominal_misfit_)) break;
         const CauseFit best = pairs.front().fit;
-        for (std::size_t kept = 0; kept < best.causes.size(); ++kept) add_pairs(only(best, kept), pairs);
+        for (const CandidateCause* kept : best.causes) {
+            add_pairs(
+                only_causes(best.hypothesis(), [&](const CandidateCause& cause) { return &cause == kept; }),
+                pairs);
+        }
         sort_by_evidence(pairs);
         if (pairs.front().fit.causes == best.causes) break;
     }
@@ -177,7 +163,7 @@ void CauseSearch::add_pairs(const Hypothesis& present, std::vector<ScoredFit>& p
              std::min(0.9, 0.6 + 0.03 * static_cast<double>(pairs.size())));
         CauseFitter::FitOptions options;
         options.pruned_sum_of_squares = pruned_factor * min_sum(pairs);
-        pairs.push_back(scored(fitter_.fit(with(present, each), options)));
+        pairs.push_back(scored(fitter_.fit(with_cause(present, each.cause, each.start), options)));
     }
 }
 

@@ -106,7 +106,7 @@ class Diagnoser {
 
     void describe(Diagnosis& diagnosis, const ScoredFit& leading, const ScoredFit& runner_up) {
         const CauseFit& fit = leading.fit;
-        const BenchNumbers numbers = CauseFitter::numbers(fit.causes, fit.coordinates);
+        const BenchNumbers numbers = bench_numbers(fit.causes, fit.coordinates);
         diagnosis.friction_ratio = numbers.friction_ratio;
         diagnosis.stiffness_ratio = numbers.stiffness_ratio;
         diagnosis.pretension_ratio = numbers.pretension_ratio;
@@ -131,7 +131,7 @@ class Diagnoser {
         }
         diagnosis.gap = measure_gap(
             recording_, fitter_,
-            {numbers, CauseFitter::numbers(runner_up.fit.causes, runner_up.fit.coordinates), held_out(fit)});
+            {numbers, bench_numbers(runner_up.fit.causes, runner_up.fit.coordinates), held_out(fit)});
     }
 
     // The bench as fitted without each part of the recording in turn.
@@ -144,7 +144,7 @@ class Diagnoser {
             options.any_size = false;
             const CauseFit fit = fitter_.fit(leading.hypothesis(), options);
             evaluations_ += fit.evaluations;
-            parts.push_back({part, CauseFitter::numbers(fit.causes, fit.coordinates)});
+            parts.push_back({part, bench_numbers(fit.causes, fit.coordinates)});
         }
         return parts;
     }

@@ -6,7 +6,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/calibration.h"
 #include "capstan/gap/cause_fit.h"
-#include "capstan/gap/lumped_drive.h"
+#include "capstan/gap/twin.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
@@ -65,7 +65,7 @@ void fit_nominal_numbers(Recording& bench) {
     anything.pretension_std = run_pretension_log_std;
     const CauseFitter fitter(bench, {}, 0);
     const CauseFit fit = fitter.fit({{&anything}, Eigen::VectorXd::Zero(nominal_coordinates)}, {});
-    const BenchNumbers numbers = CauseFitter::numbers(fit.causes, fit.coordinates);
+    const BenchNumbers numbers = bench_numbers(fit.causes, fit.coordinates);
     bench.nominal->dynamic_friction *= numbers.friction_ratio;
     bench.nominal->static_friction *= numbers.friction_ratio;
     bench.nominal->axial_stiffness_N *= numbers.stiffness_ratio;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "capstan/gap/block_bootstrap.h"
-#include "capstan/gap/sample_conditions.h"
 
 namespace capstan::gap {
 

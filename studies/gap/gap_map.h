@@ -27,6 +27,17 @@ struct RunResiduals {
     int first_sample = 0;                  ///< before it lies the first loading from rest
 };
 
+/// Ways to sort a recording's samples, and what each way calls its parts. A sample that has no place in one
+/// of them is in part -1.
+struct SampleSorting {
+    std::string by;
+    std::vector<std::string> parts;
+    std::vector<std::vector<int>> part_of;  // runs x samples
+};
+
+/// By regime, direction, speed, tension, time since reversal, and time in the session.
+std::vector<SampleSorting> sample_sortings(const Recording& recording, const std::vector<RunResiduals>& runs);
+
 /// Empty if nothing is left beyond noise and floor.
 std::vector<GapFraction> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs);
 

@@ -1,10 +1,8 @@
-#include "capstan/gap/lumped_drive.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/predicted_channels.h"
+#include "capstan/gap/twin.h"
 #include "capstan/rig/channel_names.h"
 #include "capstan/solver/pull_pull.h"
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "capstan/gap/possible_experiments.h"
-
 namespace capstan::gap {
 
 namespace {
@@ -102,7 +100,7 @@ NonIdentifiable discriminating_experiments(const Recording& recording, const Cau
     for (const Experiment& experiment : possible_experiments(recording)) {
         const EffectsTwinOptions options = fitter.twin().options();
         const Recording planned =
-            answered(experiment.recording, options, CauseFitter::numbers(leader.causes, leader.coordinates));
+            answered(experiment.recording, options, bench_numbers(leader.causes, leader.coordinates));
         const CauseFitter planned_fitter(planned, options, threads);
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t truth = 0; truth < known.size(); ++truth) {

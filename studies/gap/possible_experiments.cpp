@@ -1,5 +1,3 @@
-#include "capstan/gap/possible_experiments.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "capstan/gap/next_experiment.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {

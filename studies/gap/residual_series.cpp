@@ -1,8 +1,7 @@
-#include "capstan/gap/residual_series.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/gap/cause_fit.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {

@@ -1,5 +1,3 @@
-#include "capstan/gap/sample_conditions.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "capstan/gap/gap_map.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {

@@ -95,14 +95,6 @@ std::vector<Probe> probes_of(const std::vector<CandidateCause>& causes, const Hy
     return probes;
 }
 
-Hypothesis with(Hypothesis present, const CandidateCause* cause, const Eigen::VectorXd& numbers) {
-    present.causes.push_back(cause);
-    const Eigen::Index known = present.coordinates.size();
-    present.coordinates.conservativeResize(known + numbers.size());
-    present.coordinates.tail(numbers.size()) = numbers;
-    return present;
-}
-
 // Where a search should start, the sizes as the directions want them.
 Eigen::VectorXd sized(const Probe& probe, const Eigen::VectorXd& weights) {
     constexpr double least = 0.1;
@@ -131,7 +123,7 @@ std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<Candid
     }
     for (const Probe& probe : probes) {
         for (const Eigen::VectorXd& direction : probe.directions)
-            hypotheses.push_back(with(present, probe.cause, direction));
+            hypotheses.push_back(with_cause(present, probe.cause, direction));
     }
     const Eigen::MatrixXd data = fitter.data_residuals(hypotheses);
 

@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/recording_files.h"
-#include "capstan/gap_trial/reference_fit.h"
 #include "capstan/platform/files.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/recording/estimated_noise.h"
@@ -22,18 +20,18 @@ namespace {
 using nlohmann::json;
 
 // Does `work` for each name that `is_done` does not hold for.
-void for_each_missing(const std::vector<std::string>& names, const std::string& doing, int jobs,
+void for_each_missing(const std::vector<std::string>& names, const std::string& activity, int jobs,
                       const BlindTrialHooks& hooks, const std::function<bool(const std::string&)>& is_done,
                       const std::function<void(const std::string&)>& work) {
     std::vector<std::string> missing;
     std::copy_if(names.begin(), names.end(), std::back_inserter(missing),
                  [&](const std::string& name) { return !is_done(name); });
-    std::mutex telling;
+    std::mutex reporting;
     int done = static_cast<int>(names.size() - missing.size());
     parallel_for_each_index(static_cast<int>(missing.size()), jobs, [&](int index) {
         work(missing[static_cast<std::size_t>(index)]);
-        const std::lock_guard lock(telling);
-        hooks.on_progress(doing, ++done, static_cast<int>(names.size()));
+        const std::lock_guard lock(reporting);
+        hooks.on_progress(activity, ++done, static_cast<int>(names.size()));
     });
 }
 
@@ -65,6 +63,21 @@ Reference read_reference(const std::filesystem::path& path, const std::string& n
 }
 
 }  // namespace
+
+TrialLabels make_recordings(const TrialOptions& options, const std::filesystem::path& folder, int jobs,
+                            const CaseProgress& on_progress) {
+    const std::vector<PlannedCase> plan = plan_trial(options);
+    TrialLabels labels{options, random_salt(), std::vector<CaseLabel>(plan.size())};
+    std::mutex reporting;
+    int done = 0;
+    parallel_for_each_index(static_cast<int>(plan.size()), jobs, [&](int index) {
+        const auto slot = static_cast<std::size_t>(index);
+        labels.cases[slot] = make_case(plan[slot], options, folder);
+        const std::lock_guard lock(reporting);
+        on_progress("simulating", ++done, static_cast<int>(plan.size()));
+    });
+    return labels;
+}
 
 std::string prepare_trial(const TrialFolder& folder, const TrialOptions& options, int jobs,
                           const BlindTrialHooks& hooks) {

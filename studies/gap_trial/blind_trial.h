@@ -4,10 +4,17 @@
 #include <string>
 
 #include "capstan/gap_trial/trial_folder.h"
-#include "capstan/gap_trial/trial_recordings.h"
 #include "capstan/gap_trial/trial_score.h"
 
 namespace capstan::gap_trial {
+
+/// Called after each case with the activity and how many cases of how many are done.
+using CaseProgress = std::function<void(const std::string& activity, int done, int of)>;
+
+/// Simulates all cases of a trial on up to `jobs` threads (0: all processors) and writes their recordings to
+/// `folder`. The labels are not written: see `seal_labels`.
+TrialLabels make_recordings(const TrialOptions& options, const std::filesystem::path& folder, int jobs,
+                            const CaseProgress& on_progress);
 
 struct BlindTrialHooks {
     CaseProgress on_progress = [](const std::string&, int, int) {};

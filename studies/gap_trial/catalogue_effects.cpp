@@ -62,7 +62,7 @@ WithheldEffect load_dependent_friction(const EffectSetting& setting, TrialStream
     for (const CurvaturePiece& piece : setting.bench.nominal.curvature)
         radius_m = std::min(radius_m, piece.bend_radius_m);
     const double reference_N_per_m = tension_N / radius_m * draws.uniform(0.9, 1.3);
-    const double sign = draws.whole(3) == 0 ? 1.0 : -1.0;
+    const double sign = draws.integer_below(3) == 0 ? 1.0 : -1.0;
     WithheldEffect effect = sized("load_dependent_friction", "conduit", "exponent_off_1", 0.08, 0.6,
                                   [=](TrueEffects& e, double size) {
                                       e.load_dependence = {1.0 + sign * size, reference_N_per_m};
@@ -80,7 +80,7 @@ WithheldEffect local_bend(const EffectSetting& setting, TrialStream& draws) {
     const double middle_m = draws.uniform(0.1, 0.9) * setting.bench.length_m();
     const double half_m = 0.5 * draws.uniform(0.08, 0.25);
     const Stretch where{middle_m - half_m, middle_m + half_m};
-    const int drawn = draws.whole(4);
+    const int drawn = draws.integer_below(4);
     const BentCable cables = !setting.bench.is_pair() || drawn < 2 ? BentCable::both
                              : drawn == 2                          ? BentCable::a
                                                                    : BentCable::b;
@@ -108,7 +108,7 @@ WithheldEffect moving_bend(const EffectSetting& setting, TrialStream& draws) {
 
 WithheldEffect pulley_friction(const EffectSetting&, TrialStream& draws) {
     const double viscous_s = draws.uniform(0.0, 0.1);  // per newton metre of Coulomb friction
-    const bool at_motor = draws.whole(2) == 0;
+    const bool at_motor = draws.integer_below(2) == 0;
     WithheldEffect effect = at_motor ? sized("pulley_friction", "motor", "coulomb_Nm", 3e-3, 0.08,
                                              [=](TrueEffects& e, double size) {
                                                  e.motor_bearing = {size, 0.1 * viscous_s * size};
@@ -123,7 +123,7 @@ WithheldEffect pulley_friction(const EffectSetting&, TrialStream& draws) {
 
 WithheldEffect motor_cogging(const EffectSetting&, TrialStream& draws) {
     constexpr double slots[] = {4, 5, 6, 7, 8, 9, 10, 12, 14};
-    const double periods = slots[draws.whole(static_cast<int>(std::size(slots)))];
+    const double periods = slots[draws.integer_below(static_cast<int>(std::size(slots)))];
     const double phase_rad = draws.uniform(-3.14, 3.14);
     WithheldEffect effect =
         sized("motor_cogging", "motor", "amplitude_Nm", 2e-3, 0.05, [=](TrueEffects& e, double size) {
@@ -135,7 +135,7 @@ WithheldEffect motor_cogging(const EffectSetting&, TrialStream& draws) {
 }
 
 WithheldEffect inertia(const EffectSetting&, TrialStream& draws) {
-    if (draws.whole(2) == 0)
+    if (draws.integer_below(2) == 0)
         return at_end(sized("inertia", "motor", "inertia_kg_m2", 4e-5, 3e-3,
                             [](TrueEffects& e, double size) { e.extra_rotor_inertia_kg_m2 = size; }),
                       "motor");
@@ -145,7 +145,7 @@ WithheldEffect inertia(const EffectSetting&, TrialStream& draws) {
 }
 
 WithheldEffect backlash(const EffectSetting&, TrialStream& draws) {
-    if (draws.whole(2) == 0)
+    if (draws.integer_below(2) == 0)
         return at_end(sized("backlash", "motor", "half_gap_rad", 2e-3, 0.1,
                             [](TrueEffects& e, double size) { e.motor_half_gap_rad = size; }),
                       "motor");
@@ -155,7 +155,7 @@ WithheldEffect backlash(const EffectSetting&, TrialStream& draws) {
 }
 
 WithheldEffect conduit_compliance(const EffectSetting&, TrialStream& draws) {
-    if (draws.whole(2) == 0)
+    if (draws.integer_below(2) == 0)
         return at_end(sized("conduit_compliance", "conduit", "compliance_m_per_N", 2e-5, 2e-3,
                             [](TrueEffects& e, double size) { e.motor_sheath_m_per_N = size; }),
                       "motor");
@@ -212,7 +212,7 @@ std::string draw_channel(const EffectSetting& setting, TrialStream& draws) {
     std::vector<std::string> others = {setting.bench.is_pair() ? channel::motor_angle
                                                                : channel::motor_torque};
     for (const TensionSensor& sensor : setting.bench.tension_sensors) others.push_back(sensor.channel);
-    return others[static_cast<std::size_t>(draws.whole(static_cast<int>(others.size())))];
+    return others[static_cast<std::size_t>(draws.integer_below(static_cast<int>(others.size())))];
 }
 
 WithheldEffect sensor_fault(const std::string& name, const std::string& channel, const std::string& size_name,

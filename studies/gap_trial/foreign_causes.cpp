@@ -22,7 +22,7 @@ WithheldEffect foreign(const std::string& kind, const std::string& size_name, do
 // A moment in the middle half of a run that is drawn.
 double moment_in_session_s(const EffectSetting& setting, TrialStream& draws) {
     const TrialRun& run =
-        setting.runs[static_cast<std::size_t>(draws.whole(static_cast<int>(setting.runs.size())))];
+        setting.runs[static_cast<std::size_t>(draws.integer_below(static_cast<int>(setting.runs.size())))];
     return run.session_start_s + run.duration_s() * draws.uniform(0.25, 0.75);
 }
 

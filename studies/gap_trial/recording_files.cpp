@@ -1,10 +1,9 @@
-#include "capstan/gap_trial/recording_files.h"
-
 #include <fmt/format.h>
 
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "capstan/gap_trial/trial_case.h"
 #include "capstan/platform/files.h"
 
 namespace capstan::gap_trial {

@@ -1,11 +1,10 @@
-#include "capstan/gap_trial/reference_fit.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/screening.h"
+#include "capstan/gap_trial/trial_score.h"
 
 namespace capstan::gap_trial {
 
@@ -31,12 +30,7 @@ std::optional<gap::CauseFit> with_one_more(const gap::CauseFitter& fitter, const
     std::size_t fitted = 0;
     for (const gap::Screened& each : gap::screen(fitter, meant, present)) {
         if (fitted++ == max_full_fits) break;
-        gap::Hypothesis start = present;
-        start.causes.push_back(each.cause);
-        const Eigen::Index known = start.coordinates.size();
-        start.coordinates.conservativeResize(known + each.start.size());
-        start.coordinates.tail(each.start.size()) = each.start;
-        const gap::CauseFit fit = fitter.fit(start, {});
+        const gap::CauseFit fit = fitter.fit(gap::with_cause(present, each.cause, each.start), {});
         if (!best || fit.sum_of_squares < best->sum_of_squares) best = fit;
     }
     return best;
@@ -91,7 +85,7 @@ std::optional<std::vector<ChannelRms>> reference_fit(const Recording& recording,
         if (!fit) return std::nullopt;
         found = fit->hypothesis();
     }
-    return measured_gap(recording, gap::CauseFitter::numbers(found.causes, found.coordinates));
+    return measured_gap(recording, gap::bench_numbers(found.causes, found.coordinates));
 }
 
 }  // namespace capstan::gap_trial

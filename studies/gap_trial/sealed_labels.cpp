@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/recording_files.h"
 #include "capstan/platform/files.h"
 
 namespace capstan::gap_trial {

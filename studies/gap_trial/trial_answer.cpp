@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/recording_files.h"
 #include "capstan/platform/files.h"
 #include "capstan/recording/json_file.h"
 

@@ -91,7 +91,7 @@ TrialBench make_trial_bench(BenchKind kind, double noise_factor, TrialStream& dr
         bench.noise_std = {{channel::motor_torque, 1.5e-3}, {channel::load_torque, 6e-3}};
         bench.encoder_step = {{channel::motor_angle, fine_count_rad}, {channel::load_angle, fine_count_rad}};
     }
-    const bool has_sensors = draws.whole(3) == 0 || !bench.is_pair();
+    const bool has_sensors = draws.integer_below(3) == 0 || !bench.is_pair();
     if (has_sensors) bench.tension_sensors = draw_sensors(bench.is_pair() ? 3 : 5, draws);
     for (const TensionSensor& sensor : bench.tension_sensors) bench.noise_std[sensor.channel] = 0.25;
     for (auto& [channel, noise] : bench.noise_std) noise *= noise_factor;

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "capstan/gap_trial/recording_files.h"
-
 namespace capstan::gap_trial {
 
 namespace {
@@ -71,7 +69,8 @@ bool all_fit(const PlannedCase& planned, const Setup& setup) {
 
 Setup draw_setup(const TrialOptions& options, Streams& draws) {
     Setup setup;
-    const BenchKind kind = all_bench_kinds[draws.bench.whole(static_cast<int>(std::size(all_bench_kinds)))];
+    const BenchKind kind =
+        all_bench_kinds[draws.bench.integer_below(static_cast<int>(std::size(all_bench_kinds)))];
     setup.bench = make_trial_bench(kind, options.noise_factor, draws.bench);
     setup.runs = draw_session(setup.bench, options.length, draws.motion);
     setup.effects.friction_ratio = std::exp(options.nominal_error * draws.nominal.normal());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "capstan/gap_trial/sensor_chain.h"
 #include "capstan/gap_trial/trial_plan.h"
 
 namespace capstan::gap_trial {
@@ -36,6 +37,11 @@ struct CaseLabel {
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;
 };
+
+/// A session as a lab would file it: NAME.csv with the samples and NAME.json with what the lab knows, which
+/// is the nominal bench. Throws std::runtime_error if they cannot be written.
+void write_recording(const std::filesystem::path& folder, const std::string& name, const TrialBench& bench,
+                     const std::vector<TrialRun>& runs, const std::vector<SensedRun>& logged);
 
 /// Simulates a planned case and files its recording under its name in `folder`. Everything is drawn anew
 /// (bench, motion, effect) until the effect has its severity. Throws std::runtime_error if that never

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/recording_files.h"
 #include "capstan/gap_trial/sealed_labels.h"
 #include "capstan/platform/files.h"
 

@@ -215,7 +215,8 @@ std::vector<TrialRun> single_session(TrialStream& draws) {
     const double pretension_N = pretensions_of(BenchKind::single_cable).moving_N;
     std::vector<Tone> sequence = {{0.25, 4.0}, {0.7, 3.5}, {1.0, 3.5}, {2.0, 3.0}};
     for (std::size_t k = sequence.size(); k > 1; --k)
-        std::swap(sequence[k - 1], sequence[static_cast<std::size_t>(draws.whole(static_cast<int>(k)))]);
+        std::swap(sequence[k - 1],
+                  sequence[static_cast<std::size_t>(draws.integer_below(static_cast<int>(k)))]);
     const double amplitude_rad = draws.uniform(0.36, 0.42);
     return {
         single_run("single_sine", tones(sequence, amplitude_rad), pretension_N),
@@ -232,8 +233,9 @@ double TrialRun::duration_s() const {
 std::vector<TrialRun> draw_session(const TrialBench& bench, RecordingLength length, TrialStream& draws) {
     std::vector<TrialRun> runs = bench.is_pair() ? pair_session(bench, draws) : single_session(draws);
     if (length == RecordingLength::brief) {
-        const int keep = 1 + draws.whole(2);
-        while (std::ssize(runs) > keep) runs.erase(runs.begin() + draws.whole(static_cast<int>(runs.size())));
+        const int keep = 1 + draws.integer_below(2);
+        while (std::ssize(runs) > keep)
+            runs.erase(runs.begin() + draws.integer_below(static_cast<int>(runs.size())));
         // A locked bench whose load feels nothing says too little alone.
         const bool only_locked_tight = bench.kind == BenchKind::uniform_tight && runs.size() == 1 &&
                                        runs.front().output == OutputKind::locked;

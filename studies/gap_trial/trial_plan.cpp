@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "capstan/effects/known_causes.h"
 
 namespace capstan::gap_trial {
 
@@ -20,7 +23,7 @@ constexpr int whole_trial = 0x7fffffff;
 template <typename Item>
 void shuffle(std::vector<Item>& items, TrialStream& draws) {
     for (std::size_t k = items.size(); k > 1; --k)
-        std::swap(items[k - 1], items[static_cast<std::size_t>(draws.whole(static_cast<int>(k)))]);
+        std::swap(items[k - 1], items[static_cast<std::size_t>(draws.integer_below(static_cast<int>(k)))]);
 }
 
 // One after the other in a drawn order, and round again.
@@ -99,6 +102,18 @@ std::optional<TruthGroup> truth_group_named(std::string_view name) {
         if (truth_group_name(group) == name) return group;
     }
     return std::nullopt;
+}
+
+bool fits(const EffectMaker& maker, const TrialBench& bench, const std::vector<TrialRun>& runs) {
+    if (maker.needs_pair && !bench.is_pair()) return false;
+    if (!maker.needs_motion) return true;
+    return std::any_of(runs.begin(), runs.end(),
+                       [](const TrialRun& run) { return run.output == OutputKind::handle; });
+}
+
+std::string effect_family(const std::string& effect) {
+    const KnownCause* known = find_cause(effect);
+    return known != nullptr ? known->family : effect;
 }
 
 std::vector<PlannedCase> plan_trial(const TrialOptions& options) {

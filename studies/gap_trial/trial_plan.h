@@ -42,6 +42,13 @@ std::string length_name(RecordingLength length);
 /// "case007"
 std::string case_name(int number);
 
+/// True if the session can show what the maker draws.
+bool fits(const EffectMaker& maker, const TrialBench& bench, const std::vector<TrialRun>& runs);
+
+/// The family by which a near miss is judged, such as "friction law". `none` and `unknown` are families of
+/// their own.
+std::string effect_family(const std::string& effect);
+
 struct PlannedCase {
     int index = 0;  ///< address of its random numbers
     std::string name;

@@ -31,7 +31,7 @@ double TrialStream::log_uniform(double low, double high) {
     return std::exp(uniform(std::log(low), std::log(high)));
 }
 
-int TrialStream::whole(int count) {
+int TrialStream::integer_below(int count) {
     return std::min(count - 1, static_cast<int>(uniform(0.0, count)));
 }
 

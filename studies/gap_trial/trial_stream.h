@@ -20,8 +20,8 @@ class TrialStream {
     double uniform(double low, double high);
     /// Uniform in the logarithm; both ends positive.
     double log_uniform(double low, double high);
-    int whole(int count);  ///< 0 to count - 1, all equally likely
-    double sign();         ///< -1 or 1
+    int integer_below(int count);  ///< 0 to count - 1, all equally likely
+    double sign();                 ///< -1 or 1
 
   private:
     RandomAddress address_;

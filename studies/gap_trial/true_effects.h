@@ -4,13 +4,9 @@
 #include <optional>
 #include <string>
 
-namespace capstan::gap_trial {
+#include "capstan/effects/bends.h"
 
-/// A stretch of cable, in metres from the motor.
-struct Stretch {
-    double from_m = 0.0;
-    double to_m = 0.0;
-};
+namespace capstan::gap_trial {
 
 /// mu(v) = mu_d + extra exp(-|v| / speed), v low-passed with the memory.
 struct TrueStribeck {
@@ -96,7 +92,7 @@ struct TrueSensorFault {
 
 // Outside the catalogue: what no candidate of a diagnosis describes.
 
-/// Load pulley that is not round: r (1 + share sin(lobes angle + phase)).
+/// Load pulley that is not round: r (1 + fraction sin(lobes angle + phase)).
 struct LobedPulley {
     double fraction = 0.0;
     double lobes = 12.0;

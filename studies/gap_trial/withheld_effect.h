@@ -49,10 +49,4 @@ const std::vector<EffectMaker>& catalogue_effects();
 const std::vector<EffectMaker>& wrong_parameters();
 const std::vector<EffectMaker>& foreign_causes();
 
-/// True if the session can show what the maker draws.
-bool fits(const EffectMaker& maker, const TrialBench& bench, const std::vector<TrialRun>& runs);
-
-/// `friction law` and so on, as a near miss is judged; `none` and `unknown` are families of their own.
-std::string effect_family(const std::string& effect);
-
 }  // namespace capstan::gap_trial

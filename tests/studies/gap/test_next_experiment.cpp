@@ -3,7 +3,6 @@
 #include <random>
 
 #include "capstan/gap/next_experiment.h"
-#include "capstan/gap/possible_experiments.h"
 #include "sample_recording.h"
 
 namespace capstan::gap {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "capstan/gap/effects_twin.h"
-#include "capstan/gap_trial/recording_files.h"
+#include "capstan/gap_trial/trial_case.h"
 #include "capstan/recording/recording_reader.h"
 #include "sample_session.h"
 #include "scratch_folder.h"

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/recording_files.h"
 #include "capstan/gap_trial/sealed_labels.h"
 #include "capstan/gap_trial/trial_answer.h"
 #include "capstan/platform/files.h"

@@ -93,7 +93,7 @@ TEST(TrialStream, StaysInsideItsLimits) {
         ASSERT_GE(value, 2.0);
         ASSERT_LE(value, 4.0);
         mean += value / count;
-        const int whole = draws.whole(3);
+        const int whole = draws.integer_below(3);
         ASSERT_GE(whole, 0);
         ASSERT_LE(whole, 2);
     }

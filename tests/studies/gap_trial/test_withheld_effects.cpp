@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "capstan/gap_trial/withheld_effect.h"
+#include "capstan/gap_trial/trial_plan.h"
 #include "sample_session.h"
 
 namespace capstan::gap_trial {

@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include "capstan/gap/cause_search.h"
+#include "session_with_effects.h"
+
+namespace capstan::gap {
+namespace {
+
+// Three causes with two, no and one number of their own.
+struct ThreeCauses {
+    CandidateCause bend;
+    CandidateCause friction;
+    CandidateCause lag;
+
+    ThreeCauses() {
+        bend.effect = "local_bend";
+        bend.numbers.resize(2);
+        friction.effect = "param_mu";
+        lag.effect = "sensor_lag";
+        lag.family = "sensor";
+        lag.numbers.resize(1);
+        for (CandidateCause* cause : {&bend, &friction, &lag})
+            cause->apply = [](BenchNumbers&, std::span<const double>) {};
+    }
+    Hypothesis together() const {
+        return {{&bend, &friction, &lag}, Eigen::VectorXd{{0.1, 0.2, 0.3, 1.0, 2.0, 3.0}}};
+    }
+};
+
+TEST(Hypothesis, ACauseThatIsAddedComesLastWithItsNumbers) {
+    const ThreeCauses known;
+    const Hypothesis bend =
+        with_cause({{}, Eigen::VectorXd{{0.1, 0.2, 0.3}}}, &known.bend, Eigen::VectorXd{{1.0, 2.0}});
+    EXPECT_EQ(bend.coordinates, (Eigen::VectorXd{{0.1, 0.2, 0.3, 1.0, 2.0}}));
+    EXPECT_EQ(with_cause(bend, &known.lag, Eigen::VectorXd{{3.0}}).causes.back(), &known.lag);
+}
+
+TEST(Hypothesis, KeepingSomeCausesKeepsTheirNumbersAndTheNominalOnes) {
+    const ThreeCauses known;
+    const Hypothesis kept =
+        only_causes(known.together(), [&](const CandidateCause& cause) { return &cause == &known.lag; });
+    EXPECT_EQ(kept.causes, std::vector<const CandidateCause*>{&known.lag});
+    EXPECT_EQ(kept.coordinates, (Eigen::VectorXd{{0.1, 0.2, 0.3, 3.0}}));
+}
+
+TEST(Hypothesis, ThoseThatDifferInSensorFaultsOnlyShareABench) {
+    const ThreeCauses known;
+    Hypothesis other_lag = known.together();
+    other_lag.coordinates[5] = 4.0;
+    Hypothesis other_bend = known.together();
+    other_bend.coordinates[3] = 4.0;
+    const std::vector<SameBench> benches =
+        by_bench(std::vector<Hypothesis>{known.together(), other_bend, other_lag});
+    ASSERT_EQ(benches.size(), 2u);
+    EXPECT_EQ(benches[0].hypotheses, (std::vector<std::size_t>{0, 2}));
+    EXPECT_EQ(benches[1].hypotheses, (std::vector<std::size_t>{1}));
+}
+
+TEST(Hypothesis, BenchesThatRingAreGroupedApartAndNoGroupExceedsTheLanes) {
+    std::vector<SameBench> benches(2 * bench_lanes + 1);
+    benches[1].numbers.effects.of<Inertia>().motor_kg_m2 = 1e-5;
+    std::size_t grouped = 0;
+    for (const BenchGroup& group : to_be_moved_at_once(benches)) {
+        EXPECT_LE(group.size(), static_cast<std::size_t>(bench_lanes));
+        for (const SameBench& bench : group) EXPECT_EQ(bench.numbers.rings(), group.front().numbers.rings());
+        grouped += group.size();
+    }
+    EXPECT_EQ(grouped, benches.size());
+}
+
+TEST(CauseSearch, SortsByEvidenceAndKeepsTheOrderOfEqualFits) {
+    std::vector<ScoredFit> fits(3);
+    fits[0].evidence = 1.0;
+    fits[1].evidence = 2.0;
+    fits[2].evidence = 1.0;
+    fits[2].misfit = 7.0;
+    sort_by_evidence(fits);
+    EXPECT_EQ(fits[0].evidence, 2.0);
+    EXPECT_EQ(fits[1].misfit, 0.0);
+    EXPECT_EQ(fits[2].misfit, 7.0);
+}
+
+TEST(CauseSearch, LooksForASecondCauseOnlyWhereTheFirstLeavesMuch) {
+    EXPECT_FALSE(worth_a_second_cause(1.1, 5.0));    // little beyond noise
+    EXPECT_FALSE(worth_a_second_cause(3.0, 500.0));  // little of the gap
+    EXPECT_TRUE(worth_a_second_cause(3.0, 20.0));
+}
+
+TEST(CauseSearch, StartsWithTheNominalModelAndReportsGrowingProgress) {
+    Recording recording = exact_session({}, coarse_twin);
+    recording.runs.resize(1);
+    std::vector<double> fractions;
+    CauseSearchOptions options;
+    options.segments = 10;
+    options.stride = 4;
+    options.threads = 1;
+    options.on_progress = [&](const std::string&, double fraction_done) {
+        fractions.push_back(fraction_done);
+    };
+    const FoundCauses found = CauseSearch(recording, options).run();
+    EXPECT_EQ(fractions.front(), 0.0);
+    EXPECT_LT(found.nominal_misfit, 1.0);
+    EXPECT_GT(found.evaluations, 0);
+    EXPECT_TRUE(found.pairs.empty()) << "nothing is left for a second cause";
+    EXPECT_TRUE(
+        std::is_sorted(found.singles.begin(), found.singles.end(),
+                       [](const ScoredFit& a, const ScoredFit& b) { return a.evidence > b.evidence; }));
+}
+
+}  // namespace
+}  // namespace capstan::gap

@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap/effects_twin.h"
+#include "capstan/gap/equivalent_bench.h"
+#include "lumped_session.h"
+#include "sample_recording.h"
+
+namespace capstan::gap {
+namespace {
+
+TEST(EquivalentBench, OfABenchOfKnownGeometryIsTheRecordingItself) {
+    const Recording recording = driven_session();
+    const Recording bench = equivalent_bench(recording, recording);
+    EXPECT_EQ(bench.mode, recording.mode);
+    EXPECT_EQ(bench.nominal->dynamic_friction, recording.nominal->dynamic_friction);
+    EXPECT_EQ(bench.runs[0].values, recording.runs[0].values);
+}
+
+TEST(EquivalentBench, OfADriveHasItsFrictionStiffnessPretensionAndRatio) {
+    const LumpedTruth truth{.motor_torque_sign = -1.0};
+    const Recording recording = lumped_session(truth);
+    const Recording bench = equivalent_bench(recording, recording);
+    ASSERT_EQ(bench.mode, BenchMode::pull_pull);
+    const NominalBench& nominal = *bench.nominal;
+    const double radius_m = nominal.motor_radius_m;
+    EXPECT_NEAR(nominal.dynamic_friction, truth.friction_exponent, 0.01);
+    EXPECT_NEAR(nominal.axial_stiffness_N * radius_m * radius_m, truth.stiffness_Nm_per_rad, 0.1);
+    EXPECT_NEAR(*bench.runs[0].pretension_N * radius_m, truth.pretension_Nm, 0.02);
+    EXPECT_NEAR(nominal.load_radius_m / radius_m, truth.speed_ratio, 0.01);
+}
+
+// The bench's own model, moved by the bench's inputs, gives the measured torque with the drive's sign
+// removed.
+TEST(EquivalentBench, OfADriveMovesAndPullsAsTheDriveDoes) {
+    const Recording recording = lumped_session({.motor_torque_sign = -1.0});
+    const Recording bench = equivalent_bench(recording, recording);
+    const TwinRun predicted = EffectsTwin(bench, {}).run(1, {});
+    const auto torque = static_cast<std::size_t>(*bench.channel("motor_torque"));
+    const std::size_t settled = predicted.values[torque].size() / 2;
+    for (std::size_t sample = settled; sample < predicted.values[torque].size(); ++sample) {
+        EXPECT_NEAR(bench.runs[1].values[torque][sample], -recording.runs[1].values[0][sample], 1e-12);
+        EXPECT_NEAR(predicted.values[torque][sample], bench.runs[1].values[torque][sample], 0.02);
+    }
+}
+
+TEST(EquivalentBench, OfABandWithoutItsTensionsIsRejected) {
+    Recording recording = driven_session();
+    recording.mode = BenchMode::capstan_band;
+    EXPECT_THROW(equivalent_bench(recording, recording), InvalidInput);
+}
+
+}  // namespace
+}  // namespace capstan::gap

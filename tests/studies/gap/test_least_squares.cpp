@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "capstan/gap/least_squares.h"
+
+namespace capstan::gap {
+namespace {
+
+// A straight line through four points that it does not meet exactly.
+struct Line {
+    Eigen::MatrixXd design{{1.0, 0.0}, {1.0, 1.0}, {1.0, 2.0}, {1.0, 3.0}};
+    Eigen::VectorXd measured{{1.1, 2.9, 5.2, 6.8}};
+
+    Eigen::MatrixXd operator()(const Eigen::MatrixXd& parameters) const {
+        return (design * parameters).colwise() - measured;
+    }
+    Eigen::VectorXd solution() const { return design.colPivHouseholderQr().solve(measured); }
+};
+
+const Eigen::VectorXd far_away{{40.0, -30.0}};
+
+TEST(LeastSquares, OneStepOfALinearProblemLeavesOnlyTheDamping) {
+    LeastSquaresOptions one_step;
+    one_step.max_iterations = 1;
+    const LeastSquaresFit fit = fit_least_squares(Line(), far_away, one_step);
+    EXPECT_LT((fit.parameters - Line().solution()).norm(), 1e-2 * far_away.norm());
+}
+
+TEST(LeastSquares, AConvergedLinearFitSolvesTheNormalEquations) {
+    const LeastSquaresFit fit = fit_least_squares(Line(), far_away);
+    EXPECT_TRUE(fit.converged);
+    EXPECT_LT((fit.parameters - Line().solution()).norm(), 1e-6);
+    EXPECT_NEAR(fit.sum_of_squares, Line()(Line().solution()).squaredNorm(), 1e-10);
+}
+
+// At 1 the derivative of the square is 2; a forward difference adds its step.
+TEST(LeastSquares, CentralDifferencesAreExactForAParabolaAndForwardOnesOffByTheirStep) {
+    const auto square = [](const Eigen::MatrixXd& parameters) -> Eigen::MatrixXd {
+        return parameters.array().square();
+    };
+    LeastSquaresOptions only_the_jacobian;
+    only_the_jacobian.max_iterations = 0;
+    only_the_jacobian.difference_step = 0.05;
+    const Eigen::VectorXd one{{1.0}};
+    EXPECT_NEAR(fit_least_squares(square, one, only_the_jacobian).jacobian(0, 0), 2.0, 1e-12);
+    only_the_jacobian.differences = Differences::forward;
+    EXPECT_NEAR(fit_least_squares(square, one, only_the_jacobian).jacobian(0, 0), 2.05, 1e-12);
+}
+
+TEST(LeastSquares, CountsEverySetOfParametersThatItEvaluates) {
+    Eigen::Index evaluated = 0;
+    const auto counting = [&](const Eigen::MatrixXd& parameters) {
+        evaluated += parameters.cols();
+        return Line()(parameters);
+    };
+    LeastSquaresOptions options;
+    options.dampings_at_once = 3;
+    EXPECT_EQ(fit_least_squares(counting, far_away, options).evaluations, evaluated);
+}
+
+// From 3 the undamped step leads to a negative argument of the logarithm.
+TEST(LeastSquares, AStepToResidualsThatAreNotFiniteIsShortened) {
+    const auto logarithm = [](const Eigen::MatrixXd& parameters) -> Eigen::MatrixXd {
+        return parameters.array().log();
+    };
+    const LeastSquaresFit fit = fit_least_squares(logarithm, Eigen::VectorXd{{3.0}});
+    EXPECT_TRUE(fit.converged);
+    EXPECT_NEAR(fit.parameters[0], 1.0, 1e-4);
+}
+
+TEST(LeastSquares, AParameterWithoutEffectStaysWhereItStarts) {
+    const auto first_only = [](const Eigen::MatrixXd& parameters) -> Eigen::MatrixXd {
+        return parameters.topRows(1).array() - 2.0;
+    };
+    const LeastSquaresFit fit = fit_least_squares(first_only, Eigen::VectorXd{{0.0, 7.0}});
+    EXPECT_NEAR(fit.parameters[0], 2.0, 1e-6);
+    EXPECT_EQ(fit.parameters[1], 7.0);
+}
+
+TEST(LeastSquares, SeveralDampingsAtOnceReachTheSameMinimum) {
+    LeastSquaresOptions side_by_side;
+    side_by_side.dampings_at_once = 4;
+    const LeastSquaresFit fit = fit_least_squares(Line(), far_away, side_by_side);
+    EXPECT_LT((fit.parameters - Line().solution()).norm(), 1e-6);
+}
+
+// The second residual is 10 whatever the parameter, so no search ends below a sum of 100.
+TEST(LeastSquares, ASearchThatCannotReachTheGoalIsGivenUp) {
+    const auto with_a_floor = [](const Eigen::MatrixXd& parameters) {
+        Eigen::MatrixXd residuals(2, parameters.cols());
+        residuals << parameters, Eigen::MatrixXd::Constant(1, parameters.cols(), 10.0);
+        return residuals;
+    };
+    LeastSquaresOptions options;
+    options.pruned_sum_of_squares = 50.0;
+    EXPECT_FALSE(fit_least_squares(with_a_floor, Eigen::VectorXd{{100.0}}, options).converged);
+    options.pruned_sum_of_squares = 200.0;
+    EXPECT_TRUE(fit_least_squares(with_a_floor, Eigen::VectorXd{{100.0}}, options).converged);
+}
+
+}  // namespace
+}  // namespace capstan::gap

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/gap/twin.h"
+#include "lumped_session.h"
+
+namespace capstan::gap {
+namespace {
+
+std::vector<double> true_values(const LumpedTruth& truth) {
+    return {truth.friction_exponent, truth.stiffness_Nm_per_rad, truth.pretension_Nm, truth.speed_ratio};
+}
+
+TEST(DriveOrientation, ReadsTheRatioOffTheMotion) {
+    EXPECT_NEAR(drive_orientation(lumped_session({})).load_per_motor_angle, 0.5, 0.05);
+}
+
+TEST(DriveOrientation, FrictionDecidesTheSignOfTheMotorTorque) {
+    EXPECT_EQ(drive_orientation(lumped_session({})).motor_torque_sign, 1.0);
+    EXPECT_EQ(drive_orientation(lumped_session({.motor_torque_sign = -1.0})).motor_torque_sign, -1.0);
+}
+
+TEST(DriveOrientation, ALoadThatTheMotorCarriesAddsToItsTorque) {
+    EXPECT_EQ(drive_orientation(lumped_session({})).load_torque_sign, 1.0);
+    EXPECT_EQ(drive_orientation(lumped_session({.motor_torque_sign = -1.0})).load_torque_sign, 1.0);
+}
+
+TEST(DriveOrientation, RejectsADriveThatDoesNotMoveAndAMissingChannel) {
+    Recording still = lumped_session({});
+    for (RecordedRun& run : still.runs) run.values[1].assign(run.time_s.size(), 0.0);
+    EXPECT_THROW(drive_orientation(still), InvalidInput);
+    Recording nameless = lumped_session({});
+    nameless.channels[2].name = "jaw_angle";
+    EXPECT_THROW(drive_orientation(nameless), InvalidInput);
+}
+
+TEST(LumpedDrive, WithTheTrueNumbersPredictsTorqueAndAngle) {
+    for (const double sign : {1.0, -1.0}) {
+        const LumpedTruth truth{.motor_torque_sign = sign};
+        const Recording recording = lumped_session(truth);
+        const auto twin = make_twin(recording);
+        const TwinRun predicted = twin->run(1, true_values(truth));
+        EXPECT_EQ(predicted.unsolved_steps, 0);
+        for (std::size_t sample = 0; sample < predicted.values[0].size(); ++sample) {
+            EXPECT_NEAR(predicted.values[0][sample], recording.runs[1].values[0][sample], 1e-9);
+            EXPECT_NEAR(predicted.values[2][sample], recording.runs[1].values[2][sample], 1e-9);
+        }
+    }
+}
+
+TEST(LumpedDrive, StartsNearWhatTheFrictionLoopShows) {
+    const auto twin = make_twin(lumped_session({}));
+    const std::vector<double> start = nominal_values(*twin);
+    const std::vector<double> truth = true_values({});
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+        EXPECT_GT(start[k], truth[k] / 10.0) << twin->parameters()[k].name;
+        EXPECT_LT(start[k], truth[k] * 10.0) << twin->parameters()[k].name;
+    }
+}
+
+}  // namespace
+}  // namespace capstan::gap

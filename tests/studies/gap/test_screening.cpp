@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include "capstan/gap/screening.h"
+#include "session_with_effects.h"
+
+namespace capstan::gap {
+namespace {
+
+const Hypothesis nominal{{}, Eigen::VectorXd::Zero(nominal_coordinates)};
+
+std::vector<CandidateCause> only_named(const Recording& recording, const std::vector<std::string>& effects) {
+    std::vector<CandidateCause> causes = candidate_causes(recording);
+    std::erase_if(causes, [&](const CandidateCause& cause) {
+        return std::find(effects.begin(), effects.end(), cause.effect) == effects.end();
+    });
+    return causes;
+}
+
+TEST(Screening, PutsTheTrueCauseFirstAndStartsNearItsSize) {
+    BenchNumbers numbers;
+    numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 2.0;
+    const Recording recording = exact_session(numbers, coarse_twin);
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes =
+        only_named(recording, {"viscous_friction", "creep", "sensor_offset", "local_bend"});
+    const std::vector<Screened> screened = screen(fitter, causes, nominal);
+    ASSERT_FALSE(screened.empty());
+    EXPECT_EQ(screened.front().cause->effect, "viscous_friction");
+    const OpenNumber& drag = screened.front().cause->numbers.front();
+    EXPECT_NEAR(drag.value(screened.front().start[0]), 2.0, 0.6);
+}
+
+TEST(Screening, ListsEveryCauseOnceAndNeitherNoneNorWhatIsPresent) {
+    const Recording recording = exact_session({}, coarse_twin);
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes =
+        only_named(recording, {"none", "param_mu", "viscous_friction", "sensor_lag"});
+    const auto drag = std::find_if(causes.begin(), causes.end(), [](const CandidateCause& cause) {
+        return cause.effect == "viscous_friction";
+    });
+    const Hypothesis present{{&*drag}, Eigen::VectorXd::Zero(nominal_coordinates + 1)};
+    const std::vector<Screened> screened = screen(fitter, causes, present);
+    EXPECT_EQ(screened.size(), causes.size() - 2);
+    for (const Screened& each : screened) {
+        EXPECT_NE(each.cause->effect, "none");
+        EXPECT_NE(each.cause, &*drag);
+    }
+}
+
+// Half a degree of freedom: drag cannot be negative, so a bench with too little of it gains nothing from it.
+TEST(Screening, ASizeThatCannotBeNegativeExplainsNothingTheOtherWay) {
+    Recording recording = exact_session({}, coarse_twin);
+    BenchNumbers more;
+    more.effects.of<ViscousFriction>().drag_N_s_per_m2 = 2.0;
+    const Recording draggy = exact_session(more, coarse_twin);
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            std::vector<double>& values = recording.runs[run].values[channel];
+            if (recording.runs[run].drives(recording.channels[channel].name)) continue;
+            for (std::size_t sample = 0; sample < values.size(); ++sample)
+                values[sample] -= draggy.runs[run].values[channel][sample] - values[sample];
+        }
+    }
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes = only_named(recording, {"viscous_friction", "param_mu"});
+    const std::vector<Screened> screened = screen(fitter, causes, nominal);
+    ASSERT_EQ(screened.size(), 2u);
+    const auto sum_of = [&](const std::string& effect) {
+        return std::find_if(screened.begin(), screened.end(),
+                            [&](const Screened& each) { return each.cause->effect == effect; })
+            ->sum_of_squares;
+    };
+    // Wrong friction has no number of its own: what is left is what the nominal numbers leave.
+    EXPECT_NEAR(sum_of("viscous_friction") / sum_of("param_mu"), 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace capstan::gap
