@@ -38,19 +38,6 @@ std::vector<double> places_of(const StudyDescription& study, const std::vector<i
     return places_m;
 }
 
-// "0 m (the motor end) and 1.8 m".
-std::string places_in_words(const StudyDescription& study, const std::vector<int>& nodes) {
-    const std::vector<double> places_m = places_of(study, nodes);
-    std::string text;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        text += k == 0 ? "" : k + 1 == nodes.size() ? " and " : ", ";
-        text += fmt::format("{:.3g} m", places_m[k]);
-        if (nodes[k] == 1) text += " (the motor end)";
-        if (nodes[k] == study.study.segments + 1) text += " (the load end)";
-    }
-    return text;
-}
-
 Data choice_data(const StudyDescription& study, int set_index, const std::string& method) {
     const std::vector<std::string> labels = labels_of(study, set_index);
     return {{"nodes", nodes_of(study, set_index)},
@@ -146,9 +133,9 @@ std::string headline_of(const Conclusions& conclusions) {
     if (conclusions.recommendations.empty()) return "no recommendation was made.";
     const RecommendationRecord& last = conclusions.recommendations.back();  // the duty cycle, the last noise
     return fmt::format(
-        "use {}, at {}, fused by {}. Expected tension error over the duty cycle with sensor noise {}: {:.3f} N.",
+        "use {}, {}, fused by {}. Expected tension error over the duty cycle with sensor noise {}: {:.3f} N.",
         counted(static_cast<std::size_t>(last.sensor_count), "sensor"),
-        places_in_words(conclusions.study, nodes_of(conclusions.study, last.set_index)),
+        place_words(conclusions.study, nodes_of(conclusions.study, last.set_index)),
         title_of_method(last.method),
         conclusions.study.noise_levels[static_cast<std::size_t>(last.noise_index)].label, last.error_N);
 }

@@ -28,6 +28,9 @@ std::vector<storage::RecommendationRecord> recommend(storage::Database& database
 /// The error [N] on the draws that chose a recommendation. Their optimism is error_N less this.
 double searched_error_N(const storage::RecommendationRecord& recommendation);
 
+/// "at 1.8 m and 2.0 m (the load end)". Nodes are numbered from 1.
+std::string place_words(const storage::StudyDescription& study, const std::vector<int>& nodes);
+
 /// The recommendation in sentences: first which sensors to use and the expected error, then the settings, the
 /// interval, the optimism of the search, the gain of one more sensor and the equally good layouts.
 std::string recommendation_sentence(const storage::StudyDescription& study,

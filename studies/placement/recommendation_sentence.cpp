@@ -56,22 +56,6 @@ int place_decimals(const std::vector<double>& position_m) {
     return 3;
 }
 
-// "at 1.8 m and 2.0 m (the load end)". Nodes are numbered from 1.
-std::string place_words(const storage::StudyDescription& study, const std::vector<int>& nodes) {
-    const std::vector<double> position_m = node_positions_m(study);
-    std::vector<double> chosen_m;
-    for (const int node : nodes) chosen_m.push_back(position_m.at(node - 1));
-    const int decimals = place_decimals(chosen_m);
-    std::vector<std::string> places;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        std::string place = with_digits(chosen_m[k], decimals) + " m";
-        if (nodes[k] == 1) place += " (the motor end)";
-        if (nodes[k] == static_cast<int>(position_m.size())) place += " (the load end)";
-        places.push_back(std::move(place));
-    }
-    return "at " + listed(places);
-}
-
 // The line to be read aloud.
 std::string headline(const storage::StudyDescription& study, const storage::RecommendationRecord& r) {
     const std::string use = "Use " + sensors(r.sensor_count) + ", " +
@@ -178,6 +162,21 @@ std::string alternative_words(const storage::StudyDescription& study,
 }
 
 }  // namespace
+
+std::string place_words(const storage::StudyDescription& study, const std::vector<int>& nodes) {
+    const std::vector<double> position_m = node_positions_m(study);
+    std::vector<double> chosen_m;
+    for (const int node : nodes) chosen_m.push_back(position_m.at(node - 1));
+    const int decimals = place_decimals(chosen_m);
+    std::vector<std::string> places;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        std::string place = with_digits(chosen_m[k], decimals) + " m";
+        if (nodes[k] == 1) place += " (the motor end)";
+        if (nodes[k] == static_cast<int>(position_m.size())) place += " (the load end)";
+        places.push_back(std::move(place));
+    }
+    return "at " + listed(places);
+}
 
 std::string recommendation_sentence(const storage::StudyDescription& study,
                                     const storage::RecommendationRecord& r, double worthwhile_gain_N) {
