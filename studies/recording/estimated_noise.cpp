@@ -1,7 +1,9 @@
 #include "capstan/recording/estimated_noise.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "capstan/platform/median.h"
 
 namespace capstan {
 
@@ -17,9 +19,7 @@ double noise_of(const Recording& recording, std::size_t channel) {
             sizes.push_back(std::abs(values[sample - 1] - 2.0 * values[sample] + values[sample + 1]));
     }
     if (sizes.empty()) return 0.0;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return *middle / (0.6745 * std::sqrt(6.0));
+    return upper_median(std::move(sizes)) / (0.6745 * std::sqrt(6.0));
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ Recording with_estimated_noise(Recording recording) {
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         Channel& described = recording.channels[channel];
         if (described.noise_std) continue;
-        // Second differences of a rounded channel are steps: what they explain is no noise beside them.
+        // The second differences of a rounded channel are steps, which its stated step already explains.
         const double found = noise_of(recording, channel);
         described.noise_std = found > described.step.value_or(0.0) ? found : 0.0;
     }
