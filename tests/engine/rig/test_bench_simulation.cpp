@@ -130,14 +130,14 @@ TEST_P(EveryEffect, GrowsFromNothing) {
     static const Track base = with_effects({});
     BenchEffects faint;
     GetParam().apply(faint, typical(GetParam(), 1e-4));
-    BenchEffects whole;
-    GetParam().apply(whole, typical(GetParam(), 1.0));
+    BenchEffects full;
+    GetParam().apply(full, typical(GetParam(), 1.0));
     EXPECT_LT(rms_difference(with_effects(faint).motor_angle_rad, base.motor_angle_rad),
-              0.05 * rms_difference(with_effects(whole).motor_angle_rad, base.motor_angle_rad) + 1e-5);
+              0.05 * rms_difference(with_effects(full).motor_angle_rad, base.motor_angle_rad) + 1e-5);
 }
 
-// Over whole cycles hand and motor put in at least as much work as they get back.
-TEST_P(EveryEffect, GivesNoWorkAway) {
+// Over complete cycles hand and motor put in at least as much work as they get back.
+TEST_P(EveryEffect, DissipatesEnergy) {
     BenchEffects effects;
     GetParam().apply(effects, typical(GetParam(), 2.0));
     BenchSimulation bench({cable_with(50), CableArrangement::pull_pull, pulleys, {}}, effects);
@@ -201,7 +201,7 @@ TEST(BenchSimulation, FollowsACableThatFallsSlack) {
     EXPECT_LT(rms_difference(load_torque_Nm[0], load_torque_Nm[1]), 0.02 * largest_Nm);
 }
 
-TEST(BenchSimulation, RefusesInputsThatMoveNothingDefinite) {
+TEST(BenchSimulation, RejectsInputsThatDetermineNoMotion) {
     BenchSimulation bench({cable_with(10), CableArrangement::pull_pull, pulleys, {}}, {});
     EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadTorque{0.1}, time_step_s, 0.0}), InvalidInput);
     EXPECT_THROW(bench.advance({MotorTorque{std::nan("")}, LoadAngle{0.0}, time_step_s, 0.0}), InvalidInput);
