@@ -47,11 +47,9 @@ std::string reliability_rows(const Calibration& calibration) {
 
 std::string shrinkage_row(const std::string& channel, const Shrinkage& shrinkage) {
     if (shrinkage.cases == 0) return "";
-    return fmt::format(
-        "  {:<20} {:>5} cases: {:.2f} times what the true cause leaves (before: {:.1f} times); at most "
-        "10% more in {}\n",
-        channel, shrinkage.cases, shrinkage.median_after, shrinkage.median_before,
-        in_percent(shrinkage.as_good_as_truth));
+    return fmt::format("  {:<20} {:>5} cases: {:.2f} (before: {:.1f}); at most 1.1 in {}\n", channel,
+                       shrinkage.cases, shrinkage.median_after, shrinkage.median_before,
+                       in_percent(shrinkage.as_good_as_truth));
 }
 
 ordered_json fraction_json(const Fraction& fraction) {
@@ -73,28 +71,30 @@ ordered_json shrinkage_json(const Shrinkage& shrinkage) {
 std::string trial_table(const TrialScore& score) {
     std::string text = "Effect named first, among the first three, and its family; 95% intervals\n";
     text += group_rows(score);
-    text += "\nNothing and nobody known\n";
-    text += row("false alarms: named something, nothing was there", score.false_alarms);
-    text += row("missed: `none` where something was there", score.missed_gaps);
-    text += row("`unknown` where it is outside the catalogue", score.foreign_found);
-    text += row("`unknown` where the catalogue has it", score.needless_unknown);
-    text += row("both effects of a mixture are the first two", score.both_of_mixtures);
-    text += "\nWhere, of single causes named rightly\n";
+    text += "\nNo cause, and causes outside the catalogue\n";
+    text += row("false alarms: a cause named where there is none", score.false_alarms);
+    text += row("missed gaps: `none` where there is a cause", score.missed_gaps);
+    text += row("`unknown` for a cause outside the catalogue", score.foreign_found);
+    text += row("`unknown` for a cause in the catalogue", score.needless_unknown);
+    text += row("both effects of a pair are ranked first", score.both_of_mixtures);
+    text += "\nPlace, for single causes that are named correctly\n";
     text += row("component", score.component);
     text += row("end", score.end);
     text += row("place within 0.15 m", score.place);
     if (score.place.of > 0)
-        text += fmt::format("  {:<46} {:>14.3f} m\n", "median error of place", score.median_place_error_m);
+        text +=
+            fmt::format("  {:<46} {:>14.3f} m\n", "median error of the place", score.median_place_error_m);
     text += fmt::format("\nStated probabilities: Brier score {:.3f}, expected calibration error {:.3f}\n",
                         score.calibration.brier, score.calibration.ece);
     text += reliability_rows(score.calibration);
     if (score.load_torque.cases > 0) {
-        text += "\nWhat the named cause leaves of the gap (RMS, median)\n";
+        text += "\nThe gap that the named cause leaves, relative to the true cause (RMS, median)\n";
         text += shrinkage_row(channel::load_torque, score.load_torque);
         text += shrinkage_row("clearest channel", score.clearest_channel);
     }
     if (!score.unanswered.empty())
-        text += fmt::format("\nNot answered, and not in these numbers: {} cases\n", score.unanswered.size());
+        text +=
+            fmt::format("\n{} cases without an answer are not in these numbers\n", score.unanswered.size());
     return text;
 }
 

@@ -6,10 +6,10 @@
 
 namespace capstan::gap_trial {
 
-/// The score as a page of text: every share with its 95% interval.
+/// The score as text: every fraction with its 95% interval.
 std::string trial_table(const TrialScore& score);
 
-/// The same for a program.
+/// The score as JSON.
 std::string trial_json(const TrialOptions& options, const std::string& seal, const TrialScore& score);
 
 }  // namespace capstan::gap_trial
