@@ -1,7 +1,7 @@
 #pragma once
 
 #include "capstan/effects/effect_row.h"
-#include "capstan/effects/torque.h"
+#include "capstan/effects/law.h"
 
 namespace capstan {
 

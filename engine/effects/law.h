@@ -61,3 +61,13 @@ inline double select(bool condition, double if_true, double if_false) {
 }
 
 }  // namespace capstan::laws
+
+namespace capstan {
+
+/// A torque on a pulley and its derivative with respect to the angle.
+struct Torque {
+    double value_Nm = 0.0;
+    double per_rad = 0.0;
+};
+
+}  // namespace capstan

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "capstan/effects/effect_row.h"
-#include "capstan/effects/torque.h"
+#include "capstan/effects/law.h"
 
 namespace capstan {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "capstan/effects/effect_row.h"
+#include "capstan/effects/law.h"
 #include "capstan/effects/presliding.h"
-#include "capstan/effects/torque.h"
 
 namespace capstan {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "capstan/cable/cable_state.h"
 #include "capstan/sensing/noise.h"
 
@@ -13,9 +15,16 @@ struct SensorSpot {
 };
 
 /// The spot `position_m` from the proximal end; one beyond the cable's ends is taken to be at the end.
-SensorSpot spot_at(const Cable& cable, double position_m);
+inline SensorSpot spot_at(const Cable& cable, double position_m) {
+    const double place = std::clamp(position_m / cable.segment_length_m(), 0.0, 1.0 * cable.segments());
+    const int node = std::min(static_cast<int>(place), cable.segments() - 1);
+    return {node, place - node};
+}
+
 /// The spot of a node.
-SensorSpot spot_of_node(const Cable& cable, int node);
+inline SensorSpot spot_of_node(const Cable& cable, int node) {
+    return node == cable.segments() ? SensorSpot{node - 1, 1.0} : SensorSpot{node, 0.0};
+}
 
 inline double tension_at_N(const CableState& state, const SensorSpot& spot) {
     const auto node = static_cast<std::size_t>(spot.node);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "capstan/cable/cable_state.h"
@@ -21,6 +22,16 @@ struct CableConstants {
     std::vector<double> sliding_ratio;       // segments: exp(sliding_exponent)
     std::vector<double> breakaway_ratio;     // segments: exp(breakaway_exponent)
 };
+
+inline CableConstants::CableConstants(const Cable& cable)
+    : half_compliance_m_per_N(0.5 * cable.segment_compliance_m_per_N()) {
+    for (const double angle_rad : cable.wrap_angle_rad()) {
+        sliding_exponent.push_back(cable.dynamic_friction() * angle_rad);
+        breakaway_exponent.push_back(cable.static_friction() * angle_rad);
+        sliding_ratio.push_back(std::exp(sliding_exponent.back()));
+        breakaway_ratio.push_back(std::exp(breakaway_exponent.back()));
+    }
+}
 
 /// One step to be solved.
 struct StepProblem {

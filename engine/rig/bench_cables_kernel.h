@@ -1,9 +1,21 @@
 #pragma once
 
 #include "capstan/effects/bench_effects.h"
-#include "capstan/rig/bench_lanes.h"
 
 namespace capstan {
+
+/// How many benches of one geometry move side by side, a bench in each SIMD lane.
+inline constexpr int bench_lanes = 4;
+
+/// One number of each bench.
+struct alignas(32) LaneValues {
+    double of[bench_lanes] = {};
+};
+
+/// A condition for each bench.
+struct LaneFlags {
+    bool of[bench_lanes] = {};
+};
 
 /// The first, and the second of benches that have a pair.
 inline constexpr int max_cables = 2;

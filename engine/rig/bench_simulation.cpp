@@ -6,7 +6,7 @@
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/solver/checked_pulleys.h"
+#include "capstan/solver/pull_pull.h"
 
 namespace capstan {
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <string>
 
 namespace capstan::channel {
 
@@ -12,3 +14,13 @@ inline constexpr const char* load_torque = "load_torque";
 inline constexpr std::array all = {motor_angle, motor_torque, load_angle, load_torque};
 
 }  // namespace capstan::channel
+
+namespace capstan {
+
+/// A channel's name as a sentence has it: "load torque".
+inline std::string channel_words(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
+
+}  // namespace capstan

@@ -1,6 +1,6 @@
-#include "capstan/solver/opposed_motion.h"
-
 #include <cmath>
+
+#include "capstan/solver/pattern_search.h"
 
 namespace capstan {
 

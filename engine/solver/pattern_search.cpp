@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "capstan/solver/opposed_motion.h"
 #include "capstan/solver/sides.h"
 
 namespace capstan {

@@ -15,4 +15,9 @@ struct PatternSearch {
 /// pattern").
 PatternSearch search_pattern(const StepView& view, const EndConditions& ends);
 
+/// For ends that drive the cable against each other while no node rests: finds the zero-velocity point (E7),
+/// which is mass motion where it lies at an end. Bisection over nodes, then one scalar root inside a segment.
+Candidate opposed_motion(const StepView& view, const EndConditions& ends, Direction proximal,
+                         int& patterns_tried);
+
 }  // namespace capstan

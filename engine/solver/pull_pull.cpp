@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/solver/checked_pulleys.h"
 
 namespace capstan {
 
@@ -51,6 +50,20 @@ void demand_solvable(const PullPullInputs& inputs) {
 }
 
 }  // namespace
+
+Pulleys checked(const Pulleys& pulleys) {
+    std::vector<std::string> problems;
+    const auto check = [&](double radius_m, const std::string& name) {
+        if (!(radius_m > 0.0) || !std::isfinite(radius_m)) {
+            problems.push_back("the " + name +
+                               " pulley's radius is not a positive length; give it in metres");
+        }
+    };
+    check(pulleys.motor_radius_m, "motor");
+    check(pulleys.load_radius_m, "load");
+    if (!problems.empty()) throw InvalidInput(problems);
+    return pulleys;
+}
 
 // One guess of the angles, always made from the state before the step.
 struct PullPull::Trial {

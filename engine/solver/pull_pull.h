@@ -42,6 +42,9 @@ struct Pulleys {
     double load_radius_m = 0.0;
 };
 
+/// The pulleys unchanged. Throws InvalidInput with each radius that is not a positive length.
+Pulleys checked(const Pulleys& pulleys);
+
 /// Positive motor angle reels cable A in at the motor and lets B out; positive load angle is the way cable A
 /// pulls the load pulley.
 struct PullPullState {

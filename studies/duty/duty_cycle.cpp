@@ -18,14 +18,6 @@ namespace capstan::duty {
 
 namespace {
 
-// The parameters of the bench, in the order of a calibration.
-struct CalibratedValues {
-    double dynamic_friction = 0.0;
-    double static_friction = 0.0;
-    double axial_stiffness_N = 0.0;
-    double pretension_ratio = 1.0;
-};
-
 struct RunMotion {
     MotionTimes times;
     int unsolved_steps = 0;
@@ -33,8 +25,13 @@ struct RunMotion {
 
 class RunClassifier {
   public:
-    RunClassifier(const Recording& recording, const DutyOptions& options, const CalibratedValues& numbers)
-        : recording_(recording), options_(options), numbers_(numbers) {}
+    /// `values`: of the twin's parameters, in its order.
+    RunClassifier(const Recording& recording, const DutyOptions& options, const std::vector<double>& values)
+        : recording_(recording),
+          options_(options),
+          numbers_{
+              .dynamic_friction = values[0], .static_friction = values[1], .axial_stiffness_N = values[2]},
+          pretension_ratio_(values[3]) {}
 
     RunMotion classify(const RecordedRun& run) const {
         switch (recording_.mode) {
@@ -53,14 +50,9 @@ class RunClassifier {
     double sample_s() const { return 1.0 / recording_.sample_rate_Hz; }
 
     Cable cable(const RecordedRun& run) const {
-        CableSpecification specification;
-        specification.curvature = recording_.nominal->curvature;
-        specification.segments = options_.segments;
-        specification.axial_stiffness_N = numbers_.axial_stiffness_N;
-        specification.dynamic_friction = numbers_.dynamic_friction;
-        specification.static_friction = std::max(numbers_.static_friction, numbers_.dynamic_friction);
-        specification.pretension_N = numbers_.pretension_ratio * run.pretension_N.value_or(0.0);
-        return Cable(specification);
+        CableNumbers numbers = numbers_;
+        numbers.pretension_N = pretension_ratio_ * run.pretension_N.value_or(0.0);
+        return Cable(cable_specification(recording_.nominal->curvature, numbers, options_.segments));
     }
 
     // Adds the motion of one cable between two samples, counted as `weight` of a cable.
@@ -137,7 +129,8 @@ class RunClassifier {
 
     const Recording& recording_;
     const DutyOptions& options_;
-    CalibratedValues numbers_;
+    CableNumbers numbers_;  // without the pretension, which each run has
+    double pretension_ratio_;
 };
 
 }  // namespace
@@ -173,9 +166,7 @@ DutyCycle measure_duty(const Recording& recording, const DutyOptions& options) {
     const std::vector<double> values =
         options.parameters ? gap::read_parameter_values(*options.parameters, twin->parameters())
                            : gap::nominal_values(*twin);
-    const CalibratedValues numbers{values[0], values[1], values[2], values[3]};
-
-    const RunClassifier classifier(recording, options, numbers);
+    const RunClassifier classifier(recording, options, values);
     std::vector<RunMotion> motions(recording.runs.size());
     parallel_for_each_index(static_cast<int>(motions.size()), options.jobs, [&](int run) {
         motions[static_cast<std::size_t>(run)] =

@@ -129,11 +129,11 @@ std::vector<SensedCable> sensed_cables(const Recording& as_recorded, int segment
         if (sources.empty()) continue;
         SensedCable cable;
         cable.name = name == CableName::a ? "A" : "B";
-        cable.specification.curvature = bench.curvature;
-        cable.specification.segments = segments;
-        cable.specification.axial_stiffness_N = bench.axial_stiffness_N;
-        cable.specification.dynamic_friction = bench.dynamic_friction;
-        cable.specification.static_friction = std::max(bench.static_friction, bench.dynamic_friction);
+        cable.specification = cable_specification(bench.curvature,
+                                                  {.dynamic_friction = bench.dynamic_friction,
+                                                   .static_friction = bench.static_friction,
+                                                   .axial_stiffness_N = bench.axial_stiffness_N},
+                                                  segments);
         for (const Source& source : sources) cable.channels.push_back(source.sensed);
         for (const RecordedRun& run : recording.runs)
             cable.runs.push_back(sensed_run(recording, run, name, cable.specification, sources));

@@ -17,9 +17,9 @@ namespace capstan::gap {
 
 namespace {
 
-// A parameter that could as well be twice or half as large is not known.
+// A parameter whose interval reaches twice or half its value counts as not identifiable.
 constexpr double min_known_factor = 2.0;
-// Two estimates that move together this much are told about.
+// From this correlation on, two estimates are reported as trading with each other.
 constexpr double trading_correlation = 0.95;
 constexpr double two_sided_95 = 1.959964;
 
@@ -46,7 +46,7 @@ LogFit fit_logs(const TwinResiduals& residuals, const std::vector<TwinParameter>
         for (Eigen::Index column = 0; column < logs.cols(); ++column)
             sets.push_back(values_of(parameters, fitted, logs.col(column)));
         const Eigen::MatrixXd measured = residuals.of(parts, sets);
-        // A weak belief in the nominal values keeps what nothing confines from running away.
+        // A weak prior at the nominal values keeps parameters that the data do not determine from diverging.
         Eigen::MatrixXd all(measured.rows() + logs.rows(), logs.cols());
         all << measured, logs;
         return all;
@@ -54,7 +54,7 @@ LogFit fit_logs(const TwinResiduals& residuals, const std::vector<TwinParameter>
     LogFit log_fit;
     log_fit.fit = fit_least_squares(function, start);
 
-    // Sandwich: residuals within a block hang together in any way, blocks do not.
+    // Sandwich: residuals are correlated within a block in any way, and independent between blocks.
     const LeastSquaresFit& fit = log_fit.fit;
     const std::vector<Eigen::Index> blocks = residuals.block_ends(parts);
     Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(fit.parameters.size(), fit.parameters.size());
@@ -81,8 +81,8 @@ double correlation(const Eigen::MatrixXd& covariance, Eigen::Index a, Eigen::Ind
 }
 
 // Half widths of 95% intervals of the logarithms: the sandwich's, or the jackknife's over runs if larger.
-Eigen::VectorXd half_widths(const LogFit& whole, const std::vector<LogFit>& without_a_run) {
-    Eigen::VectorXd widths = two_sided_95 * whole.covariance.diagonal().cwiseSqrt();
+Eigen::VectorXd half_widths(const LogFit& all_runs, const std::vector<LogFit>& without_a_run) {
+    Eigen::VectorXd widths = two_sided_95 * all_runs.covariance.diagonal().cwiseSqrt();
     const auto runs = static_cast<double>(without_a_run.size());
     if (without_a_run.size() < 3) return widths;
     const double quantile = boost::math::quantile(boost::math::students_t(runs - 1.0), 0.975);
@@ -141,25 +141,25 @@ class Calibrator {
     }
 
     Calibration run() {
-        const std::vector<RunPart> all = residuals_.whole_runs();
+        const std::vector<RunPart> all = residuals_.complete_runs();
         start_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted_.size()));
         const std::vector<double> nominal = nominal_values(*twin_);
         residuals_.set_scales(nominal);
-        LogFit whole = fit(all);
-        // Twice: the first fit's scales are those of the nominal model's misfit.
+        LogFit all_runs = fit(all);
+        // Two more fits, because the first one's scales came from the nominal model's misfit.
         for (int round = 0; round < 2; ++round) {
-            residuals_.set_scales(values_of(twin_->parameters(), fitted_, whole.fit.parameters));
-            start_ = whole.fit.parameters;
-            whole = fit(all);
+            residuals_.set_scales(values_of(twin_->parameters(), fitted_, all_runs.fit.parameters));
+            start_ = all_runs.fit.parameters;
+            all_runs = fit(all);
         }
-        start_ = whole.fit.parameters;
+        start_ = all_runs.fit.parameters;
         std::vector<LogFit> without = fits_without_a_run();
-        while (!fitted_.empty() && drop_least_known(whole, half_widths(whole, without))) {
-            whole = fit(all);
-            start_ = whole.fit.parameters;
+        while (!fitted_.empty() && drop_least_known(all_runs, half_widths(all_runs, without))) {
+            all_runs = fit(all);
+            start_ = all_runs.fit.parameters;
             without = fits_without_a_run();
         }
-        take_estimates(whole, half_widths(whole, without));
+        take_estimates(all_runs, half_widths(all_runs, without));
         score(nominal, without);
         return std::move(calibration_);
     }
@@ -175,61 +175,61 @@ class Calibrator {
         return log_fit;
     }
 
-    // Takes the parameter that the recording says least about out of the fit, if that is too little.
-    bool drop_least_known(const LogFit& whole, const Eigen::VectorXd& widths) {
+    // Removes the parameter with the widest interval from the fit, if that is too wide.
+    bool drop_least_known(const LogFit& all_runs, const Eigen::VectorXd& widths) {
         Eigen::Index worst = 0;
         const double width = widths.maxCoeff(&worst);
         if (width < std::log(min_known_factor)) return false;
         const int index = fitted_[static_cast<std::size_t>(worst)];
         estimate(index).identifiable = false;
-        estimate(index).reason = why_unknown(whole, worst);
+        estimate(index).reason = why_unknown(all_runs, worst);
         fitted_.erase(fitted_.begin() + worst);
         start_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted_.size()));
         return true;
     }
 
-    std::string why_unknown(const LogFit& whole, Eigen::Index worst) {
-        std::string partner = trading_partner(whole, worst);
+    std::string why_unknown(const LogFit& all_runs, Eigen::Index worst) {
+        std::string partner = trading_partner(all_runs, worst);
         if (!partner.empty()) return partner;
-        const double alone = two_sided_95 * std::sqrt(whole.covariance(worst, worst));
-        return alone < std::log(min_known_factor) ? "the runs disagree about it"
-                                                  : "hardly changes what was measured here";
+        const double alone = two_sided_95 * std::sqrt(all_runs.covariance(worst, worst));
+        return alone < std::log(min_known_factor) ? "the runs give different values"
+                                                  : "it changes the measured channels too little";
     }
 
-    // The parameter that an estimate moves together with most, if that is almost wholly; else empty.
-    std::string trading_partner(const LogFit& whole, Eigen::Index row) {
+    // The parameter that an estimate moves together with most, if the correlation is almost 1; else empty.
+    std::string trading_partner(const LogFit& all_runs, Eigen::Index row) {
         double most = trading_correlation;
-        std::string words;
-        for (Eigen::Index other = 0; other < whole.covariance.rows(); ++other) {
-            const double together = correlation(whole.covariance, row, other);
+        std::string reason;
+        for (Eigen::Index other = 0; other < all_runs.covariance.rows(); ++other) {
+            const double together = correlation(all_runs.covariance, row, other);
             if (other == row || std::abs(together) < most) continue;
             most = std::abs(together);
-            words = fmt::format("trades with {} (correlation {:.3f})",
-                                estimate(fitted_[static_cast<std::size_t>(other)]).parameter.name, together);
+            reason = fmt::format("trades with {} (correlation {:.3f})",
+                                 estimate(fitted_[static_cast<std::size_t>(other)]).parameter.name, together);
         }
-        return words;
+        return reason;
     }
 
     std::vector<LogFit> fits_without_a_run() {
         std::vector<LogFit> fits;
         if (recording_.runs.size() < 2) return fits;
         for (std::size_t left_out = 0; left_out < recording_.runs.size(); ++left_out) {
-            std::vector<RunPart> parts = residuals_.whole_runs();
+            std::vector<RunPart> parts = residuals_.complete_runs();
             parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(left_out));
             fits.push_back(fit(parts));
         }
         return fits;
     }
 
-    void take_estimates(const LogFit& whole, const Eigen::VectorXd& widths) {
-        calibration_.converged = whole.fit.converged;
+    void take_estimates(const LogFit& all_runs, const Eigen::VectorXd& widths) {
+        calibration_.converged = all_runs.fit.converged;
         for (std::size_t k = 0; k < fitted_.size(); ++k) {
             const auto row = static_cast<Eigen::Index>(k);
             ParameterEstimate& found = estimate(fitted_[k]);
-            found.value = found.parameter.nominal * std::exp(whole.fit.parameters[row]);
+            found.value = found.parameter.nominal * std::exp(all_runs.fit.parameters[row]);
             found.low = found.value * std::exp(-widths[row]);
             found.high = found.value * std::exp(widths[row]);
-            found.reason = trading_partner(whole, row);
+            found.reason = trading_partner(all_runs, row);
         }
     }
 

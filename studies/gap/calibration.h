@@ -14,14 +14,14 @@ struct CalibrationOptions {
     int threads = 0;  ///< 0: as many as the machine has
 };
 
-/// What a recording says about one parameter.
+/// The estimate of one parameter from a recording.
 struct ParameterEstimate {
     TwinParameter parameter;
     double value = 0.0;  ///< the nominal one where nothing else is known
     double low = 0.0;    ///< 95% interval
     double high = 0.0;
     bool fitted = true;        ///< asked for
-    bool identifiable = true;  ///< the recording confines it; else it stays at its nominal value
+    bool identifiable = true;  ///< the recording determines it; else it stays at its nominal value
     std::string reason;        ///< why it is not, or which other parameter it trades with
 };
 
@@ -50,11 +50,10 @@ struct Calibration {
 /// Fits a twin's parameters to a recording by least squares on their logarithms, each channel of each run in
 /// units of what the fit leaves in it (its noise and the model's own floor).
 ///
-/// Intervals: the larger of two spreads, both made for residuals that hang together over time and over runs:
-/// the sandwich over blocks of a second, and the jackknife over runs. A parameter whose interval spans more
-/// than a factor of two either way is called not identifiable and stays nominal. Held out: each run is
-/// predicted with parameters fitted to all others; a single run is predicted in its second half from a fit to
-/// its first.
+/// Intervals: the larger of two estimates for residuals that are correlated in time and within a run: the
+/// sandwich over blocks of a second, and the jackknife over runs. A parameter whose interval spans more than
+/// a factor of two either way is not identifiable and stays nominal. Held out: each run is predicted with
+/// parameters fitted to all others; of a single run nothing is held out.
 Calibration calibrate(const Recording& recording, const CalibrationOptions& options);
 
 }  // namespace capstan::gap

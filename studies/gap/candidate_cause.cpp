@@ -14,7 +14,7 @@ namespace {
 
 using Values = std::span<const double>;
 
-// Wide enough to hold any wrong parameter that a laboratory would not notice otherwise.
+// Wide enough for any wrong parameter that a laboratory would not notice otherwise.
 constexpr double wrong_log_std = 0.5;
 // Without open numbers.
 CandidateCause plain(const std::string& effect, const std::string& component) {
@@ -63,7 +63,8 @@ CandidateCause cause_of(const Effect& effect, double length_m, double normal_for
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
         const EffectParameter& parameter = effect.parameters[k];
         if (parameter.role == ParameterRole::normal_force) {
-            // A power law's reference and its factor say the same, and the factor is friction's own.
+            // The reference of a power law and its factor are equivalent, and the factor is the friction
+            // itself.
             values[k] = normal_force_N_per_m;
             cause.given.push_back({parameter.name, parameter.unit, normal_force_N_per_m});
             continue;

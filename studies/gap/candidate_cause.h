@@ -11,13 +11,13 @@
 
 namespace capstan::gap {
 
-/// One number that a candidate cause leaves open, and the coordinate in which it is sought.
+/// A number of a candidate cause that is fitted, and the coordinate in which the search moves.
 struct OpenNumber {
     enum class Kind {
-        size,  ///< how much of it there is: 0 is none; coordinate in units of a typical case, not below 0
-        signed_size,  ///< the same, either way
+        size,  ///< how much of it there is: the coordinate is in units of a typical case and not negative
+        signed_size,  ///< the same with either sign
         shape,        ///< how it looks once it is there: the coordinate is a logarithm
-        periods,      ///< how often in a turn: a whole number, and the coordinate itself
+        periods,      ///< how often in a turn: an integer, and the coordinate itself
         step,         ///< a size that fits only when it is met closely
         place,        ///< where along the cable: coordinate in parts of its length
     };
@@ -33,11 +33,11 @@ struct OpenNumber {
     bool is_size() const { return kind == Kind::size || kind == Kind::signed_size || kind == Kind::step; }
     double prior_mean() const;
     double prior_std() const;
-    /// Coordinates from which it pays to start.
+    /// The coordinates at which searches start.
     std::vector<double> starts() const;
 };
 
-/// Something that could be behind a gap.
+/// A possible cause of a gap.
 struct CandidateCause {
     std::string effect;   ///< canonical name
     std::string variant;  ///< place or channel; empty if there is only one
@@ -59,15 +59,15 @@ struct CandidateCause {
     double pretension_std = 0.0;
 };
 
-/// The nominal numbers of a well-kept laboratory are right to about this.
+/// The uncertainty of the nominal numbers of a well-kept laboratory.
 inline constexpr double nominal_log_std = 0.015;
 
 /// The step on which all values of a channel lie, if it is coarser than the noise and step that the sidecar
 /// states; none if the values lie anywhere.
 std::optional<double> unstated_step(const Recording& recording, std::size_t channel);
 
-/// Every cause that this recording could show: none, wrong parameters, the catalogue's effects, faults of
-/// each predicted channel.
+/// Every cause that this recording could show: none, wrong parameters, the effects of the catalogue, and the
+/// sensor faults of each predicted channel.
 std::vector<CandidateCause> candidate_causes(const Recording& recording);
 
 }  // namespace capstan::gap

@@ -10,7 +10,7 @@ namespace capstan::gap {
 
 namespace {
 
-// Residuals hang together for about this long.
+// The correlation time of residuals.
 constexpr double correlation_time_s = 0.25;
 
 }  // namespace
@@ -31,7 +31,7 @@ double CauseFitter::independent_samples() const {
     return duration_s / correlation_time_s;
 }
 
-// A coarse reading says in which step's reach the value was, no more: within it nothing is left.
+// A rounded reading determines the value only to half a step. A smaller residual counts as zero.
 void CauseFitter::write_residuals(std::size_t run, const TwinRun& twin,
                                   const std::map<std::string, SensorFaults>& faults,
                                   Eigen::Ref<Eigen::VectorXd> all) const {
@@ -148,7 +148,7 @@ double CauseFitter::shape_penalty(const CauseFit& fit) const {
 
 Eigen::VectorXd CauseFitter::prior_residuals(const std::vector<const CandidateCause*>& causes,
                                              const Eigen::VectorXd& coordinates) const {
-    // Of several causes the most generous speaks for each nominal number.
+    // Each nominal number gets the widest prior of all causes.
     double spread[nominal_coordinates] = {nominal_log_std, nominal_log_std, nominal_log_std};
     for (const CandidateCause* cause : causes) {
         spread[0] = std::max(spread[0], cause->friction_std);
@@ -183,8 +183,8 @@ Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>&
     return all;
 }
 
-// The nominal numbers can take over much of what a cause does, and a search that lets them go there first
-// ends there. So the last cause's size is found roughly with everything else held.
+// The nominal numbers can explain much of what a cause does, and a search that moves them first can stop in
+// that local minimum. Therefore a coarse scan sizes the last cause with everything else held.
 Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOptions& options,
                                            int& evaluations) const {
     const std::vector<OpenNumber>& numbers = start.causes.back()->numbers;

@@ -23,10 +23,10 @@ struct ResidualSeries {
     std::size_t rows = 0;
 };
 
-/// Of every channel that the twin predicts, run by run.
+/// The series of every channel that the twin predicts, run by run.
 std::vector<ResidualSeries> residual_series(const Recording& recording, const EffectsTwin& twin);
 
-/// Part of a recording that a fit does not see: of a run, from one fraction of its samples to another.
+/// A part of a recording that is left out of a fit: from one fraction of a run's samples to another.
 struct LeftOut {
     std::size_t run = 0;
     double from = 0.0;
@@ -40,7 +40,7 @@ struct LeftOut {
     }
 };
 
-/// The best that one or several causes together can do.
+/// The best fit of one or several causes together.
 struct CauseFit {
     std::vector<const CandidateCause*> causes;
     Eigen::VectorXd coordinates;  // friction, stiffness, pretension logarithms, then each cause's numbers
@@ -63,7 +63,7 @@ class CauseFitter {
 
     struct FitOptions {
         std::optional<LeftOut> left_out;  ///< residuals there count as zero
-        /// The last cause's sizes are unknown: looked for over decades before the search.
+        /// The size of the last cause is unknown: a scan over decades comes before the search.
         bool any_size = true;
         double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
     };
@@ -74,22 +74,22 @@ class CauseFitter {
     /// Residuals and priors for one set of coordinates a column.
     Eigen::MatrixXd residuals(const std::vector<const CandidateCause*>& causes,
                               const Eigen::MatrixXd& coordinates, std::optional<LeftOut> left_out = {}) const;
-    /// What each cause of a fit does to the clearest channel: rms of the change when it alone is left out,
-    /// in units of noise and floor; of a wrong nominal number, against the nominal bench.
+    /// How visible each cause of a fit is: the rms change of the clearest channel when that cause alone is
+    /// removed, in units of noise and floor. A wrong nominal number is compared with the nominal bench.
     std::vector<std::vector<double>> visibility(std::span<const CauseFit> fits) const;
-    /// How far the nominal numbers had to go: half the sum of squares in units of their uncertainty.
+    /// Half the squared distance of the nominal numbers from their nominal values, in their uncertainties.
     double nominal_penalty(const CauseFit& fit) const;
-    /// The same of how far the causes' own numbers are from what is usual: a toe of a tenth of a newton, a
-    /// bend of no length. Sizes cost next to nothing.
+    /// The same for the causes' own numbers and their usual values (a toe of a tenth of a newton or a bend of
+    /// no length is unusual). Sizes have so wide a prior that they add almost nothing.
     double shape_penalty(const CauseFit& fit) const;
     /// Mean square of the residuals of the data.
     double misfit(const CauseFit& fit) const;
-    /// Of the coordinates alone.
+    /// The distance of each coordinate from its usual value, weighted as a residual.
     Eigen::VectorXd prior_residuals(const std::vector<const CandidateCause*>& causes,
                                     const Eigen::VectorXd& coordinates) const;
 
     const EffectsTwin& twin() const { return twin_; }
-    /// Independent instants in the recording: residuals of one instant hang together with those of the next.
+    /// The number of independent instants in the recording: neighbouring residuals are correlated.
     double independent_samples() const;
 
   private:

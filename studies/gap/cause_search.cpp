@@ -6,20 +6,21 @@
 #include <utility>
 
 #include "capstan/effects/known_causes.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
 
 namespace {
 
-// How many causes the quick look leaves for a full fit.
+// How many causes get a full fit after the screening.
 constexpr std::size_t max_fitted = 8;
-// How many of the best single causes are looked at with a second, and with how many others.
+// How many of the best single causes are fitted with a second, and with how many others each.
 constexpr std::size_t max_first_causes = 2;
 constexpr std::size_t max_second_causes = 3;
 constexpr int max_exchanges = 2;
-// A search that promises a misfit this many times the best so far is given up.
+// A search is pruned if its linear model promises more than this many times the best misfit so far.
 constexpr double pruned_factor = 2.5;
-// The quick look does with fewer segments and samples.
+// The screening uses fewer segments and samples.
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
 
@@ -27,6 +28,11 @@ double min_sum(const std::vector<ScoredFit>& fits) {
     double least = std::numeric_limits<double>::infinity();
     for (const ScoredFit& each : fits) least = std::min(least, each.fit.sum_of_squares);
     return least;
+}
+
+std::string in_words(const CandidateCause& cause) {
+    const std::string title = cause_title(cause.effect);
+    return cause.variant.empty() ? title : title + " (" + channel_words(cause.variant) + ")";
 }
 
 // A wrong nominal number beside a cause that lets the same number go far already.
@@ -52,13 +58,13 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
       causes_(candidate_causes(recording)) {}
 
 FoundCauses CauseSearch::run() {
-    tell("nominal model", 0.0);
+    report("nominal model", 0.0);
     nominal_ = {{}, Eigen::VectorXd::Zero(nominal_coordinates)};
     nominal_misfit_ = fitter_.residuals(nominal_.causes, nominal_.coordinates).squaredNorm() /
                       static_cast<double>(fitter_.data_rows());
     FoundCauses found;
     found.singles = {scored(fitter_.fit({{&causes_.front()}, nominal_.coordinates}, {}))};
-    tell("looking at every cause", 0.02);
+    report("screening all causes", 0.02);
     const std::vector<Screened> screened = screen(screener_, causes_, nominal_);
     fit_best(screened, found.singles);
     sort_by_evidence(found.singles);
@@ -82,23 +88,24 @@ ScoredFit CauseSearch::scored(CauseFit fit) {
     return scored;
 }
 
-// Full fits of the most promising.
+// Fits the most promising causes.
 void CauseSearch::fit_best(const std::vector<Screened>& screened, std::vector<ScoredFit>& fits) {
     std::size_t fitted = 0;
     for (const Screened& each : screened) {
-        // A wrong nominal number is always worth a fit: the quick look lets every cause have it on top.
+        // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
+        // numbers.
         const bool nominal_number = each.cause->numbers.empty();
         if (fitted == max_fitted && !nominal_number) continue;
         if (!nominal_number) ++fitted;
-        tell("fitting " + each.cause->effect + " " + each.cause->variant,
-             0.2 + 0.4 * static_cast<double>(fits.size()) / (max_fitted + nominal_coordinates));
+        report("fitting " + in_words(*each.cause),
+               0.2 + 0.4 * static_cast<double>(fits.size()) / (max_fitted + nominal_coordinates));
         CauseFitter::FitOptions options;
         options.pruned_sum_of_squares = pruned_factor * min_sum(fits);
         fits.push_back(scored(fitter_.fit(with_cause(nominal_, each.cause, each.start), options)));
     }
 }
 
-// The quick look is along straight lines; what looks much like the best so far must not fall through it.
+// The screening is linear. Causes that are easily confused with the best one are fitted whatever it says.
 void CauseSearch::fit_confusable(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles) {
     const std::string best = singles.front().fit.causes.front()->effect;
     const auto is_fitted = [&](const std::string& effect) {
@@ -118,8 +125,8 @@ void CauseSearch::fit_confusable(const std::vector<Screened>& screened, std::vec
     sort_by_evidence(singles);
 }
 
-// The best single causes, each with the most promising others; then each of the best two is asked again
-// whether another would go better with its partner.
+// Fits the best single causes with the most promising others, then exchanges one cause of the best pair for
+// as long as that improves it.
 std::vector<ScoredFit> CauseSearch::pairs_with(const std::vector<ScoredFit>& singles) {
     std::vector<ScoredFit> pairs;
     if (!worth_a_second_cause(singles.front().misfit, nominal_misfit_)) return pairs;
@@ -159,8 +166,8 @@ void CauseSearch::add_pairs(const Hypothesis& present, std::vector<ScoredFit>& p
                                        std::array{first, each.cause}.begin());
         };
         if (std::any_of(pairs.begin(), pairs.end(), same)) continue;
-        tell("fitting " + first->effect + " with " + each.cause->effect,
-             std::min(0.9, 0.6 + 0.03 * static_cast<double>(pairs.size())));
+        report("fitting " + in_words(*first) + " with " + in_words(*each.cause),
+               std::min(0.9, 0.6 + 0.03 * static_cast<double>(pairs.size())));
         CauseFitter::FitOptions options;
         options.pruned_sum_of_squares = pruned_factor * min_sum(pairs);
         pairs.push_back(scored(fitter_.fit(with_cause(present, each.cause, each.start), options)));

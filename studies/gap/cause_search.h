@@ -13,23 +13,23 @@ namespace capstan::gap {
 
 struct CauseSearchOptions {
     int segments = 40;  ///< of a cable
-    int stride = 1;     ///< every how manieth sample a step goes to
+    int stride = 1;     ///< samples per step
     int threads = 0;    ///< 0: as many as the machine has
-    /// Told what is going on, and how much of the work is done.
-    std::function<void(const std::string& doing, double fraction_done)> on_progress = [](const std::string&,
-                                                                                         double) {};
+    /// Called with the present activity and the fraction of the work that is done.
+    std::function<void(const std::string& activity, double fraction_done)> on_progress =
+        [](const std::string&, double) {};
 };
 
-/// What was fitted, best first.
+/// All fits, best first.
 struct FoundCauses {
     std::vector<ScoredFit> singles;
     std::vector<ScoredFit> pairs;
     double nominal_misfit = 0.0;
-    int evaluations = 0;  ///< simulations of the whole recording
+    int evaluations = 0;  ///< simulations of the complete recording
 };
 
-/// Looks for what could be behind a recording's gap: every cause at a glance, the most promising in full, and
-/// where much is left the best with a second.
+/// Searches the causes of a recording's gap: screens every cause, fits the most promising ones, and where
+/// much is left fits the best of them together with a second.
 class CauseSearch {
   public:
     /// `recording` must outlive it and what it finds.
@@ -43,7 +43,7 @@ class CauseSearch {
     const std::vector<CandidateCause>& causes() const { return causes_; }
 
   private:
-    void tell(const std::string& doing, double done) { options_.on_progress(doing, done); }
+    void report(const std::string& activity, double done) { options_.on_progress(activity, done); }
     ScoredFit scored(CauseFit fit);
     void fit_best(const std::vector<Screened>& screened, std::vector<ScoredFit>& fits);
     void fit_confusable(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles);
@@ -55,12 +55,12 @@ class CauseSearch {
     CauseFitter screener_;
     Evidence evidence_;
     std::vector<CandidateCause> causes_;
-    Hypothesis nominal_;  // nothing fitted: where searches start, for the nominal fit may have gone astray
+    Hypothesis nominal_;  // nothing fitted: where every search starts
     double nominal_misfit_ = 0.0;
     int evaluations_ = 0;
 };
 
-/// In place, the best first.
+/// In place, best first.
 void sort_by_evidence(std::vector<ScoredFit>& fits);
 
 }  // namespace capstan::gap

@@ -10,9 +10,8 @@ namespace capstan::gap {
 
 namespace {
 
-// A cause that closes nothing where it was not fitted may be no more than a shape that the noise happened to
-// have. Up to this misfit a recording may well have no gap, and `none` goes first; beyond, the cause has less
-// evidence.
+// A cause that closes nothing on held-out data may only have fitted noise. Up to this misfit the recording
+// may well have no gap, and `none` is put first; beyond it the cause loses evidence.
 constexpr double tenable_misfit = 1.2;
 constexpr double unproven_penalty = 4.0;
 
@@ -29,7 +28,7 @@ class Diagnoser {
     }
 
   private:
-    void tell(const std::string& doing, double done) { options_.on_progress(doing, done); }
+    void report(const std::string& activity, double done) { options_.on_progress(activity, done); }
 
     Diagnosis verdict(std::vector<ScoredFit> singles, std::vector<ScoredFit> pairs) {
         Diagnosis diagnosis;
@@ -51,7 +50,7 @@ class Diagnoser {
         fits.insert(fits.end(), pairs.begin(), pairs.end());
         const std::vector<WeighedHypothesis> weighed = search_.evidence().weigh(fits, nominal_misfit_);
         diagnosis.ranked = Evidence::rank(search_.causes(), weighed);
-        tell("looking for the next experiment", 0.9);
+        report("comparing possible experiments", 0.9);
         diagnosis.non_identifiable = discriminating_experiments(recording_, search_.coarse_fitter(),
                                                                 non_identifiable(weighed), options_.threads);
         diagnosis.independent_samples = fitter_.independent_samples();
@@ -87,7 +86,7 @@ class Diagnoser {
 
     static bool is_nothing(const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; }
 
-    // No channel comes closer to its noise in the parts that the numbers were not fitted to.
+    // No channel comes closer to its noise in the parts that were left out of the fit.
     static bool closes_nothing(const GapMeasure& gap) {
         return std::none_of(gap.channels.begin(), gap.channels.end(),
                             [](const ChannelGap& channel) { return channel.closed > 0.0; });
@@ -134,11 +133,11 @@ class Diagnoser {
             {numbers, bench_numbers(runner_up.fit.causes, runner_up.fit.coordinates), held_out(fit)});
     }
 
-    // The bench as fitted without each part of the recording in turn.
+    // The bench fitted without each part of the recording in turn.
     std::vector<HeldOut> held_out(const CauseFit& leading) {
         std::vector<HeldOut> parts;
         for (const LeftOut& part : left_out_in_turn(recording_)) {
-            tell("holding out run " + std::to_string(recording_.runs[part.run].number), 0.95);
+            report("fitting without run " + std::to_string(recording_.runs[part.run].number), 0.95);
             CauseFitter::FitOptions options;
             options.left_out = part;
             options.any_size = false;

@@ -19,7 +19,7 @@ struct FittedNumber {
     double value = 0.0;
 };
 
-/// A cause that the verdict names, as it was fitted.
+/// A cause that the verdict names, with its fitted numbers.
 struct FittedCause {
     std::string effect;
     std::string variant;
@@ -29,7 +29,7 @@ struct FittedCause {
     std::optional<double> position_m;
 };
 
-/// How one cause, or two together, did.
+/// The fit of one cause, or of two together.
 struct CandidateScore {
     std::vector<std::string> effects;
     std::vector<std::string> variants;
@@ -54,15 +54,17 @@ struct Diagnosis {
     double misfit_after = 0.0;
     double independent_samples = 0.0;
     std::vector<CandidateScore> candidates;  ///< that were fitted, best first
-    NonIdentifiable non_identifiable;        ///< what it cannot decide, and the experiment that would
-    int evaluations = 0;                     ///< simulations of the whole recording
+    NonIdentifiable non_identifiable;  ///< the explanations that compete, and experiments that would decide
+    int evaluations = 0;               ///< simulations of the complete recording
 };
 
-/// Which unmodelled effect, if any, is behind the difference between a recording and its bench's model.
+/// Finds the unmodelled effect, if any, that explains the difference between a recording and its bench's
+/// model.
 ///
-/// Every candidate cause is fitted with the nominal numbers floating; what it leaves is weighed on the scale
-/// of the residual's own independent samples, with a price for each number. `none` wins where nothing beyond
-/// noise and the model's floor is left, `unknown` where the best known cause leaves much of the gap.
+/// Every promising cause is fitted together with the nominal numbers. The fits are compared by their
+/// evidence: the likelihood of the residuals over the independent samples, with a penalty for each fitted
+/// number. `none` leads where only noise and the model's floor are left, `unknown` where the best known cause
+/// leaves much of the gap.
 Diagnosis diagnose(const Recording& recording, const DiagnosisOptions& options);
 
 }  // namespace capstan::gap

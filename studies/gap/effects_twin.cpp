@@ -10,18 +10,18 @@ namespace capstan::gap {
 
 namespace {
 
-// A twin that lost itself predicts this many times nothing, so that no fit goes there.
-constexpr double absurd = 1e3;
+// Predictions are clamped to this size, so that a simulation that diverges only makes a bad fit.
+constexpr double max_prediction = 1e3;
 
 BenchDescription description_of(const Recording& recording, const RecordedRun& run,
                                 const BenchNumbers& numbers, int segments) {
     const NominalBench& bench = *recording.nominal;
-    CableSpecification cable;
-    cable.curvature = bench.curvature;
-    cable.segments = recording.mode == BenchMode::single_cable ? 2 * segments : segments;
-    cable.axial_stiffness_N = numbers.stiffness_ratio * bench.axial_stiffness_N;
-    cable.dynamic_friction = cable.static_friction = numbers.friction_ratio * bench.dynamic_friction;
-    cable.pretension_N = numbers.pretension_ratio * *run.pretension_N;
+    const CableSpecification cable =
+        cable_specification(bench.curvature,
+                            {.dynamic_friction = numbers.friction_ratio * bench.dynamic_friction,
+                             .axial_stiffness_N = numbers.stiffness_ratio * bench.axial_stiffness_N,
+                             .pretension_N = numbers.pretension_ratio * *run.pretension_N},
+                            recording.mode == BenchMode::single_cable ? 2 * segments : segments);
     return {.cable = Cable(cable),
             .arrangement = recording.mode == BenchMode::pull_pull ? CableArrangement::pull_pull
                                                                   : CableArrangement::single,
@@ -29,10 +29,10 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
             .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2}};
 }
 
-void demand_motion(const Recording& recording) {
+void check_driven(const Recording& recording) {
     if (recording.mode != BenchMode::pull_pull && recording.mode != BenchMode::single_cable)
         throw InvalidInput({recording.name +
-                            ": the geometry of this bench is not known; effects can be told apart on "
+                            ": the geometry of this bench is not known; effects can be distinguished on "
                             "pull_pull and single_cable benches"});
     for (const RecordedRun& run : recording.runs) {
         const bool motor = run.drives(channel::motor_angle) || run.drives(channel::motor_torque);
@@ -49,7 +49,7 @@ void demand_motion(const Recording& recording) {
 
 EffectsTwin::EffectsTwin(const Recording& recording, const EffectsTwinOptions& options)
     : recording_(recording), options_(options) {
-    demand_motion(recording);
+    check_driven(recording);
     for (const RecordedRun& run : recording.runs) inputs_.push_back(driven_inputs(recording, run));
 }
 
@@ -87,13 +87,14 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
         if (sample % options_.stride != 0) continue;
         for (std::size_t bench = 0; bench < twins.size(); ++bench) {
             if (!reports[bench].converged) ++twins[bench].unsolved_steps;
-            if (options_.tells_sliding_fraction)
+            if (options_.reports_sliding_fraction)
                 twins[bench].sliding_fraction.push_back(
                     benches.cables().sliding_fraction(static_cast<int>(bench)));
             for (const Reader& reader : readers) {
                 const double value = reader.read(benches, static_cast<int>(bench));
                 twins[bench].values[reader.channel].push_back(
-                    std::isfinite(value) ? std::clamp(value, -absurd, absurd) : absurd);
+                    std::isfinite(value) ? std::clamp(value, -max_prediction, max_prediction)
+                                         : max_prediction);
             }
         }
     }

@@ -24,17 +24,17 @@ struct BenchNumbers {
     BenchEffects effects;
     std::map<std::string, SensorFaults> sensor_faults;  // by channel
 
-    /// A rotor that rings on its cables, at tens of hertz: it is moved sample by sample whatever the stride.
+    /// A rotor on its cables oscillates at tens of hertz. It is simulated at every sample whatever the
+    /// stride.
     bool rings() const { return effects.of<Inertia>().motor_kg_m2 > 0.0; }
 };
 
 struct EffectsTwinOptions {
-    /// Of each cable of a pair; a single cable has twice as many, for what arrives at its held end has passed
-    /// the whole cable, and with it the error of every segment. E18 has no stiction rule that would need
-    /// more.
+    /// Of each cable of a pair. A single cable gets twice as many, because the tension at its held end
+    /// collects the error of every segment. E18 has no stiction rule that would need more.
     int segments = 50;
-    int stride = 1;  ///< every how manieth sample a step goes to
-    bool tells_sliding_fraction = false;
+    int stride = 1;  ///< samples per step
+    bool reports_sliding_fraction = false;
 };
 
 /// A recorded bench of known geometry with effects (BenchSimulation), moved by the recording's driven
@@ -56,7 +56,7 @@ class EffectsTwin {
     /// or none ring. Without sensor faults.
     std::vector<TwinRun> run_each(std::size_t run, std::span<const BenchNumbers> numbers) const;
 
-    /// What faulty sensors make of a run.
+    /// The run as faulty sensors read it.
     TwinRun with_faults(const TwinRun& run, const std::map<std::string, SensorFaults>& faults) const;
 
   private:

@@ -14,9 +14,9 @@ namespace capstan::gap {
 namespace {
 
 constexpr double motor_radius_m = 0.02;
-// One metre of cable with one radian of wrap: the friction coefficient is the whole exponent.
+// One metre of cable with one radian of wrap: the friction coefficient is the complete exponent.
 constexpr double length_m = 1.0;
-// Nobody stated them, so they may be anything within a factor of some.
+// Numbers that are not stated may be wrong by a factor of a few.
 constexpr double unknown_log_std = 1.0;
 constexpr double run_pretension_log_std = 0.3;
 
@@ -56,7 +56,7 @@ NominalBench bench_with(double exponent, double axial_stiffness_N, double load_r
     return bench;
 }
 
-// The nominal numbers of a bench that nobody described, fitted alone.
+// Fits the nominal numbers of a bench whose sidecar does not state them.
 void fit_nominal_numbers(Recording& bench) {
     CandidateCause anything;
     anything.effect = "none";
@@ -99,7 +99,7 @@ Recording bench_of_drive(const Recording& recording, const Recording& fitted_to)
             scaled(samples(recording, run, channel::load_angle), way),
             scaled(samples(recording, run, channel::load_torque), orientation.load_torque_sign)};
     }
-    // Where a run's load angle counts from is not known: its mean is the model's.
+    // The zero of a run's load angle is unknown, so its mean is set to the model's.
     const EffectsTwin twin(bench, {});
     const auto load_angle = static_cast<std::size_t>(*bench.channel(channel::load_angle));
     for (std::size_t run = 0; run < bench.runs.size(); ++run) {
@@ -122,8 +122,8 @@ double pulled_with_displacement(const Recording& recording) {
     return sum < 0.0 ? -1.0 : 1.0;
 }
 
-// Where a fit of what nobody stated begins: the tight end's tension over the slack end's, and a band that is
-// tight after a tenth of the stroke.
+// Where the fit of an undescribed band begins: the tight end's tension over the slack end's, and a band that
+// is tight after a tenth of the stroke.
 struct BandStart {
     double exponent = 1.0;
     double axial_stiffness_N = 1.0;
@@ -178,11 +178,11 @@ Recording bench_of_band(const Recording& recording, const Recording& fitted_to) 
     };
     Recording bench = as_bench(fitted_to);
     fit_nominal_numbers(bench);
-    Recording whole = as_bench(recording);
+    Recording equivalent = as_bench(recording);
     const double pretension_ratio = *bench.runs.front().pretension_N / *fitted_to.runs.front().pretension_N;
-    whole.nominal = bench.nominal;
-    for (RecordedRun& run : whole.runs) run.pretension_N = *run.pretension_N * pretension_ratio;
-    return whole;
+    equivalent.nominal = bench.nominal;
+    for (RecordedRun& run : equivalent.runs) run.pretension_N = *run.pretension_N * pretension_ratio;
+    return equivalent;
 }
 
 }  // namespace

@@ -9,30 +9,37 @@ namespace capstan::gap {
 
 namespace {
 
-// All constants below: README, "How sure a diagnosis is".
-//
-// Mean square residuals below this are as good as one another: the floor is not known better. What goes on
-// below still tells two causes apart, but counts for less.
+// The constants were set on 59 recordings of the blind trial's simulator and scored on others
+// (studies/README.md, "How sure a diagnosis is"). Penalties and log priors are natural logarithms.
+
+// The model's floor is known only roughly. Below this mean square residual, a smaller one is therefore weak
+// evidence and counts with a reduced weight.
 constexpr double as_good_as_noise = 0.95;
 constexpr double below_noise_weight = 0.3;
-// Of an open number, in half logarithms of the independent samples.
-constexpr double number_penalty = 0.5;
-// A cause that changes no channel by this much, rms in units of noise and floor, is hardly what makes a gap.
+// Schwarz's penalty for a fitted number is half the logarithm of the independent samples. Half of that is
+// used here, because the prior on each number already takes its part.
+constexpr double schwarz_fraction = 0.5;
+// A gap is a visible change. A cause that changes no channel by twice noise and floor (rms) cannot be what
+// makes it, and its fit follows noise.
 constexpr double visible = 2.0;
 constexpr double invisible_penalty = 8.0;
-// Known beforehand, as logarithms.
-constexpr double nothing_bonus = 1.0;
-constexpr double faulty_sensor_penalty = 2.0;
+// A bench without any cause is more common than one with a given cause.
+constexpr double none_log_prior = 1.0;
+// The model's own error resembles a faulty sensor, so a sensor fault has to explain more than that.
+constexpr double sensor_fault_penalty = 2.0;
+// Two causes at once are rarer than one, and there are hundreds of pairs to choose from.
 constexpr double second_cause_penalty = 8.0;
+// A cause outside the list is rarer than the causes in it.
 constexpr double unknown_penalty = 4.0;
-// Two causes of one gap are about as visible; a faint second one mends what the first one's model lacks.
+// Two causes of one gap are about equally visible. A second cause that is much fainter than the first only
+// corrects an error in the first one's model.
 constexpr double faint = 0.25;
 constexpr double faint_penalty = 60.0;
-// A cause nobody has thought of is granted to leave this fraction of the gap, at the price of as many
-// numbers.
+// Nothing can be fitted for a cause outside the list. It is assumed to leave this fraction of the gap and to
+// have this many numbers of its own.
 constexpr double fraction_left_by_unknown = 0.1;
 constexpr std::size_t numbers_of_unknown = 4;
-// Something else may always be the matter.
+// The list of hypotheses is never complete: this probability is shared equally by all effects.
 constexpr double anything_fraction = 0.02;
 
 using Effects = std::vector<std::string>;  // of a hypothesis, sorted
@@ -46,10 +53,11 @@ Effects effects_of(const CauseFit& fit) {
 
 }  // namespace
 
+// The log-likelihood of Gaussian residuals with a free scale is -n/2 ln(mean square), up to a constant.
 double Evidence::of(double misfit, std::size_t open_numbers) const {
     return -0.5 * samples_ *
                (std::log(std::max(misfit, as_good_as_noise)) + below_noise_weight * std::log(misfit)) -
-           0.5 * number_penalty * static_cast<double>(open_numbers) * std::log(samples_);
+           0.5 * schwarz_fraction * static_cast<double>(open_numbers) * std::log(samples_);
 }
 
 double Evidence::of(const ScoredFit& fit) const {
@@ -57,11 +65,11 @@ double Evidence::of(const ScoredFit& fit) const {
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         const CandidateCause& cause = *fit.fit.causes[k];
         if (cause.effect == "none") {
-            evidence += nothing_bonus;
+            evidence += none_log_prior;
             continue;
         }
         evidence -= invisible_penalty * std::max(0.0, 1.0 - fit.visibility[k] / visible);
-        if (cause.family == "sensor") evidence -= faulty_sensor_penalty;
+        if (cause.family == "sensor") evidence -= sensor_fault_penalty;
     }
     if (fit.fit.causes.size() < 2) return evidence;
     const auto [least, most] = std::minmax_element(fit.visibility.begin(), fit.visibility.end());
@@ -104,7 +112,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
                                          const std::vector<WeighedHypothesis>& weighed) {
     std::map<std::string, double> probability = {{"unknown", 0.0}};
     for (const CandidateCause& cause : causes) probability[cause.effect] = 0.0;
-    // Of two effects with hardly any, the one with the better hypothesis goes first.
+    // Effects with almost no probability are ordered by their best hypothesis.
     std::map<std::string, double> best;
     for (const WeighedHypothesis& each : weighed) {
         for (const std::string& effect : each.effects) {
@@ -121,17 +129,17 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         return known == best.end() ? -std::numeric_limits<double>::infinity() : known->second;
     };
     std::stable_sort(ranked.begin(), ranked.end(), [&](const RankedEffect& a, const RankedEffect& b) {
-        constexpr double the_same = 1e-9;
-        if (std::abs(a.probability - b.probability) > the_same) return a.probability > b.probability;
+        constexpr double equal = 1e-9;
+        if (std::abs(a.probability - b.probability) > equal) return a.probability > b.probability;
         return evidence_of(a) > evidence_of(b);
     });
     return ranked;
 }
 
 bool worth_a_second_cause(double misfit, double nominal_misfit) {
-    constexpr double nothing_left = 1.15;
+    constexpr double close_to_noise = 1.15;
     constexpr double min_fraction = 0.01;
-    return misfit > nothing_left && misfit - 1.0 > min_fraction * (nominal_misfit - 1.0);
+    return misfit > close_to_noise && misfit - 1.0 > min_fraction * (nominal_misfit - 1.0);
 }
 
 std::size_t open_numbers(const CauseFit& fit) {

@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "capstan/gap/block_bootstrap.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
 
 namespace {
 
-// A part of a recording is named if the gap is this much denser there than on average, and holds this share.
+// A part is named if it holds at least this fraction of the gap, and this many times its fraction of samples.
 constexpr double worth_naming_density = 1.3;
 constexpr double worth_naming_fraction = 0.4;
 
@@ -20,7 +22,7 @@ struct Part {
     std::string name;
 };
 
-// Explainable energy and samples that a block of time adds to each part.
+// The explainable energy and the samples that a block of time adds to each part.
 struct Block {
     std::size_t run = 0;
     std::vector<double> energy;   // parts
@@ -88,7 +90,7 @@ class Tally {
     std::vector<Block> blocks_;
 };
 
-// Of each part among all parts of its kind; empty if there is no energy.
+// The fraction of each part among all parts of its kind; 0 where the kind has no energy.
 std::vector<double> fractions_of(const std::vector<Part>& parts, const std::vector<double>& sums) {
     std::vector<double> fractions(parts.size(), 0.0);
     for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -143,25 +145,36 @@ std::vector<GapFraction> gap_map(const Recording& recording, const std::vector<R
 }
 
 std::string gap_sentence(const std::vector<GapFraction>& map) {
-    if (map.empty()) return "Nothing is left beyond noise and the model's own floor.";
+    if (map.empty()) return "No residual remains beyond the noise and the model's own error.";
+    // Each kind of part, and how a sentence names one.
+    static constexpr std::pair<const char*, const char*> kinds[] = {
+        {"channel", ""},
+        {"run", "run "},
+        {"regime", "regime "},
+        {"direction", ""},
+        {"speed", "speed "},
+        {"tension", "tension "},
+        {"since reversal", "time since reversal "},
+        {"session", "session time "},
+        {"place", ""}};
     std::string sentence;
-    for (const char* by : {"channel", "run", "regime", "direction", "speed", "tension", "since reversal",
-                           "session", "place"}) {
-        const GapFraction* most = nullptr;
+    for (const auto& [by, prefix] : kinds) {
+        const GapFraction* densest = nullptr;
         int parts = 0;
         for (const GapFraction& fraction : map) {
             if (fraction.by != by) continue;
             ++parts;
-            if (most == nullptr || fraction.fraction > most->fraction) most = &fraction;
+            if (densest == nullptr || fraction.fraction > densest->fraction) densest = &fraction;
         }
-        if (most == nullptr || parts < 2 || most->fraction < worth_naming_fraction ||
-            most->fraction < worth_naming_density * most->of_samples)
+        if (densest == nullptr || parts < 2 || densest->fraction < worth_naming_fraction ||
+            densest->fraction < worth_naming_density * densest->of_samples)
             continue;
-        sentence += fmt::format("{}{} {}: {:.0f}% ({:.0f} to {:.0f}%)", sentence.empty() ? "" : "; ", by,
-                                most->name, 1e2 * most->fraction, 1e2 * most->low, 1e2 * most->high);
+        const std::string name = densest->by == "channel" ? channel_words(densest->name) : densest->name;
+        sentence += fmt::format("{}{}{} {:.0f}% ({:.0f} to {:.0f}%)", sentence.empty() ? "" : "; ", prefix,
+                                name, 1e2 * densest->fraction, 1e2 * densest->low, 1e2 * densest->high);
     }
     return sentence.empty() ? "The gap is spread evenly over the recording."
-                            : "Where the gap is densest: " + sentence + ".";
+                            : "The gap is concentrated in (fraction and 95% interval): " + sentence + ".";
 }
 
 }  // namespace capstan::gap

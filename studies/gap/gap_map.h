@@ -7,18 +7,18 @@
 
 namespace capstan::gap {
 
-/// Fraction of the explainable residual energy (beyond noise and the model's floor, in units of these) that
-/// falls into one part of the recording, with its 95% interval from a bootstrap over blocks of a second.
+/// The fraction of the explainable residual energy (beyond noise and the model's floor, in units of these)
+/// that falls into one part of the recording, with a 95% interval from a bootstrap over blocks of a second.
 struct GapFraction {
     std::string by;    ///< run, channel, regime, direction, speed, tension, since reversal, session, place
     std::string name;  ///< of the part
     double fraction = 0.0;
     double low = 0.0;
     double high = 0.0;
-    double of_samples = 0.0;  ///< fraction of the compared samples in this part: what chance would give it
+    double of_samples = 0.0;  ///< fraction of the compared samples in this part, as an even gap would have
 };
 
-/// What the nominal model leaves of one run.
+/// The residuals of the nominal model in one run.
 struct RunResiduals {
     std::size_t run = 0;
     std::vector<std::vector<double>>
@@ -27,8 +27,7 @@ struct RunResiduals {
     int first_sample = 0;                  ///< before it lies the first loading from rest
 };
 
-/// Ways to sort a recording's samples, and what each way calls its parts. A sample that has no place in one
-/// of them is in part -1.
+/// One way to sort a recording's samples into named parts. A sample that belongs to no part has the index -1.
 struct SampleSorting {
     std::string by;
     std::vector<std::string> parts;
@@ -41,7 +40,7 @@ std::vector<SampleSorting> sample_sortings(const Recording& recording, const std
 /// Empty if nothing is left beyond noise and floor.
 std::vector<GapFraction> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs);
 
-/// Where the gap is denser than elsewhere, in a sentence.
+/// One sentence for a reader: where the gap is concentrated.
 std::string gap_sentence(const std::vector<GapFraction>& map);
 
 }  // namespace capstan::gap

@@ -64,23 +64,23 @@ ChannelGap summarised(const Channel& channel, const std::vector<Squares>& blocks
     return gap;
 }
 
-// Of one run, each sample by the numbers fitted without it.
+// One run in which each sample is predicted with the numbers that were fitted without it.
 TwinRun held_out_run(const EffectsTwin& twin, std::size_t run, const std::vector<HeldOut>& parts) {
-    TwinRun whole;
+    TwinRun held_out;
     for (const HeldOut& part : parts) {
         if (part.left_out.run != run) continue;
         const TwinRun predicted = twin.run(run, part.numbers);
-        if (whole.values.empty()) whole.values.resize(predicted.values.size());
+        if (held_out.values.empty()) held_out.values.resize(predicted.values.size());
         for (std::size_t channel = 0; channel < predicted.values.size(); ++channel) {
             const std::vector<double>& values = predicted.values[channel];
-            whole.values[channel].resize(values.size());
+            held_out.values[channel].resize(values.size());
             const auto [first, last] = part.left_out.rows(values.size());
             std::copy(values.begin() + static_cast<std::ptrdiff_t>(first),
                       values.begin() + static_cast<std::ptrdiff_t>(last),
-                      whole.values[channel].begin() + static_cast<std::ptrdiff_t>(first));
+                      held_out.values[channel].begin() + static_cast<std::ptrdiff_t>(first));
         }
     }
-    return whole;
+    return held_out;
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ std::vector<LeftOut> left_out_in_turn(const Recording& recording) {
 GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, const GapModels& models) {
     EffectsTwinOptions every_sample = fitter.twin().options();
     every_sample.stride = 1;
-    every_sample.tells_sliding_fraction = true;
+    every_sample.reports_sliding_fraction = true;
     const EffectsTwin twin(recording, every_sample);
     GapMeasure measure;
     std::vector<RunResiduals> nominal_residuals;
@@ -118,10 +118,10 @@ GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, co
             const auto square = [&](const TwinRun& of, std::size_t sample) {
                 return std::pow(measured[sample] - of.values[channel][sample], 2);
             };
-            Squares whole;
+            Squares sum;
             for (std::size_t sample = 0; sample < measured.size(); ++sample) {
                 if (sample % static_cast<std::size_t>(block) == 0) {
-                    if (sample > 0) whole += blocks[channel].back();
+                    if (sample > 0) sum += blocks[channel].back();
                     blocks[channel].emplace_back();
                 }
                 blocks[channel].back() += {square(twins[0], sample), square(twins[1], sample),
@@ -129,9 +129,9 @@ GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, co
                 residuals.residual[channel].push_back((measured[sample] - twins[0].values[channel][sample]) /
                                                       series.scale);
             }
-            whole += blocks[channel].back();
+            sum += blocks[channel].back();
             const double noise = sample_noise(recording.channels[channel]);
-            const double ratio = rms(whole.before, whole.samples) / (noise > 0.0 ? noise : 1.0);
+            const double ratio = rms(sum.before, sum.samples) / (noise > 0.0 ? noise : 1.0);
             if (ratio > worst) {
                 worst = ratio;
                 measure.worst_run = recording.runs[run].number;

@@ -18,13 +18,13 @@ struct ChannelGap {
     double held_out_rms = 0.0;   ///< each run (or half of the only run) with numbers fitted to the others
     double runner_up_rms = 0.0;  ///< with the best other cause instead
     /// Fraction of the closable gap (mean square beyond noise) that is closed on held-out data, with its 95%
-    /// interval from a bootstrap over blocks of a second. No number where there is no gap to close.
+    /// interval from a bootstrap over blocks of a second. NaN if nothing exceeds the noise.
     double closed = 0.0;
     double closed_low = 0.0;
     double closed_high = 0.0;
 };
 
-/// Part of a recording that a fit does not see.
+/// A part of a recording that is left out of a fit.
 struct HeldOut {
     LeftOut left_out;
     BenchNumbers numbers;  ///< as fitted without it
@@ -46,10 +46,10 @@ struct GapMeasure {
     std::vector<TwinRun> leading;
 };
 
-/// `fitter`: whose scales the map counts in.
+/// The map counts in the scales of `fitter`.
 GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, const GapModels& models);
 
-/// What a fit leaves out in turn: each run, or each half of an only run.
+/// The parts to leave out in turn: each run, or each half of a single run.
 std::vector<LeftOut> left_out_in_turn(const Recording& recording);
 
 }  // namespace capstan::gap

@@ -34,11 +34,11 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     constexpr double ease = 0.2;
     constexpr double tighten = 5.0;
     constexpr double flat = 1e-12;  // keeps a parameter that changes nothing from making the matrix singular
-    constexpr int iterations_of_hope = 2;
+    constexpr int min_iterations = 2;
 
     const int per_jacobian =
         static_cast<int>(start.size()) * (options.differences == Differences::central ? 2 : 1);
-    // One damping after the other, the next is a little tighter; side by side they span more.
+    // Dampings that are tried in parallel span a wider range than those tried in turn.
     const double spread = options.dampings_at_once == 1 ? tighten : tighten * tighten;
     LeastSquaresFit fit;
     fit.parameters = start;
@@ -58,7 +58,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
             return -damped.ldlt().solve(gradient);
         };
         const double promised = fit.sum_of_squares + gradient.dot(step_with(0.0));
-        if (iteration >= iterations_of_hope && promised > options.pruned_sum_of_squares) return fit;
+        if (iteration >= min_iterations && promised > options.pruned_sum_of_squares) return fit;
         while (true) {
             std::vector<double> dampings;
             Eigen::MatrixXd tried = fit.parameters.replicate(1, options.dampings_at_once);
@@ -74,7 +74,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
             Eigen::Index best = 0;
             const double sum = sums.minCoeff(&best);
             const bool better = sum < fit.sum_of_squares;
-            // The boldest step says how far it still is.
+            // The least damped step shows how far the minimum is.
             const bool small =
                 (tried.col(0) - fit.parameters).cwiseAbs().maxCoeff() <= options.parameter_tolerance;
             if (better) {

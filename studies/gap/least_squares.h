@@ -6,8 +6,8 @@
 
 namespace capstan::gap {
 
-/// Residuals, each in units of its own spread, as a function of the parameters. Called with one column of
-/// parameters a column of residuals, so that columns can be worked on side by side.
+/// Residuals, each in units of its own spread, as a function of the parameters. A column of parameters gives
+/// a column of residuals, so that several can be computed in parallel.
 using ResidualFunction = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& parameters)>;
 
 struct LeastSquaresFit {
@@ -23,16 +23,16 @@ enum class Differences { central, forward };
 
 struct LeastSquaresOptions {
     Differences differences = Differences::central;
-    /// Step of the differences. Fronts move in whole segments, so residuals are smooth only on a
+    /// Step of the differences. Fronts move by complete segments, so residuals are smooth only on a
     /// scale above this.
     double difference_step = 0.01;
     /// A step that changes no parameter by more than this ends the search.
     double parameter_tolerance = 1e-4;
     int max_iterations = 40;
-    bool jacobian_at_end = true;  ///< made once more at the fit, for its covariance
-    /// Dampings that are tried side by side after each Jacobian.
+    bool jacobian_at_end = true;  ///< computed again at the fit, for its covariance
+    /// The number of dampings that are tried in parallel after each Jacobian.
     int dampings_at_once = 1;
-    /// A search whose linear model promises no less than this is given up after two iterations.
+    /// After two iterations, a search is given up if its linear model promises more than this.
     double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
 };
 

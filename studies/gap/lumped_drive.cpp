@@ -12,12 +12,12 @@ namespace {
 
 enum ParameterIndex : std::size_t { friction_exponent, stiffness, pretension, speed_ratio };
 
-// No stiction here (mu_s alone cannot be identified), so a coarse cut does.
+// Without stiction (mu_s alone cannot be identified) few segments are enough.
 constexpr int lumped_segments = 40;
-// What happened before a run is not known; by then the first motion has written over it.
+// The motion before a run is unknown. After this time the first motion has overwritten its effect.
 constexpr double forgetting_s = 1.0;
-// Where a fit starts: half a radian of wrap at a usual friction, a stiffness that gives a few degrees at the
-// torque of the loop.
+// Where a fit starts: a moderate friction exponent, and a stiffness that gives a few degrees at the torque of
+// the friction loop.
 constexpr double start_exponent = 0.5;
 constexpr double start_give_rad = 0.05;
 
@@ -57,7 +57,7 @@ LoopWork loop_work(const Recording& recording) {
     for (const RecordedRun& run : recording.runs) {
         const std::vector<double>& angle = samples_of(recording, run, channel::motor_angle);
         const std::vector<double>& torque = samples_of(recording, run, channel::motor_torque);
-        // Whatever is stored in a constant torque comes back; only friction's share counts.
+        // Whatever is stored in a constant torque comes back; only the part of friction counts.
         const double mean_torque = mean_of(torque);
         for (std::size_t sample = 1; sample < angle.size(); ++sample) {
             const double turned = angle[sample] - angle[sample - 1];
@@ -79,7 +79,7 @@ double load_covariation(const Recording& recording) {
     double sum = 0.0;
     for (std::size_t run = 0; run < motor.size(); ++run)
         sum += (motor[run] - mean_of(motor)) * (load[run] - mean_of(load));
-    // One run, or one load: the mean torques themselves must agree.
+    // With one run, or one load, the signs of the mean torques must agree.
     return sum != 0.0 ? sum : mean_of(motor) * mean_of(load);
 }
 
@@ -135,16 +135,16 @@ class LumpedDrive final : public Twin {
 
   private:
     PullPull pair_of(std::span<const double> values) const {
-        CableSpecification cable;
-        cable.curvature = {{1.0, 1.0}};  // one radian of wrap, so that the coefficient is the exponent
-        cable.segments = lumped_segments;
-        cable.axial_stiffness_N = values[stiffness];
-        cable.dynamic_friction = cable.static_friction = values[friction_exponent];
-        cable.pretension_N = values[pretension];
-        return {Cable(cable), Cable(cable), {1.0, values[speed_ratio]}};
+        // One radian of wrap, so that the friction coefficient is the exponent.
+        const Cable cable(cable_specification({{1.0, 1.0}},
+                                              {.dynamic_friction = values[friction_exponent],
+                                               .axial_stiffness_N = values[stiffness],
+                                               .pretension_N = values[pretension]},
+                                              lumped_segments));
+        return {cable, cable, {1.0, values[speed_ratio]}};
     }
 
-    // Where the load angle counts from is not known: the mean of the run is the measured one.
+    // The zero of the load angle is unknown, so its mean over a run is set to the measured one.
     double load_angle_zero_rad(const RecordedRun& recorded, const std::vector<double>& predicted_rad) const {
         if (!recording_.channel(channel::load_angle)) return 0.0;
         return mean_of(samples_of(recording_, recorded, channel::load_angle)) - mean_of(predicted_rad);

@@ -24,7 +24,7 @@ Eigen::MatrixXd differences(const Eigen::MatrixXd& residuals, double step) {
     return (residuals.rightCols(residuals.cols() - 1).colwise() - residuals.col(0)) / step;
 }
 
-// What the recording at hand says of one explanation's numbers.
+// What the recording determines about one explanation's numbers.
 struct Known {
     Hypothesis hypothesis;
     Eigen::VectorXd residuals;  // data and priors, in parts that count as one independent sample
@@ -45,7 +45,7 @@ double min_sum(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals
     return (residuals + jacobian * best).squaredNorm();
 }
 
-// Chi-square that an explanation still has to pay for data that another one made.
+// The chi-square that an explanation leaves on data that another one generated.
 double unexplained_by(const Known& rival, const CauseFitter& planned, const Hypothesis& truth) {
     const double weight = std::sqrt(planned.independent_samples() / static_cast<double>(planned.data_rows()));
     const Eigen::MatrixXd moved = moved_a_little(rival.hypothesis.coordinates, step);
@@ -63,7 +63,7 @@ double unexplained_by(const Known& rival, const CauseFitter& planned, const Hypo
     return std::max(0.0, min_sum(jacobian, off) - min_sum(rival.jacobian, rival.residuals));
 }
 
-// What the bench would answer, noise apart: it sets how far the model can be trusted.
+// The bench's response without noise. It sets the model's floor.
 Recording answered(Recording recording, const EffectsTwinOptions& options, const BenchNumbers& numbers) {
     EffectsTwinOptions every_sample = options;
     every_sample.stride = 1;
@@ -102,17 +102,17 @@ NonIdentifiable discriminating_experiments(const Recording& recording, const Cau
         const Recording planned =
             answered(experiment.recording, options, bench_numbers(leader.causes, leader.coordinates));
         const CauseFitter planned_fitter(planned, options, threads);
-        double least = std::numeric_limits<double>::infinity();
+        double min_chi_square = std::numeric_limits<double>::infinity();
         for (std::size_t truth = 0; truth < known.size(); ++truth) {
             for (std::size_t rival = 0; rival < known.size(); ++rival) {
                 if (rival == truth) continue;
-                least =
-                    std::min(least, unexplained_by(known[rival], planned_fitter, known[truth].hypothesis));
+                min_chi_square = std::min(
+                    min_chi_square, unexplained_by(known[rival], planned_fitter, known[truth].hypothesis));
             }
         }
-        const double apart = std::sqrt(least / Evidence::overstated);
+        const double separation = std::sqrt(min_chi_square / Evidence::overstated);
         result.experiments.push_back({experiment.kind, experiment.name, experiment.description,
-                                      0.5 * std::erfc(-0.5 * apart / std::sqrt(2.0))});
+                                      0.5 * std::erfc(-0.5 * separation / std::sqrt(2.0))});
     }
     std::stable_sort(result.experiments.begin(), result.experiments.end(),
                      [](const ExperimentScore& a, const ExperimentScore& b) {

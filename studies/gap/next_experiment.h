@@ -10,12 +10,12 @@
 
 namespace capstan::gap {
 
-/// What a laboratory could record next on the same bench.
+/// A recording that could be made next on the same bench.
 struct Experiment {
     std::string kind;  ///< "protocol": another motion; "sensor": the same motion with one more sensor
     std::string name;
     std::string description;
-    /// One run with its driven channels filled in; what the bench would answer is zero.
+    /// One run with its driven channels filled in. The other channels are zero.
     Recording recording;
 };
 
@@ -23,29 +23,30 @@ struct Experiment {
 /// and a tension sensor at five places along each cable.
 std::vector<Experiment> possible_experiments(const Recording& recording);
 
-/// How well an experiment would tell the members of a group apart.
+/// How well an experiment would distinguish the members of a group.
 struct ExperimentScore {
     std::string kind;
     std::string name;
     std::string description;
-    /// That the right one of the two most alike is found, if each is as likely before: 0.5 is a guess.
+    /// Probability of naming the right one of the two most similar members, if both are equally likely
+    /// before: 0.5 is a guess.
     double discrimination_probability = 0.5;
 };
 
-/// Explanations that a recording cannot tell apart, and what would.
+/// Explanations that a recording cannot distinguish, and experiments that would.
 struct NonIdentifiable {
     std::vector<std::vector<std::string>> group;  ///< effects of each explanation, most probable first
-    std::vector<ExperimentScore> experiments;     ///< most telling first; empty if nothing helps
+    std::vector<ExperimentScore> experiments;     ///< most decisive first; empty if none helps
 };
 
-/// The known explanations that share the leader's probability: each with at least a twentieth, while the
+/// The explanations that compete with the leading one: each has a probability of at least 0.05, while the
 /// first has less than 0.95. At most three; empty if the recording decides.
 std::vector<WeighedHypothesis> non_identifiable(std::span<const WeighedHypothesis> weighed);
 
-/// Simulates every possible experiment with each explanation as it was fitted; another explanation may move
-/// all its numbers, as far as the recording at hand lets it, to imitate what comes out. What it cannot
-/// imitate, in units of noise and floor over the independent samples, tells the two apart.
-/// `fitter`: of the recording at hand.
+/// Simulates every possible experiment with each explanation as it was fitted. A rival explanation may change
+/// all its numbers, within what the recording allows, to reproduce the outcome. The part of the outcome that
+/// it cannot reproduce, in units of noise and floor over the independent samples, distinguishes the two.
+/// `fitter`: of the recording.
 NonIdentifiable discriminating_experiments(const Recording& recording, const CauseFitter& fitter,
                                            std::span<const WeighedHypothesis> group, int threads);
 

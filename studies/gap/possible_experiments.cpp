@@ -16,10 +16,10 @@ constexpr double usual_turn_rad = 0.3;
 constexpr double usual_torque_Nm = 0.05;
 constexpr double more_pretension = 1.5;
 constexpr double later_s = 900.0;
-// Of a strain sensor nobody has bought yet, in parts of the pretension.
+// Noise of a typical strain sensor, as a fraction of the pretension.
 constexpr double usual_tension_noise = 0.005;
 
-using Motion = std::function<double(double time_s)>;  // in parts of the amplitude
+using Motion = std::function<double(double time_s)>;  // as a fraction of the amplitude
 
 double triangle(double time_s, double period_s) {
     const double phase = std::fmod(time_s / period_s + 0.25, 1.0);
@@ -30,7 +30,7 @@ double sine(double time_s, double frequency_Hz) {
     return std::sin(2.0 * std::numbers::pi * frequency_Hz * time_s);
 }
 
-// Every four seconds another level.
+// A new level every two seconds.
 double steps(double time_s) {
     constexpr double levels[] = {0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -0.5, 0.0};
     constexpr double rise_s = 0.2;
@@ -41,7 +41,7 @@ double steps(double time_s) {
     return std::lerp(before, now, std::min(1.0, (time_s - static_cast<double>(step) * dwell_s) / rise_s));
 }
 
-// Five seconds each at a slow, a middling and a fast sine.
+// Five seconds each at a slow, a medium and a fast sine.
 double three_speeds(double time_s) {
     constexpr double each_s = 5.0;
     if (time_s < each_s) return sine(time_s, 0.2);
@@ -57,8 +57,8 @@ double amplitude(const Recording& recording, const char* channel, double usual) 
         const std::vector<double>& values = run.values[static_cast<std::size_t>(*index)];
         for (const double value : values) most = std::max(most, std::abs(value - values.front()));
     }
-    constexpr double hardly_moved = 0.05;
-    return most > hardly_moved * usual ? most : usual;
+    constexpr double still = 0.05;
+    return most > still * usual ? most : usual;
 }
 
 class Planner {
@@ -138,14 +138,13 @@ class Planner {
             run.values[static_cast<std::size_t>(*recording_.channel(channel))][sample] = value;
     }
 
-    // The longest run once more, with one sensor that is not there yet.
+    // The longest run again with one additional sensor.
     void add_sensor(CableName cable, double fraction) {
         const double length_m = length_of(recording_.nominal->curvature);
         const double position_m = fraction * length_m;
-        constexpr double as_good_as_there = 0.08;
+        constexpr double close_fraction = 0.08;
         for (const TensionSensor& sensor : recording_.tension_sensors) {
-            if (sensor.cable == cable &&
-                std::abs(sensor.position_m - position_m) < as_good_as_there * length_m)
+            if (sensor.cable == cable && std::abs(sensor.position_m - position_m) < close_fraction * length_m)
                 return;
         }
         const char* letter = cable == CableName::a ? "A" : "B";
@@ -158,7 +157,7 @@ class Planner {
         RecordedRun run = *std::max_element(
             recording_.runs.begin(), recording_.runs.end(),
             [](const RecordedRun& a, const RecordedRun& b) { return a.samples() < b.samples(); });
-        const std::string channel = "tension_that_could_be";
+        const std::string channel = "proposed_tension";
         plan.recording.channels.push_back(
             {channel, "N", usual_tension_noise * run.pretension_N.value_or(1.0), std::nullopt});
         plan.recording.tension_sensors.push_back({channel, cable, position_m});

@@ -8,10 +8,10 @@ namespace capstan::gap {
 
 namespace {
 
-// Where the quasi-static model itself ends, for a channel that varies by `spread` in a run: ringing after
-// motion has run through, breakaway, the discretisation. Measured on recordings without a gap: about 1% of a
-// torque or tension, 2% of what arrives at a load end that is held, and of a motor angle 2% where it only
-// stretches the cables, less where it turns with the load.
+// The error of the quasi-static model itself, for a channel that varies by `spread` in a run: oscillation
+// after a motion has passed, breakaway, discretisation. Measured on recordings without a gap: about 1% of a
+// torque or tension, 2% of the torque at a load that is held, and 2% of a motor angle that only stretches the
+// cables, less where it turns with the load.
 double model_floor(const std::string& channel, bool load_is_held, double spread) {
     constexpr double turning_rad = 0.13;
     if (channel == channel::motor_angle) return 0.02 * spread / (1.0 + spread / turning_rad);
@@ -26,10 +26,10 @@ double standard_deviation(const std::vector<double>& values) {
     return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-// Sample by which what moves the bench has been near both its extremes: until then friction remembers how the
-// bench was put together. At most half the run.
+// The first sample at which the driving channel has been near both its extremes. Until then friction depends
+// on how the bench was assembled. At most half the run.
 int end_of_first_loading(const Recording& recording, const RecordedRun& run) {
-    constexpr double near = 0.2;  // in parts of the span
+    constexpr double near = 0.2;  // as a fraction of the span
     const bool turned = run.drives(channel::motor_angle);
     const bool locked = run.output != OutputKind::handle;
     const auto channel = recording.channel(turned   ? channel::motor_angle
@@ -37,14 +37,14 @@ int end_of_first_loading(const Recording& recording, const RecordedRun& run) {
                                                     : channel::load_angle);
     if (!channel || !run.drives(recording.channels[static_cast<std::size_t>(*channel)].name)) return 0;
     const std::vector<double>& samples = run.values[static_cast<std::size_t>(*channel)];
-    const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
-    const double margin = near * (*most - *least);
+    const auto [lowest, highest] = std::minmax_element(samples.begin(), samples.end());
+    const double margin = near * (*highest - *lowest);
     bool been_low = false;
     bool been_high = false;
     const int half = static_cast<int>(samples.size() / 2);
     for (int sample = 0; sample < half; ++sample) {
-        been_low |= samples[static_cast<std::size_t>(sample)] < *least + margin;
-        been_high |= samples[static_cast<std::size_t>(sample)] > *most - margin;
+        been_low |= samples[static_cast<std::size_t>(sample)] < *lowest + margin;
+        been_high |= samples[static_cast<std::size_t>(sample)] > *highest - margin;
         if (been_low && been_high) return sample;
     }
     return half;

@@ -44,7 +44,7 @@ std::vector<double> speed_of(const Recording& recording, const RecordedRun& run)
 
 using PerRun = std::vector<std::vector<double>>;  // runs x samples
 
-// Below this, in parts of the largest speed, nothing moves.
+// Below this fraction of the largest speed the bench counts as at rest.
 constexpr double rest_fraction = 0.03;
 
 struct Motion {
@@ -87,13 +87,13 @@ SampleSorting sorted_by(const std::string& by, std::vector<std::string> parts, c
     return sorting;
 }
 
-// Into thirds of as many samples each.
+// Three parts with equally many samples.
 SampleSorting thirds(const std::string& by, const std::string& unit, const Recording& recording,
-                     const PerRun& values, bool zero_has_no_part) {
+                     const PerRun& values, bool skip_zero) {
     std::vector<double> all;
     for (const std::vector<double>& run : values) {
         for (const double value : run) {
-            if (!zero_has_no_part || value != 0.0) all.push_back(value);
+            if (!skip_zero || value != 0.0) all.push_back(value);
         }
     }
     if (all.empty()) return {by, {}, {}};
@@ -106,7 +106,7 @@ SampleSorting thirds(const std::string& by, const std::string& unit, const Recor
          fmt::format("above {:.3g} {}", high, unit)},
         recording, [&, low, high](std::size_t run, std::size_t sample) {
             const double value = values[run][sample];
-            if (zero_has_no_part && value == 0.0) return -1;
+            if (skip_zero && value == 0.0) return -1;
             return value < low ? 0 : value < high ? 1 : 2;
         });
 }

@@ -14,8 +14,8 @@ struct Explained {
     Eigen::VectorXd weights;  // of the last directions
 };
 
-// Least squares of `target` on the columns of `directions`: what is left. The last ones, `at_least_none`,
-// cannot be there less than not at all: against them, they explain nothing.
+// Least squares of `target` on the columns of `directions`. The last columns belong to a cause; where
+// `at_least_none` is true the weight cannot be negative, and a negative one is replaced by zero.
 Explained explained(const Eigen::VectorXd& target, Eigen::MatrixXd directions,
                     const std::vector<bool>& at_least_none) {
     const auto own = static_cast<Eigen::Index>(at_least_none.size());
@@ -36,15 +36,15 @@ Explained explained(const Eigen::VectorXd& target, Eigen::MatrixXd directions,
     }
 }
 
-// One cause at one place and of one shape: in which directions its sizes go.
+// One cause at one place and of one shape, with a direction for each of its sizes.
 struct Probe {
     const CandidateCause* cause = nullptr;
     Eigen::VectorXd start;                    // of the cause's own numbers
-    std::vector<Eigen::VectorXd> directions;  // each one of its sizes there, the others not
+    std::vector<Eigen::VectorXd> directions;  // each with one size present, the others absent
     std::vector<std::size_t> sizes;           // which of its numbers
 };
 
-// All combinations of the starts of the numbers that are no sizes.
+// All combinations of the starts of the numbers that are not sizes.
 std::vector<Eigen::VectorXd> shapes_of(const CandidateCause& cause) {
     std::vector<Eigen::VectorXd> grid = {Eigen::VectorXd(0)};
     for (const OpenNumber& number : cause.numbers) {
@@ -95,7 +95,7 @@ std::vector<Probe> probes_of(const std::vector<CandidateCause>& causes, const Hy
     return probes;
 }
 
-// Where a search should start, the sizes as the directions want them.
+// Where a search should start: with the sizes that least squares found.
 Eigen::VectorXd sized(const Probe& probe, const Eigen::VectorXd& weights) {
     constexpr double least = 0.1;
     constexpr double most = 10.0;
@@ -127,7 +127,7 @@ std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<Candid
     }
     const Eigen::MatrixXd data = fitter.data_residuals(hypotheses);
 
-    // The priors of what is known already go along.
+    // The priors of the present numbers are part of the residuals.
     const Eigen::Index rows = data.rows() + known;
     const auto with_priors = [&](std::size_t hypothesis) {
         Eigen::VectorXd all(rows);
@@ -152,7 +152,7 @@ std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<Candid
             together.col(known + static_cast<Eigen::Index>(k)) = there - here;
             at_least_none.push_back(probe.cause->numbers[probe.sizes[k]].kind == OpenNumber::Kind::size);
         }
-        // A step fits only where it is met: there is no direction to it.
+        // A step fits only where its size is met closely, so a linear estimate means nothing.
         const bool is_a_step =
             probe.sizes.size() == 1 && probe.cause->numbers[probe.sizes[0]].kind == OpenNumber::Kind::step;
         Screened screened{probe.cause, probe.start, std::numeric_limits<double>::infinity()};

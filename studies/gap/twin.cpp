@@ -48,17 +48,14 @@ class KnownBench : public Twin {
     }
 
     Cable cable(std::size_t run, std::span<const double> values) const {
-        CableSpecification specification;
-        specification.curvature = bench().curvature;
-        specification.segments = segments_;
-        specification.axial_stiffness_N = values[axial_stiffness];
-        specification.dynamic_friction = values[dynamic_friction];
-        specification.static_friction = std::max(values[static_friction], values[dynamic_friction]);
-        specification.pretension_N = values[pretension] * *recorded(run).pretension_N;
-        return Cable(specification);
+        const CableNumbers numbers{.dynamic_friction = values[dynamic_friction],
+                                   .static_friction = values[static_friction],
+                                   .axial_stiffness_N = values[axial_stiffness],
+                                   .pretension_N = values[pretension] * *recorded(run).pretension_N};
+        return Cable(cable_specification(bench().curvature, numbers, segments_));
     }
 
-    void demand_driven(std::initializer_list<const char*> any_of) const {
+    void check_driven(std::initializer_list<const char*> any_of) const {
         for (const RecordedRun& run : recording_.runs) {
             const bool driven = std::any_of(any_of.begin(), any_of.end(),
                                             [&](const char* channel) { return run.drives(channel); });
@@ -80,8 +77,8 @@ class KnownBench : public Twin {
 class PullPullTwin final : public KnownBench {
   public:
     PullPullTwin(const Recording& recording, int segments) : KnownBench(recording, segments) {
-        demand_driven({channel::motor_angle, channel::motor_torque});
-        demand_driven({channel::load_angle, channel::load_torque});
+        check_driven({channel::motor_angle, channel::motor_torque});
+        check_driven({channel::load_angle, channel::load_torque});
         for (const RecordedRun& run : recording.runs) {
             if (!run.drives(channel::load_angle) && !run.drives(channel::motor_angle))
                 throw InvalidInput(
@@ -129,7 +126,7 @@ class PullPullTwin final : public KnownBench {
 class SingleCableTwin final : public KnownBench {
   public:
     SingleCableTwin(const Recording& recording, int segments) : KnownBench(recording, segments) {
-        demand_driven({channel::motor_angle});
+        check_driven({channel::motor_angle});
     }
 
     TwinRun run(std::size_t run, std::span<const double> values) const override {
@@ -180,7 +177,7 @@ std::unique_ptr<Twin> make_twin(const Recording& recording, int segments) {
             break;
     }
     throw InvalidInput({recording.name +
-                        ": there is no model of a band round a drum yet; known are pull_pull, "
+                        ": a band round a drum has no model of its own; known are pull_pull, "
                         "single_cable and lumped_drive"});
 }
 

@@ -13,7 +13,7 @@
 
 namespace capstan::gap {
 
-/// A number that a twin can be given: what a calibration fits. All are positive.
+/// A number of a twin that a calibration can fit. All are positive.
 struct TwinParameter {
     std::string name;
     std::string unit;
@@ -21,35 +21,36 @@ struct TwinParameter {
     double nominal = 0.0;
 };
 
-/// What a model says that the bench should have measured in one run.
+/// What a model predicts for one run.
 struct TwinRun {
     std::vector<std::vector<double>> values;  // channels x samples; empty for what the model does not predict
     std::vector<double> sliding_fraction;     // samples: fraction of nodes that slide; empty if not asked for
     int unsolved_steps = 0;                   ///< torque not met or motion pattern not verified
 };
 
-/// A model of a recorded bench, moved by what drove the bench.
+/// A model of a recorded bench, driven by the inputs of the recording.
 class Twin {
   public:
     virtual ~Twin() = default;
 
     virtual const std::vector<TwinParameter>& parameters() const = 0;
-    /// Time at the start of each run in which the model cannot be compared, because what happened before is
-    /// not known.
+    /// The time at the start of each run that is not compared, because the motion before it is unknown.
     virtual double unscored_s() const { return 0.0; }
     /// Moves the model through the recording's run `run` (its index), from rest under pretension. `values`:
-    /// one per parameter. Throws InvalidInput if they make no bench.
+    /// one per parameter. Throws InvalidInput if no bench
+    /// has such values.
     virtual TwinRun run(std::size_t run, std::span<const double> values) const = 0;
 };
 
-/// What the twin's parameters are before anything is fitted.
+/// The twin's parameters before a fit.
 std::vector<double> nominal_values(const Twin& twin);
 
-/// The friction rule depends on the length of a segment (E4); from about 100 segments on it hardly does.
+/// The friction rule depends on the length of a segment (E4); above about 100 segments the result changes by
+/// less than 1%.
 inline constexpr int twin_segments = 100;
 
 /// The twin of the recording's kind of bench; `recording` must outlive it. Throws InvalidInput if the driven
-/// channels determine no motion, or if there is no model of such a bench.
+/// channels determine no motion, or if a model of such a bench does not exist.
 std::unique_ptr<Twin> make_twin(const Recording& recording, int segments = twin_segments);
 
 /// Twins of benches whose geometry is known (E1-E8, E15-E17). Parameters: dynamic_friction, static_friction,
@@ -57,15 +58,15 @@ std::unique_ptr<Twin> make_twin(const Recording& recording, int segments = twin_
 std::unique_ptr<Twin> make_pull_pull_twin(const Recording& recording, int segments);
 std::unique_ptr<Twin> make_single_cable_twin(const Recording& recording, int segments);
 
-/// Which way a drive's channels count, read off the recording itself: seen from the motor angle.
+/// The signs of a drive's channels relative to the motor angle, estimated from the recording.
 struct DriveOrientation {
     double load_per_motor_angle = 1.0;  ///< slope of the load angle over the motor angle
     double motor_torque_sign = 1.0;     ///< +1 if a positive torque turns the motor angle up
     double load_torque_sign = 1.0;      ///< +1 if the load torque adds to the motor's with its sign
 };
 
-/// The motor torque must work against friction, and carry the load. Throws InvalidInput if the recording's
-/// motion shows neither.
+/// Uses that the motor torque works against friction and carries the load. Throws InvalidInput if a channel
+/// is missing or the motion shows no ratio or no friction.
 DriveOrientation drive_orientation(const Recording& recording);
 
 /// Twin of a drive whose geometry is not known, as a pull-pull pair (E15-E17) with all wrap and friction in

@@ -35,7 +35,7 @@ TwinResiduals::TwinResiduals(const Recording& recording, const Twin& twin, int t
     }
 }
 
-std::vector<RunPart> TwinResiduals::whole_runs() const {
+std::vector<RunPart> TwinResiduals::complete_runs() const {
     std::vector<RunPart> parts;
     for (std::size_t run = 0; run < recording_.runs.size(); ++run)
         parts.push_back({run, first_scored(recording_.runs[run], twin_), recording_.runs[run].samples()});

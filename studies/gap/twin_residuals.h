@@ -28,7 +28,7 @@ class TwinResiduals {
     TwinResiduals(const Recording& recording, const Twin& twin, int threads);
 
     /// Each run from where the twin can be compared.
-    std::vector<RunPart> whole_runs() const;
+    std::vector<RunPart> complete_runs() const;
 
     /// Scale of a channel in a run: the RMS of its residuals with these parameters, at least its stated
     /// noise.

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-// Does `work` for each name that `is_done` does not hold for.
+// Calls `work` for each name that is not done.
 void for_each_missing(const std::vector<std::string>& names, const std::string& activity, int jobs,
                       const BlindTrialHooks& hooks, const std::function<bool(const std::string&)>& is_done,
                       const std::function<void(const std::string&)>& work) {
@@ -56,8 +56,8 @@ Reference read_reference(const std::filesystem::path& path, const std::string& n
         for (const json& each : text)
             reference.channels->push_back({each.at("channel"), each.at("rms_before"), each.at("rms_after")});
     } catch (const json::exception& problem) {
-        throw InvalidInput(
-            {fmt::format("{}: {}; remove it, and it will be made again", path.string(), problem.what())});
+        throw InvalidInput({fmt::format("{}: {}; remove the file, and the next run writes it again",
+                                        path.string(), problem.what())});
     }
     return reference;
 }

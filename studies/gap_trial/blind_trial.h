@@ -22,15 +22,15 @@ struct BlindTrialHooks {
     std::function<void(const std::string& seal)> on_sealed = [](const std::string&) {};
 };
 
-/// Simulates what is not there yet and seals the labels; returns their hash.
+/// Simulates the recordings unless the folder has them, and seals the labels. Returns their hash.
 std::string prepare_trial(const TrialFolder& folder, const TrialOptions& options, int jobs,
                           const BlindTrialHooks& hooks);
 
-/// Diagnoses every recording that has no answer yet, from its files alone, one case a thread.
+/// Diagnoses every recording that has no answer yet, from its files alone, one case per thread.
 void answer_trial(const TrialFolder& folder, const TrialOptions& options, const std::string& seal, int jobs,
                   const BlindTrialHooks& hooks);
 
-/// Unseals the labels, finds what the true causes leave where that is not known yet, and scores.
+/// Unseals the labels, fits the true causes where that is not done yet, and computes the score.
 TrialScore unseal_and_score(const TrialFolder& folder, const std::string& seal, int jobs,
                             const BlindTrialHooks& hooks);
 

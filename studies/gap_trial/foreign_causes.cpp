@@ -19,7 +19,7 @@ WithheldEffect foreign(const std::string& kind, const std::string& size_name, do
     return effect;
 }
 
-// A moment in the middle half of a run that is drawn.
+// A random instant in the middle half of a random run.
 double moment_in_session_s(const EffectSetting& setting, TrialStream& draws) {
     const TrialRun& run =
         setting.runs[static_cast<std::size_t>(draws.integer_below(static_cast<int>(setting.runs.size())))];

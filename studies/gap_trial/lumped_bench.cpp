@@ -27,7 +27,7 @@ LumpedCableNumbers cable_numbers(const TrialBench& bench, const TrialRun& run, c
     return numbers;
 }
 
-// A load pulley's rim: what of a cable it has taken up at an angle, and its lever arm there.
+// A load pulley's rim: the cable length that it has taken up at an angle, and its lever arm there.
 struct Rim {
     double radius_m;
     LobedPulley lobes;

@@ -11,22 +11,23 @@ namespace capstan::gap_trial {
 struct LumpedBenchOptions {
     int masses = 60;  ///< of a cable
     double damping_s = 1e-5;
-    /// Losses of a wire rope where the rotor rings on its cables (20 to 60 Hz); it dies out in 0.1 s.
+    /// Losses of a wire rope at the frequencies of the rotor on its cables (20 to 60 Hz); the oscillation
+    /// decays in 0.1 s.
     double loss_stiffness_ratio = 0.3;
     double loss_time_s = 3e-3;
-    /// How much of static friction beyond dynamic friction holds a mass at rest. In a continuum the front of
-    /// a motion has no width and static friction hardly matters; lumps make each front wait for it, which
-    /// with all of it shifts torques by 6% at 60 masses and by less than half of that at 160.
+    /// The fraction of static friction beyond dynamic friction that holds a mass at rest. In a continuum the
+    /// front of a motion has no width and static friction has almost no effect. A chain of masses delays each
+    /// front: all of static friction shifts torques by 6% with 60 masses and by less than 3% with 160.
     double static_fraction = 0.1;
 };
 
-/// What happened in a run, every 1 / fine_rate_Hz: means over the steps between for torques and tensions,
-/// which ring.
+/// The true signals of a run at fine_rate_Hz. Torques and tensions oscillate, so they are means over the
+/// steps of a sample.
 struct TrueRun {
     std::vector<std::vector<double>> values;  // channels (as of the bench) x fine samples
 };
 
-/// A run on a bench as it truly is, from rest at its pretension.
+/// Simulates a run on the true bench, from rest at its pretension.
 TrueRun run_lumped_bench(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
                          const LumpedBenchOptions& options = {});
 

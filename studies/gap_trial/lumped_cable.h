@@ -7,7 +7,7 @@
 
 namespace capstan::gap_trial {
 
-/// What a chain of masses stands for.
+/// The cable that a chain of masses models.
 struct LumpedCableNumbers {
     std::vector<CurvaturePiece> curvature;
     double axial_stiffness_N = 0.0;
@@ -15,8 +15,9 @@ struct LumpedCableNumbers {
     double dynamic_friction = 0.0;
     double static_friction = 0.0;
     double pretension_N = 0.0;
-    /// Losses in the cable's material: stress = E (strain + damping d strain/dt), against ringing from mass
-    /// to mass, and a Maxwell branch beside it, against ringing of the whole.
+    /// Losses in the cable's material: stress = E (strain + damping d strain/dt), against
+    /// oscillation between masses, and a Maxwell branch in parallel, against oscillation of the complete
+    /// cable.
     double damping_s = 0.0;
     double loss_stiffness_ratio = 0.0;
     double loss_time_s = 1.0;
@@ -24,7 +25,7 @@ struct LumpedCableNumbers {
     double session_start_s = 0.0;  ///< of the run
 };
 
-/// Where the two ends of a cable are, positive towards the load, and how fast they move.
+/// Position and speed of the two ends of a cable, positive towards the load.
 struct CableEnds {
     double motor_m = 0.0;
     double motor_m_per_s = 0.0;
@@ -43,7 +44,7 @@ class LumpedCable {
 
     /// One step: tensions from positions, speeds from tensions, positions from speeds.
     void step(const CableEnds& ends);
-    /// Coefficients that change slowly, brought up to date after `elapsed_s`.
+    /// Updates the coefficients that change slowly, after `elapsed_s`.
     void follow(double load_angle_rad, double session_time_s, double elapsed_s);
 
     /// At the ends, as of the last step.
@@ -73,7 +74,7 @@ class LumpedCable {
     int masses_;
     double spacing_m_;
     double time_step_s_;
-    double speed_per_N_;  ///< what a newton does to a mass in a step
+    double speed_per_N_;  ///< the speed that a newton gives a mass in a step
     double slow_pretension_N_;
     double stiffness_ratio_ = 1.0;
     double strands_kept_in_run_ = 1.0;  // of those at its start

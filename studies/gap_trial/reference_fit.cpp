@@ -15,15 +15,15 @@ using gap::CandidateCause;
 // As a diagnosis searches; the result is measured with every sample.
 constexpr gap::EffectsTwinOptions searching{40, 2};
 constexpr gap::EffectsTwinOptions measuring{40, 1};
-// A bend's cables are not in the label, so that a few candidates can be meant.
+// The label does not say which cable is bent, so several candidates can match it.
 constexpr std::size_t max_full_fits = 3;
 
-bool is_meant(const CandidateCause& candidate, const TrueCause& truth) {
+bool matches_label(const CandidateCause& candidate, const TrueCause& truth) {
     return candidate.effect == truth.effect && candidate.component == truth.component &&
            (truth.end.empty() || candidate.end.empty() || candidate.end == truth.end);
 }
 
-// The best fit of what is there already and one more true cause; none if the engine has no such cause.
+// The best fit of the present causes with one more true cause; none if the engine has no such cause.
 std::optional<gap::CauseFit> with_one_more(const gap::CauseFitter& fitter, const gap::Hypothesis& present,
                                            const std::vector<CandidateCause>& meant) {
     std::optional<gap::CauseFit> best;
@@ -66,7 +66,7 @@ std::vector<ChannelRms> measured_gap(const Recording& recording, const gap::Benc
 
 std::optional<std::vector<ChannelRms>> reference_fit(const Recording& recording, const CaseLabel& label) {
     if (label.group == TruthGroup::none || label.group == TruthGroup::foreign) return std::nullopt;
-    // The clearest first: the other one is sought in what it leaves.
+    // The most visible cause first: the other one is fitted to the residuals that it leaves.
     std::vector<TrueCause> truths = label.causes;
     std::stable_sort(truths.begin(), truths.end(),
                      [](const TrueCause& a, const TrueCause& b) { return a.visibility > b.visibility; });
@@ -75,7 +75,7 @@ std::optional<std::vector<ChannelRms>> reference_fit(const Recording& recording,
     for (const TrueCause& truth : truths) {
         meant.emplace_back();
         std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(meant.back()),
-                     [&](const CandidateCause& candidate) { return is_meant(candidate, truth); });
+                     [&](const CandidateCause& candidate) { return matches_label(candidate, truth); });
     }
     const gap::CauseFitter fitter(recording, searching, 1);
     gap::Hypothesis found{{}, Eigen::VectorXd::Zero(gap::nominal_coordinates)};

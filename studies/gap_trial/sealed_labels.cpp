@@ -10,6 +10,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/platform/files.h"
+#include "capstan/recording/json_file.h"
 
 namespace capstan::gap_trial {
 
@@ -93,15 +94,6 @@ CaseLabel case_of(const std::string& name, const ordered_json& json) {
     return label;
 }
 
-// A missing file is wrong input of the command.
-std::string read_input(const std::filesystem::path& path) {
-    try {
-        return read_file(path);
-    } catch (const std::runtime_error& problem) {
-        throw InvalidInput({problem.what()});
-    }
-}
-
 }  // namespace
 
 std::string random_salt() {
@@ -115,7 +107,7 @@ std::string sha256(const std::string& bytes) {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned int length = 0;
     if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-        throw std::runtime_error("libcrypto gives no SHA-256; is it complete?");
+        throw std::runtime_error("libcrypto does not provide SHA-256; is it installed completely?");
     std::string text;
     for (unsigned int k = 0; k < length; ++k) text += fmt::format("{:02x}", digest[k]);
     return text;
@@ -154,8 +146,8 @@ TrialLabels read_labels(const std::string& text, const std::string& place) {
         return labels;
     } catch (const std::exception& problem) {
         throw InvalidInput(
-            {fmt::format("{}: no labels of a trial: {}; give the labels.json that gap-trial wrote", place,
-                         problem.what())});
+            {fmt::format("{}: not the labels of a trial: {}; give the labels.json that gap-trial wrote",
+                         place, problem.what())});
     }
 }
 
@@ -168,10 +160,10 @@ std::string seal_labels(const std::filesystem::path& folder, const TrialLabels& 
 }
 
 TrialLabels unseal_labels(const std::filesystem::path& labels_file, const std::string& expected_hash) {
-    const std::string text = read_input(labels_file);
+    const std::string text = read_input_file(labels_file);
     const std::string hash = sha256(text);
     const std::filesystem::path hash_file = labels_file.parent_path() / hash_name;
-    const std::string sealed = read_input(hash_file).substr(0, hash.size());
+    const std::string sealed = read_input_file(hash_file).substr(0, hash.size());
     for (const auto& [said, by] :
          {std::pair(sealed, hash_file.string()), std::pair(expected_hash, std::string("what was printed"))}) {
         if (!said.empty() && said != hash)

@@ -9,10 +9,10 @@
 
 namespace capstan::gap_trial {
 
-/// Labels of a whole trial, as they are written to labels.json.
+/// The labels of a complete trial, as they are written to labels.json.
 struct TrialLabels {
     TrialOptions options;
-    std::string salt;  ///< so that nobody finds the labels by trying what hashes alike
+    std::string salt;  ///< random, so that the labels cannot be guessed from their hash
     std::vector<CaseLabel> cases;
 };
 
@@ -30,7 +30,7 @@ TrialLabels read_labels(const std::string& text, const std::string& place);
 std::string seal_labels(const std::filesystem::path& folder, const TrialLabels& labels);
 
 /// The labels, if their file still hashes to what labels.sha256 beside it says and to `expected_hash` (where
-/// that is not empty). Throws InvalidInput if not: somebody changed them after they were sealed.
+/// that is not empty). Throws InvalidInput if not, because they were changed after they were sealed.
 TrialLabels unseal_labels(const std::filesystem::path& labels_file, const std::string& expected_hash = {});
 
 }  // namespace capstan::gap_trial

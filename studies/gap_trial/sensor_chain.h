@@ -9,8 +9,8 @@
 
 namespace capstan::gap_trial {
 
-/// What the lab's instruments give of a run, without noise and steps: faults of sensors, then the 40 Hz
-/// zero-phase low-pass of torques and tensions, then samples at the logged rate. channels x samples.
+/// What the laboratory's instruments measure in a run, without noise and steps: faults of sensors, then the
+/// 40 Hz zero-phase low-pass of torques and tensions, then samples at the logged rate. channels x samples.
 using SensedRun = std::vector<std::vector<double>>;
 
 SensedRun sense(const TrialBench& bench, const TrueRun& run,
@@ -20,7 +20,7 @@ SensedRun sense(const TrialBench& bench, const TrueRun& run,
 SensedRun with_noise(const TrialBench& bench, const SensedRun& run,
                      const std::map<std::string, TrueSensorFault>& faults, TrialStream& draws);
 
-/// Forward and backward, so without delay: second-order Butterworth each way.
+/// A second-order Butterworth filter, forward and backward, so without delay.
 void zero_phase_low_pass(std::vector<double>& signal, double cutoff_Hz, double rate_Hz);
 
 }  // namespace capstan::gap_trial

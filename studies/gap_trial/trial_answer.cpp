@@ -71,7 +71,7 @@ CaseAnswer read_answer(const std::filesystem::path& path, const std::string& sea
             answer.channels.push_back({each.at("channel"), each.at("rms_before"), each.at("rms_after")});
         return answer;
     } catch (const json::exception& problem) {
-        throw InvalidInput({fmt::format("{}: no answer of a trial: {}; remove it and run the trial again",
+        throw InvalidInput({fmt::format("{}: not an answer of a trial: {}; remove it and run the trial again",
                                         path.string(), problem.what())});
     }
 }

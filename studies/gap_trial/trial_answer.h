@@ -16,7 +16,7 @@ struct ChannelRms {
     double after = 0.0;
 };
 
-/// What of a diagnosis is scored.
+/// The part of a diagnosis that is scored.
 struct CaseAnswer {
     std::string name;
     std::vector<gap::RankedEffect> ranked;  ///< best first
@@ -29,9 +29,9 @@ struct CaseAnswer {
 
 CaseAnswer answer_of(const std::string& name, const gap::Diagnosis& diagnosis);
 
-/// Files an answer with the hash of the labels that were sealed before it was given.
+/// Writes an answer with the hash of the labels that were sealed before it was given.
 void write_answer(const std::filesystem::path& path, const CaseAnswer& answer, const std::string& seal);
-/// Throws InvalidInput if the file is no answer, or was given under another seal.
+/// Throws InvalidInput if the file is not an answer, or belongs to another seal.
 CaseAnswer read_answer(const std::filesystem::path& path, const std::string& seal);
 
 }  // namespace capstan::gap_trial

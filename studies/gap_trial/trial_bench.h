@@ -18,7 +18,7 @@ inline constexpr BenchKind all_bench_kinds[] = {BenchKind::uniform_tight, BenchK
 /// "uniform_tight" and so on.
 std::string bench_kind_name(BenchKind kind);
 
-/// What is on a bench, and what a lab writes down about it.
+/// A bench and what the laboratory states about it.
 struct TrialBench {
     BenchKind kind = BenchKind::uniform_wide;
     NominalBench nominal;

@@ -79,9 +79,9 @@ Setup draw_setup(const TrialOptions& options, Streams& draws) {
     return setup;
 }
 
-// Puts each effect in at its severity, measured alone; none if one of them cannot have it here.
-std::optional<std::vector<TrueCause>> put_in(const PlannedCase& planned, const Setup& setup, Streams& draws,
-                                             TrueEffects& all) {
+// Adds each effect at its severity, measured alone; none if one of them cannot reach it on this bench.
+std::optional<std::vector<TrueCause>> add_effects(const PlannedCase& planned, const Setup& setup,
+                                                  Streams& draws, TrueEffects& all) {
     const std::map<std::string, double> spans = spans_of(setup.bench, setup.sensed);
     const EffectSetting setting{setup.bench, setup.runs, spans};
     if (planned.makers.empty()) return std::vector<TrueCause>{};
@@ -122,7 +122,7 @@ CaseLabel make_case(const PlannedCase& planned, const TrialOptions& options,
         setup.truth = run_session(setup.bench, setup.runs, setup.effects);
         setup.sensed = sense_session(setup.bench, setup.truth, setup.effects);
         TrueEffects effects = setup.effects;
-        const auto causes = put_in(planned, setup, draws, effects);
+        const auto causes = add_effects(planned, setup, draws, effects);
         if (!causes) continue;
         const SensedSession sensed =
             causes->empty()
@@ -147,7 +147,7 @@ CaseLabel make_case(const PlannedCase& planned, const TrialOptions& options,
         return label;
     }
     throw std::runtime_error(fmt::format(
-        "{}: no bench shows {} at this severity after {} draws; try another "
+        "{}: no drawn bench shows {} at this severity after {} attempts; try another "
         "seed, severity or noise",
         planned.name, planned.makers.empty() ? "nothing" : planned.makers.front().effect, max_attempts));
 }

@@ -10,7 +10,7 @@
 
 namespace capstan::gap_trial {
 
-/// One effect that was put in, as the label tells it.
+/// One true effect, as the label states it.
 struct TrueCause {
     std::string effect;
     std::string kind;
@@ -24,7 +24,7 @@ struct TrueCause {
     std::string clearest_channel;
 };
 
-/// What is behind a case.
+/// The truth of a case.
 struct CaseLabel {
     std::string name;
     TruthGroup group = TruthGroup::none;
@@ -38,12 +38,12 @@ struct CaseLabel {
     double pretension_ratio = 1.0;
 };
 
-/// A session as a lab would file it: NAME.csv with the samples and NAME.json with what the lab knows, which
-/// is the nominal bench. Throws std::runtime_error if they cannot be written.
+/// Writes a session as a laboratory would: NAME.csv with the samples and NAME.json with the nominal bench.
+/// Throws std::runtime_error if they cannot be written.
 void write_recording(const std::filesystem::path& folder, const std::string& name, const TrialBench& bench,
                      const std::vector<TrialRun>& runs, const std::vector<SensedRun>& logged);
 
-/// Simulates a planned case and files its recording under its name in `folder`. Everything is drawn anew
+/// Simulates a planned case and writes its recording under its name in `folder`. Everything is drawn anew
 /// (bench, motion, effect) until the effect has its severity. Throws std::runtime_error if that never
 /// happens.
 CaseLabel make_case(const PlannedCase& planned, const TrialOptions& options,

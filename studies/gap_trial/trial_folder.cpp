@@ -11,14 +11,14 @@
 
 namespace capstan::gap_trial {
 
-TrialFolder::TrialFolder(std::filesystem::path path, bool goes_away)
-    : path_(std::move(path)), goes_away_(goes_away) {}
+TrialFolder::TrialFolder(std::filesystem::path path, bool is_temporary)
+    : path_(std::move(path)), is_temporary_(is_temporary) {}
 
 TrialFolder::TrialFolder(TrialFolder&& other) noexcept
-    : path_(std::move(other.path_)), goes_away_(std::exchange(other.goes_away_, false)) {}
+    : path_(std::move(other.path_)), is_temporary_(std::exchange(other.is_temporary_, false)) {}
 
 TrialFolder::~TrialFolder() {
-    if (!goes_away_) return;
+    if (!is_temporary_) return;
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
 }
@@ -48,7 +48,7 @@ void TrialFolder::state_options(const TrialOptions& options) const {
         write_file(stated, text);
     } else if (read_file(stated) != text) {
         throw InvalidInput(
-            {fmt::format("{}: another trial is kept there, with\n{}and not\n{}give the same "
+            {fmt::format("{}: the folder holds a trial with other options:\n{}not\n{}give the same "
                          "options, or another folder",
                          path_.string(), read_file(stated), text)});
     }

@@ -7,16 +7,16 @@
 
 namespace capstan::gap_trial {
 
-/// Where a trial keeps what it makes: trial.json (what was asked for), NAME.csv and NAME.json (recordings),
-/// labels.json and labels.sha256, answers/ and references/ (one file a case, so that a trial that was killed
-/// goes on where it was).
+/// The files of a trial: trial.json (its options), NAME.csv and NAME.json (recordings),
+/// labels.json and labels.sha256, answers/ and references/ (one file for each case, so that a killed trial
+/// continues where it stopped).
 class TrialFolder {
   public:
-    /// A folder to keep. Throws InvalidInput if a trial with other options is in it already.
+    /// A permanent folder. Throws InvalidInput if it holds a trial with other options.
     static TrialFolder kept(const std::filesystem::path& path, const TrialOptions& options);
-    /// A folder of its own that goes with the object.
+    /// A temporary folder, removed with the object.
     static TrialFolder temporary(const TrialOptions& options);
-    /// The folder of a trial that labels belong to, as it is.
+    /// The existing folder of a trial, from its labels.
     static TrialFolder of_labels(const std::filesystem::path& labels_file);
 
     TrialFolder(TrialFolder&& other) noexcept;
@@ -33,11 +33,11 @@ class TrialFolder {
     std::string seal() const;
 
   private:
-    TrialFolder(std::filesystem::path path, bool goes_away);
+    TrialFolder(std::filesystem::path path, bool is_temporary);
     void state_options(const TrialOptions& options) const;
 
     std::filesystem::path path_;
-    bool goes_away_ = false;
+    bool is_temporary_ = false;
 };
 
 }  // namespace capstan::gap_trial

@@ -71,7 +71,7 @@ std::vector<double> ramps(double duration_s) {
     return values;
 }
 
-// To and fro with a hand: strokes of uneven length and pace, about 40 degrees from end to end.
+// A hand moves the load to and fro: strokes of uneven length and pace, about 40 degrees from end to end.
 std::vector<double> hand_motion(double duration_s, TrialStream& draws) {
     std::vector<Move> moves;
     double side = draws.sign();
@@ -202,7 +202,7 @@ std::vector<TrialRun> pair_session(const TrialBench& bench, TrialStream& draws) 
     constexpr double tunnel_s = 16.0;
     const TrialRun tunnel = tunnel_run(tunnel_s, pretensions.moving_N, draws);
     const TrialRun sines = sines_run(pretensions.moving_N, draws);
-    // Where friction is so high that ramps do not reach the load, they come short and last.
+    // Where friction is so high that ramps do not reach the load, one short ramp comes last.
     if (bench.kind == BenchKind::uniform_tight)
         return {tunnel, sines, locked_run("ramp_locked", ramps(12.0), pretensions.ramp_N)};
     const TrialRun ramp = locked_run("ramp_locked", ramps(30.0), pretensions.ramp_N);
@@ -236,7 +236,7 @@ std::vector<TrialRun> draw_session(const TrialBench& bench, RecordingLength leng
         const int keep = 1 + draws.integer_below(2);
         while (std::ssize(runs) > keep)
             runs.erase(runs.begin() + draws.integer_below(static_cast<int>(runs.size())));
-        // A locked bench whose load feels nothing says too little alone.
+        // A locked run alone, in which nothing reaches the load, contains too little information.
         const bool only_locked_tight = bench.kind == BenchKind::uniform_tight && runs.size() == 1 &&
                                        runs.front().output == OutputKind::locked;
         if (only_locked_tight) runs = {tunnel_run(16.0, runs.front().pretension_N, draws)};

@@ -8,16 +8,16 @@
 
 namespace capstan::gap_trial {
 
-/// Rate at which motions are stated and signals are taken before they are logged.
+/// The rate of motions and of signals before they are logged.
 inline constexpr int fine_rate_Hz = 2000;
 inline constexpr int logged_rate_Hz = 200;
 
-/// One run as it is asked for, before anything is measured.
+/// The plan of one run.
 struct TrialRun {
     int number = 1;
     std::string protocol;
     double session_start_s = 0.0;
-    double pretension_N = 0.0;  ///< as the lab sets it
+    double pretension_N = 0.0;  ///< as the laboratory sets it
     OutputKind output = OutputKind::locked;
     std::vector<std::string> driven;
     // Fine samples: motor_torque [N m] and load_angle [rad] of a pair; motor_angle [rad] of a single cable.

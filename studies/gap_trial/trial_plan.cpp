@@ -17,8 +17,8 @@ constexpr double none_fraction = 0.10;
 constexpr double foreign_fraction = 0.12;
 constexpr double mixture_fraction = 0.10;
 constexpr double parameter_fraction = 0.09;
-// No case has this address.
-constexpr int whole_trial = 0x7fffffff;
+// The address of draws for the trial itself; no case has it.
+constexpr int trial_address = 0x7fffffff;
 
 template <typename Item>
 void shuffle(std::vector<Item>& items, TrialStream& draws) {
@@ -26,7 +26,7 @@ void shuffle(std::vector<Item>& items, TrialStream& draws) {
         std::swap(items[k - 1], items[static_cast<std::size_t>(draws.integer_below(static_cast<int>(k)))]);
 }
 
-// One after the other in a drawn order, and round again.
+// Deals items one after the other in a random order, and then again.
 class Round {
   public:
     Round(std::vector<EffectMaker> makers, TrialStream& draws) : makers_(std::move(makers)) {
@@ -117,7 +117,7 @@ std::string effect_family(const std::string& effect) {
 }
 
 std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
-    TrialStream draws(options.seed, whole_trial, DrawTopic::plan);
+    TrialStream draws(options.seed, trial_address, DrawTopic::plan);
     Round catalogue(catalogue_effects(), draws);
     Round parameters(wrong_parameters(), draws);
     Round foreign(foreign_causes(), draws);

@@ -14,21 +14,22 @@ namespace capstan::gap_trial {
 
 enum class SeverityChoice { mild, strong, both };
 
-/// What kind of truth a case has.
+/// The kind of truth of a case.
 enum class TruthGroup { none, catalogue, parameter, foreign, mixture };
 
 std::string truth_group_name(TruthGroup group);
 /// The group of that name, or nothing.
 std::optional<TruthGroup> truth_group_named(std::string_view name);
 
-/// What is asked of a trial. The same options give the same recordings, bit for bit.
+/// The options of a trial. The same options give the same recordings, bit for bit.
 struct TrialOptions {
     int cases = 60;
     std::uint64_t seed = 1;
     SeverityChoice severity = SeverityChoice::both;
     double noise_factor = 1.0;
     RecordingLength length = RecordingLength::standard;
-    /// Standard deviation of the lab's error in friction, stiffness and pretension (logarithms); 0: none.
+    /// Standard deviation of the laboratory's error in friction, stiffness and pretension (logarithms); 0:
+    /// none.
     double nominal_error = 0.0;
     /// All cases of this kind, in place of the mix of plan_trial.
     std::optional<TruthGroup> only = std::nullopt;
@@ -58,7 +59,7 @@ struct PlannedCase {
 };
 
 /// The mix: 10% without a gap, 12% outside the catalogue, 10% of two effects together, 9% wrong parameters,
-/// the rest spread evenly over the catalogue and the severities, in an order that tells nothing. Mixtures are
+/// the rest spread evenly over the catalogue and the severities, in random order. Mixtures are
 /// strong where both severities are asked for. Or one group alone (TrialOptions::only).
 std::vector<PlannedCase> plan_trial(const TrialOptions& options);
 

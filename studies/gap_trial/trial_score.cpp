@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "capstan/platform/median.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap_trial {
@@ -95,8 +96,8 @@ double brier_of(const ScoredCase& scored) {
     return sum;
 }
 
-// With two effects the stated probability is that of both: they share it in the answer. Below a verdict of
-// `unknown` the effects that fit best are named too, and it is not theirs.
+// The two effects of a pair share the probability in the answer, so the stated one is their sum. A verdict of
+// `unknown` names the best fitting effects too, but the probability is not theirs.
 double stated_probability(const ScoredCase& scored) {
     const CaseAnswer& answer = *scored.answer;
     if (answer.ranked.empty()) return 0.0;
@@ -138,13 +139,6 @@ Calibration calibrate(const std::vector<ScoredCase>& cases) {
         calibration.bins.push_back(bin);
     }
     return calibration;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 const ChannelRms* find_channel(const std::vector<ChannelRms>& channels, const std::string& name) {

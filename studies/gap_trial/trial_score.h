@@ -10,7 +10,7 @@
 
 namespace capstan::gap_trial {
 
-/// So many of so many, with Wilson's 95% interval (1927) for the probability behind it.
+/// A count of hits among cases, with Wilson's 95% interval (1927) for the probability behind it.
 struct Fraction {
     int hits = 0;
     int of = 0;
@@ -24,7 +24,7 @@ struct Fraction {
     double high() const;
 };
 
-/// How the answers of one group of cases fared. Of two true effects either counts as a hit.
+/// The scores of one group of cases. Of two true effects either counts as a hit.
 struct GroupScore {
     std::string by;  ///< "all", "truth", "effect", "severity", "bench", "runs"
     std::string name;
@@ -51,10 +51,10 @@ struct Calibration {
     std::vector<ReliabilityBin> bins;  ///< those that hold a case
 };
 
-/// What the named causes leave of the gap, against what the true causes leave.
+/// The gap that the named causes leave, relative to the gap that the true causes leave.
 struct Shrinkage {
     int cases = 0;
-    double median_before = 0.0;  ///< all three in units of what the true cause leaves
+    double median_before = 0.0;  ///< relative to the gap that the true cause leaves, as all three
     double median_after = 0.0;   ///< by the diagnosis
     Fraction as_good_as_truth;   ///< leaves at most 10% more
 };
@@ -77,16 +77,15 @@ struct TrialScore {
     std::vector<std::string> unanswered;  ///< cases without an answer; not in any of the numbers
 };
 
-/// What the true cause leaves of a case, where that is known.
+/// The gap that the true cause leaves in a case, where that is known.
 struct Reference {
     std::string name;
     std::optional<std::vector<ChannelRms>> channels;
 };
 
-/// What is left of a gap when the model is given the true cause, and only that: the engine's form of it
-/// (which is not the form it was simulated with), its numbers and the nominal ones fitted as a diagnosis fits
-/// them. The shrinkage that a diagnosis can claim is judged against this. None where the label names no
-/// effect that the engine has.
+/// The gap that remains when only the true cause is fitted: in the engine's form of it (the simulation has
+/// another form), with the nominal numbers, as a diagnosis fits them. A diagnosis cannot be expected to
+/// shrink the gap further. None where the engine does not have the label's effect.
 std::optional<std::vector<ChannelRms>> reference_fit(const Recording& recording, const CaseLabel& label);
 
 /// `answers` and `references` in any order; cases of the labels without an answer are listed, not scored.

@@ -6,12 +6,12 @@
 
 namespace capstan::gap_trial {
 
-/// What the numbers of a case are drawn for; each has a stream of its own, so that one more draw here
-/// changes nothing there.
+/// The purpose of a random number. Each purpose has its own stream, so that one more draw for one purpose
+/// changes nothing for the others.
 enum class DrawTopic : std::uint32_t { plan = 101, bench, motion, effect, noise, nominal_error };
 
 /// Numbers of one case for one topic, in order. The same seed, case and topic give the same numbers on every
-/// machine, whoever draws them.
+/// machine and thread.
 class TrialStream {
   public:
     TrialStream(std::uint64_t seed, int case_index, DrawTopic topic);

@@ -90,7 +90,7 @@ struct TrueSensorFault {
     double clipped_above = 0.0;  ///< 0: not
 };
 
-// Outside the catalogue: what no candidate of a diagnosis describes.
+// Effects outside the catalogue, for which a diagnosis has no candidate.
 
 /// Load pulley that is not round: r (1 + fraction sin(lobes angle + phase)).
 struct LobedPulley {
@@ -113,16 +113,16 @@ struct StrandBreak {
     double session_time_s = 0.0;
 };
 
-/// A tensioner that gives and catches itself again: a dip of the pretension.
+/// A tensioner that yields and recovers: a dip of the pretension.
 struct PretensionDip {
     double fraction = 0.0;
     double session_time_s = 0.0;
     double width_s = 2.0;
 };
 
-/// Everything that a recorded bench has and its nominal model has not; as it stands, nothing.
+/// Everything that a bench has and its nominal model has not. By default there is no effect.
 struct TrueEffects {
-    // In parts of the nominal numbers.
+    // Relative to the nominal numbers.
     double friction_ratio = 1.0;
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;

@@ -9,26 +9,27 @@
 
 namespace capstan::gap_trial {
 
-/// A session as its sensors give it without noise.
+/// A session as its sensors measure it without noise.
 using SensedSession = std::vector<SensedRun>;
 
-/// How far an effect stands out of what a lab could not tell from nothing.
+/// How clearly an effect can be seen in a session.
 struct Visibility {
     double ratio = 0.0;  ///< rms change over noise and floor together, of the channel where it is largest
     std::string channel;
 };
 
-/// A session without an effect, and how it moves with the numbers that a lab knows only roughly.
+/// A session without an effect, and its change with the nominal numbers, which a laboratory knows only
+/// roughly.
 struct Baseline {
     SensedSession sensed;
     std::vector<SensedSession> with_more;  ///< friction, stiffness, pretension, each by `more_log`
     static constexpr double more_log = 0.02;
 };
 
-/// What is left of a change when friction, stiffness and pretension are each moved by up to 3%, as best
-/// imitates it: a change that they explain is none that anybody could find. In units of noise and of the
-/// floor: by how much a converged quasi-static model misses this bench without any effect (ringing and
-/// inertia; measured with the engine's twin and rounded).
+/// The part of a change that remains when friction, stiffness and pretension each vary by up to 3% to
+/// reproduce it. A change that they reproduce cannot be attributed to an effect. In units of noise and of the
+/// model's floor, which is the error of a converged quasi-static model of this bench without any effect
+/// (oscillation and inertia; measured with the engine's twin and rounded).
 Visibility visibility(const TrialBench& bench, const std::vector<TrialRun>& runs, const Baseline& baseline,
                       const SensedSession& with);
 
@@ -47,7 +48,7 @@ VisibilityRange range_of(Severity severity);
 struct EffectTrial {
     const TrialBench& bench;
     const std::vector<TrialRun>& runs;
-    const TrueEffects& before;          ///< what is wrong anyway, like nominal numbers a percent off
+    const TrueEffects& before;          ///< without the effect; nominal numbers may be a percent off
     const std::vector<TrueRun>& truth;  ///< with that
     const Baseline& baseline;           ///< of the same
 };

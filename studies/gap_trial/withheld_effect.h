@@ -13,22 +13,22 @@
 
 namespace capstan::gap_trial {
 
-/// An effect put into a bench, all of it drawn but its size.
+/// An effect that a bench gets. Everything but its size is drawn.
 struct WithheldEffect {
     std::string effect;     ///< canonical name, as a diagnosis should answer; `unknown` outside the catalogue
     std::string kind;       ///< which one exactly
     std::string component;  ///< empty: none can be named
     std::string end;
     std::optional<Stretch> where;
-    std::map<std::string, double> shape;  ///< what was drawn besides the size, for the label
+    std::map<std::string, double> shape;  ///< what was drawn beside the size, for the label
     std::string size_name;                ///< with its unit
-    double first_size = 1.0;              ///< where a search for a size begins
-    double largest_size = 1.0;            ///< beyond it the bench would not be one
+    double first_size = 1.0;              ///< where the search for a size begins
+    double largest_size = 1.0;            ///< the bench cannot have more
     std::function<void(TrueEffects&, double size)> apply;
     bool only_sensors = false;  ///< the motion stays as it is
 };
 
-/// What an effect can be drawn for.
+/// The bench and session that an effect is drawn for.
 struct EffectSetting {
     const TrialBench& bench;
     const std::vector<TrialRun>& runs;
@@ -40,7 +40,7 @@ struct EffectMaker {
     std::string effect;
     std::string kind;
     bool needs_pair = false;    ///< not on a single cable
-    bool needs_motion = false;  ///< nothing to see in locked runs
+    bool needs_motion = false;  ///< invisible in locked runs
     WithheldEffect (*draw)(const EffectSetting&, TrialStream&);
 };
 

@@ -46,7 +46,7 @@ struct RampRun {
 
     double peak_load_torque_Nm = 0.0;
     /// Motor torque that a reversal goes through before the load torque changes, mean over the reversals; a
-    /// reversal that never reaches the load counts with its whole ramp.
+    /// reversal that never reaches the load counts with its complete ramp.
     double dead_width_Nm = 0.0;
     double lost_transfer_ratio = 0.0;  ///< 1 - peak / peak of the ideal transmission
     double rms_to_ideal_Nm = 0.0;

@@ -7,6 +7,7 @@
 
 #include "capstan/paper/compared_cycle.h"
 #include "capstan/placement/cell_statistics.h"
+#include "capstan/platform/median.h"
 #include "capstan/reference/generic_solver.h"
 #include "capstan/reference/linear_assumed.h"
 #include "capstan/solver/quasi_static_step.h"
@@ -22,10 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-    return quantile(values, 0.5);
 }
 
 // Steps taken, and how long that took.
@@ -197,14 +194,14 @@ std::vector<SolverRate> race(const RaceSettings& settings, const std::vector<Pee
 
     std::vector<SolverRate> rates = {{.name = "closed_form",
                                       .title = "closed form (capstan)",
-                                      .steps_per_s = median(closed_form_steps_per_s),
+                                      .steps_per_s = upper_median(closed_form_steps_per_s),
                                       .closed_form_is_faster_by = 1.0}};
     for (std::size_t k = 0; k < peers.size(); ++k) {
         const Entrant& entrant = entrants[k];
         SolverRate rate{.name = peers[k].name, .title = peers[k].title};
         if (!entrant.steps_per_s.empty()) {
-            rate.steps_per_s = median(entrant.steps_per_s);
-            rate.closed_form_is_faster_by = median(entrant.ratio);
+            rate.steps_per_s = upper_median(entrant.steps_per_s);
+            rate.closed_form_is_faster_by = upper_median(entrant.ratio);
             rate.converged_fraction = entrant.runner.converged_fraction();
         }
         rates.push_back(rate);

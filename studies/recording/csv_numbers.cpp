@@ -4,11 +4,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
-#include "capstan/cable/invalid_input.h"
+#include "capstan/recording/json_file.h"
 
 namespace capstan {
 
@@ -45,12 +43,11 @@ bool numbers_of(std::string_view line, const CsvNumbers& table, const std::strin
         const std::string_view field = fields[column];
         double number = 0.0;
         const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-        const bool whole = error == std::errc{} && end == field.data() + field.size();
-        if (!whole || !std::isfinite(number)) {
-            problems.add(place,
-                         fmt::format("column '{}' has '{}', not a finite number; leave samples out whole "
-                                     "rather than fill them",
-                                     table.columns[column], field));
+        const bool is_number = error == std::errc{} && end == field.data() + field.size();
+        if (!is_number || !std::isfinite(number)) {
+            problems.add(place, fmt::format("column '{}' has '{}', not a finite number; leave incomplete "
+                                            "samples out, do not fill them",
+                                            table.columns[column], field));
             return false;
         }
         numbers.push_back(number);
@@ -60,15 +57,8 @@ bool numbers_of(std::string_view line, const CsvNumbers& table, const std::strin
 
 }  // namespace
 
-std::string file_text(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path))
-        throw InvalidInput({path.string() + ": cannot be read; does the file exist?"});
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 CsvNumbers read_csv_numbers(const std::filesystem::path& path, ProblemList& problems) {
-    const std::string text = file_text(path);
+    const std::string text = read_input_file(path);
     CsvNumbers table;
     std::vector<double> numbers;
     std::string_view rest = text;
@@ -88,7 +78,7 @@ CsvNumbers read_csv_numbers(const std::filesystem::path& path, ProblemList& prob
         }
     }
     if (table.rows() == 0)
-        problems.add(path.string(), "no samples; a head line and one line a sample are needed");
+        problems.add(path.string(), "no samples; a header line and one line for each sample are needed");
     return table;
 }
 

@@ -8,7 +8,7 @@
 
 namespace capstan {
 
-/// A CSV file of numbers under one head line.
+/// A CSV file of numbers with one header line.
 struct CsvNumbers {
     std::vector<std::string> columns;
     std::vector<std::vector<double>> values;  // columns x rows
@@ -18,11 +18,8 @@ struct CsvNumbers {
     static std::size_t line_of(std::size_t row) { return row + 2; }
 };
 
-/// Reads such a file; what is wrong with a line goes into `problems` with the line's number, and the line is
-/// left out. Throws InvalidInput if the file cannot be read at all.
+/// Reads such a file. A faulty line is left out and noted in `problems` with its number. Throws InvalidInput
+/// if the file cannot be read at all.
 CsvNumbers read_csv_numbers(const std::filesystem::path& path, ProblemList& problems);
-
-/// The complete text of a file. Throws InvalidInput if it cannot be read.
-std::string file_text(const std::filesystem::path& path);
 
 }  // namespace capstan

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/platform/median.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan {
 
 namespace {
 
-// A tenth of a second at 200 Hz: as long as a hand's motion looks like a parabola at best.
+// A tenth of a second at 200 Hz: a hand's motion is close to a parabola for at most this long.
 constexpr int widest_half_window = 20;
-// Residual of a parabola, in parts of the noise, up to which it is taken to explain the samples.
+// A parabola explains the samples if its residual is at most this many times the noise.
 constexpr double explained = 1.2;
 constexpr int parabola_numbers = 3;
 
@@ -49,12 +50,6 @@ LocalParabola parabola_around(const std::vector<double>& samples, int centre, in
 }
 
 }  // namespace
-
-double upper_median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 std::vector<double> smoothed(const std::vector<double>& samples, double noise_std) {
     if (noise_std <= 0.0) return samples;

@@ -6,15 +6,15 @@
 
 namespace capstan {
 
-/// The channels of a run that drive a model, freed of noise and encoder steps: friction has a memory, so
+/// The channels of a run that drive a model, without noise and encoder steps: friction has a memory, so
 /// noise on an input makes a model creep, and one encoder step at a reversal is newtons of tension.
 struct DrivenInputs {
     std::vector<std::vector<double>> values;  // channels x samples; empty where not driven
 };
 
-/// Each sample from a parabola through the samples around it, the window as wide as the parabola explains
-/// them to about their noise: wide on ramps and dwells, narrow at corners and fast motion, none where nothing
-/// fits. A locked load stays where it is in the median.
+/// Replaces each sample by the value of a parabola through the samples around it. The window is as wide as
+/// the parabola fits to about the noise: wide on ramps and dwells, narrow at corners and in fast motion;
+/// where no window fits, the sample stays. A locked load stays at the median of its samples.
 DrivenInputs driven_inputs(const Recording& recording, const RecordedRun& run);
 
 /// Standard deviation of a channel's samples: the noise stated and the rounding to encoder steps; 0 if

@@ -1,6 +1,9 @@
 #include "capstan/recording/estimated_noise.h"
 
 #include <cmath>
+#include <utility>
+
+#include "capstan/platform/median.h"
 
 #include "capstan/recording/driven_inputs.h"
 
@@ -27,7 +30,7 @@ Recording with_estimated_noise(Recording recording) {
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         Channel& described = recording.channels[channel];
         if (described.noise_std) continue;
-        // Second differences of a rounded channel are encoder steps; noise below the step is not added.
+        // The second differences of a rounded channel are steps, which its stated step already explains.
         const double found = noise_of(recording, channel);
         described.noise_std = found > described.step.value_or(0.0) ? found : 0.0;
     }

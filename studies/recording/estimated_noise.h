@@ -4,8 +4,9 @@
 
 namespace capstan {
 
-/// The recording with the noise of every channel stated: where the sidecar does not, from the median second
-/// difference of its samples, which a slow motion hardly touches; none beside a stated step that explains it.
+/// The recording with the noise of every channel stated. Where the sidecar states none, it is estimated from
+/// the median second difference of the samples, which slow motion changes little; it is 0 where the stated
+/// step of the channel explains that difference.
 Recording with_estimated_noise(Recording recording);
 
 }  // namespace capstan

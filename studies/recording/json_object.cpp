@@ -19,12 +19,12 @@ JsonObject::JsonObject(const nlohmann::json& json, std::string place, ProblemLis
     json_ = &empty_object;
 }
 
-std::string JsonObject::way_to(const std::string& key) const {
+std::string JsonObject::path_of(const std::string& key) const {
     return place_ + (place_.ends_with(": ") ? "" : ".") + key;
 }
 
 void JsonObject::add_problem(const std::string& key, const std::string& problem) const {
-    problems_->add(way_to(key), problem);
+    problems_->add(path_of(key), problem);
 }
 
 const nlohmann::json* JsonObject::find(const char* key) const {
@@ -56,17 +56,17 @@ std::optional<double> JsonObject::optional_number(const char* key) const {
     return number(key);
 }
 
-int JsonObject::whole(const char* key) const {
+int JsonObject::integer(const char* key) const {
     const double found = number(key);
     if (found == std::floor(found) && std::abs(found) < 1e9) return static_cast<int>(found);
-    add_problem(key, "should be a whole number");
+    add_problem(key, "should be an integer");
     return 0;
 }
 
 std::string JsonObject::text(const char* key) const {
     const nlohmann::json* value = find(key);
     if (value != nullptr && value->is_string()) return value->get<std::string>();
-    add_problem(key, value == nullptr ? "is missing; a text is needed" : "should be a text");
+    add_problem(key, value == nullptr ? "is missing; a string is needed" : "should be a string");
     return {};
 }
 
@@ -74,15 +74,15 @@ std::vector<std::string> JsonObject::texts(const char* key) const {
     const nlohmann::json* value = find(key);
     std::vector<std::string> found;
     if (value == nullptr || !value->is_array()) {
-        add_problem(key,
-                    value == nullptr ? "is missing; a list of texts is needed" : "should be a list of texts");
+        add_problem(key, value == nullptr ? "is missing; a list of strings is needed"
+                                          : "should be a list of strings");
         return found;
     }
     for (const nlohmann::json& element : *value) {
         if (element.is_string()) {
             found.push_back(element.get<std::string>());
         } else {
-            add_problem(key, "should hold texts only");
+            add_problem(key, "should contain strings only");
         }
     }
     return found;
@@ -90,9 +90,9 @@ std::vector<std::string> JsonObject::texts(const char* key) const {
 
 JsonObject JsonObject::object(const char* key) const {
     const nlohmann::json* value = find(key);
-    if (value != nullptr) return {*value, way_to(key), *problems_};
+    if (value != nullptr) return {*value, path_of(key), *problems_};
     add_problem(key, "is missing; an object { } is needed");
-    return {empty_object, way_to(key), *problems_};
+    return {empty_object, path_of(key), *problems_};
 }
 
 std::vector<JsonObject> JsonObject::objects(const char* key) const {
@@ -103,7 +103,7 @@ std::vector<JsonObject> JsonObject::objects(const char* key) const {
         return found;
     }
     for (std::size_t index = 0; index < value->size(); ++index)
-        found.emplace_back((*value)[index], fmt::format("{}[{}]", way_to(key), index), *problems_);
+        found.emplace_back((*value)[index], fmt::format("{}[{}]", path_of(key), index), *problems_);
     return found;
 }
 

@@ -9,8 +9,8 @@
 
 namespace capstan {
 
-/// An object of a JSON file with the way to it, so that a problem names its key. A value that is missing or
-/// of the wrong kind is noted and comes out as its type's empty value.
+/// An object of a JSON file with its place in the file, so that a problem names its key. A value that is
+/// missing or of the wrong kind is noted as a problem and read as its type's empty value.
 class JsonObject {
   public:
     JsonObject(const nlohmann::json& json, std::string place, ProblemList& problems);
@@ -19,7 +19,7 @@ class JsonObject {
     double number(const char* key) const;
     double positive(const char* key) const;
     std::optional<double> optional_number(const char* key) const;
-    int whole(const char* key) const;
+    int integer(const char* key) const;
     std::string text(const char* key) const;
     std::vector<std::string> texts(const char* key) const;
     JsonObject object(const char* key) const;
@@ -31,7 +31,7 @@ class JsonObject {
 
   private:
     const nlohmann::json* find(const char* key) const;
-    std::string way_to(const std::string& key) const;
+    std::string path_of(const std::string& key) const;
 
     const nlohmann::json* json_;
     std::string place_;

@@ -13,12 +13,12 @@ void ProblemList::add(const std::string& place, const std::string& problem) {
 void ProblemList::throw_if_any() const {
     constexpr std::size_t max_listed = 12;
     if (problems_.empty()) return;
-    std::vector<std::string> told = problems_;
-    if (told.size() > max_listed) {
-        told.resize(max_listed);
-        told.push_back(fmt::format("and {} problems more", problems_.size() - max_listed));
+    std::vector<std::string> listed = problems_;
+    if (listed.size() > max_listed) {
+        listed.resize(max_listed);
+        listed.push_back(fmt::format("and {} more problems", problems_.size() - max_listed));
     }
-    throw InvalidInput(told);
+    throw InvalidInput(listed);
 }
 
 }  // namespace capstan

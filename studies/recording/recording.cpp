@@ -4,6 +4,18 @@
 
 namespace capstan {
 
+CableSpecification cable_specification(const std::vector<CurvaturePiece>& routing,
+                                       const CableNumbers& numbers, int segments) {
+    CableSpecification cable;
+    cable.curvature = routing;
+    cable.segments = segments;
+    cable.axial_stiffness_N = numbers.axial_stiffness_N;
+    cable.dynamic_friction = numbers.dynamic_friction;
+    cable.static_friction = std::max(numbers.static_friction, numbers.dynamic_friction);
+    cable.pretension_N = numbers.pretension_N;
+    return cable;
+}
+
 bool RecordedRun::drives(std::string_view channel) const {
     return std::find(driven.begin(), driven.end(), channel) != driven.end();
 }

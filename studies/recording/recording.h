@@ -9,10 +9,10 @@
 
 namespace capstan {
 
-/// What was on the bench.
+/// The kind of bench.
 enum class BenchMode {
     pull_pull,     ///< two cables between a motor pulley and a load pulley
-    single_cable,  ///< one cable, its input end on the motor pulley, its far end held
+    single_cable,  ///< one cable: its input end on the motor pulley, its far end held
     lumped_drive,  ///< a cable drive whose geometry is not known, seen from its two shafts
     capstan_band,  ///< a band round a drum, both ends of the band measured
 };
@@ -51,7 +51,7 @@ struct RecordedRun {
     bool drives(std::string_view channel) const;
 };
 
-/// What a lab knows of its bench before it looks at the recording.
+/// What a laboratory knows of its bench before it looks at the recording.
 struct NominalBench {
     std::vector<CurvaturePiece> curvature;
     double motor_radius_m = 0.0;
@@ -63,6 +63,18 @@ struct NominalBench {
     double load_pulley_inertia_kg_m2 = 0.0;  ///< 0: not stated
 };
 
+/// The numbers of a bench's cable that a fit or a parameter file may change.
+struct CableNumbers {
+    double dynamic_friction = 0.0;
+    double static_friction = 0.0;  ///< raised to `dynamic_friction` where it is below
+    double axial_stiffness_N = 0.0;
+    double pretension_N = 0.0;
+};
+
+/// The model's cable on this routing with these numbers.
+CableSpecification cable_specification(const std::vector<CurvaturePiece>& routing,
+                                       const CableNumbers& numbers, int segments);
+
 /// A session on a bench: several runs, all with the same channels.
 struct Recording {
     std::string name;
@@ -73,7 +85,7 @@ struct Recording {
     std::optional<NominalBench> nominal;  ///< none where the geometry is not known
     std::vector<RecordedRun> runs;        ///< in the order they were made
 
-    /// Index in `channels`; none if there is no such channel.
+    /// Index in `channels`, if the channel exists.
     std::optional<int> channel(std::string_view channel_name) const;
     int samples() const;
 };

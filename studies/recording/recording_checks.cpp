@@ -1,11 +1,10 @@
-#include "capstan/recording/recording_checks.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "capstan/recording/recording_reader.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan {
@@ -15,14 +14,14 @@ namespace {
 // Samples may jitter by half a period; more than one and a half is a gap.
 constexpr double longest_period_in_samples = 1.5;
 // A run this short has no motion in it.
-constexpr int fewest_samples = 20;
+constexpr int min_samples = 20;
 // Units are called swapped when a relation that geometry fixes is off by more than this; friction and
 // elasticity explain a factor of a few.
 constexpr double implausible_factor = 20.0;
 
 double span_of(const std::vector<double>& values) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    return *most - *least;
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    return *highest - *lowest;
 }
 
 double largest_span(const Recording& recording, int channel, OutputKind output) {
@@ -46,7 +45,7 @@ void check_constant_channels(const Recording& recording, const std::string& plac
         const bool constant = largest_span(recording, static_cast<int>(index), OutputKind::unknown) == 0.0;
         if (is_driven(recording, name)) {
             any_input_moves |= !constant;
-        } else if (constant && name != channel::load_angle) {  // a lock that holds well is no fault
+        } else if (constant && name != channel::load_angle) {  // a lock may hold perfectly
             problems.add(place,
                          fmt::format("column '{}' never changes; a sensor that is not connected? Leave the "
                                      "column out, here and in the sidecar",
@@ -118,9 +117,9 @@ void check_next_time(const RecordedRun& run, double time_s, double sample_rate_H
 
 void check_recording(const Recording& recording, const std::string& place, ProblemList& problems) {
     for (const RecordedRun& run : recording.runs) {
-        if (run.samples() < fewest_samples)
+        if (run.samples() < min_samples)
             problems.add(place, fmt::format("run {} has {} samples; at least {} are needed", run.number,
-                                            run.samples(), fewest_samples));
+                                            run.samples(), min_samples));
     }
     if (!problems.empty()) return;
     check_constant_channels(recording, place, problems);

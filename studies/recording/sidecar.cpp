@@ -1,5 +1,3 @@
-#include "capstan/recording/sidecar.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,13 +5,14 @@
 
 #include "capstan/recording/json_file.h"
 #include "capstan/recording/json_object.h"
+#include "capstan/recording/recording_reader.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan {
 
 namespace {
 
-constexpr double whole_length_tolerance_m = 1e-6;
+constexpr double length_tolerance_m = 1e-6;
 
 const std::map<std::string, BenchMode> modes = {{"pull_pull", BenchMode::pull_pull},
                                                 {"single_cable", BenchMode::single_cable},
@@ -28,14 +27,14 @@ std::vector<CurvaturePiece> curvature_of(const JsonObject& nominal) {
     for (const JsonObject& piece : nominal.objects("R_profile")) {
         const double from_m = piece.number("s0");
         const double to_m = piece.number("s1");
-        if (std::abs(from_m - reached_m) > whole_length_tolerance_m)
+        if (std::abs(from_m - reached_m) > length_tolerance_m)
             piece.add_problem("s0",
                               fmt::format("is {} m, but the pieces before end at {} m", from_m, reached_m));
         if (to_m <= from_m) piece.add_problem("s1", "must lie beyond s0");
         pieces.push_back({to_m - from_m, piece.has("R") ? piece.positive("R") : straight});
         reached_m = to_m;
     }
-    if (std::abs(reached_m - length_m) > whole_length_tolerance_m)
+    if (std::abs(reached_m - length_m) > length_tolerance_m)
         nominal.add_problem("R_profile", fmt::format("ends at {} m, but L is {} m", reached_m, length_m));
     return pieces;
 }
@@ -45,7 +44,7 @@ NominalBench nominal_of(const JsonObject& nominal) {
     bench.curvature = curvature_of(nominal);
     bench.motor_radius_m = nominal.positive("r_input");
     bench.load_radius_m = nominal.positive("r_load");
-    bench.axial_stiffness_N = nominal.positive("K") * nominal.positive("L");  // K: N/m of the whole cable
+    bench.axial_stiffness_N = nominal.positive("K") * nominal.positive("L");  // K: N/m of the complete cable
     bench.dynamic_friction = nominal.number("mu_d");
     bench.static_friction = nominal.number("mu_s");
     bench.rotor_inertia_kg_m2 = nominal.optional_number("rotor_inertia").value_or(0.0);
@@ -123,7 +122,7 @@ OutputKind output_of(const JsonObject& run) {
 
 RecordedRun run_of(const JsonObject& json) {
     RecordedRun run;
-    run.number = json.whole("run");
+    run.number = json.integer("run");
     run.protocol = json.has("protocol") ? json.text("protocol")
                    : json.has("source") ? json.text("source")
                                         : "";

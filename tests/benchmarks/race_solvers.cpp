@@ -1,11 +1,12 @@
-// Races the closed-form step against compiled peers: LAPACK's band LU, the paper's dense linear-assumed
-// solver and a generic root finder, in turns and in the same run. Rates change with the machine and its load,
-// so compare ratios. Run by hand: race_solvers [seconds per solver, case and number of segments].
+// Compares the speed of the closed-form step with three other solvers: a band LU factorisation (LAPACK), the
+// dense solver of the paper and a generic root finder (MINPACK). The solvers take turns in the same run.
+// Rates depend on the machine and its load, so compare the ratios. `race_solvers --help` says how to run it.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "band_lu.h"
@@ -33,8 +34,8 @@ paper::Peer band_lu_peer() {
             }};
 }
 
-// The slowest step of a cycle in mass motion, after one cycle to warm up. Each step counts with the fastest
-// of three cycles, so that it is not blamed for an interruption.
+// The time of the slowest step of a cycle in mass motion, after one cycle to warm up. Each step counts with
+// its fastest time of three cycles, so that an interruption of the program does not count.
 double slowest_step_s(int segments) {
     const Cable cable = paper::preloaded_cable(segments);
     const QuasiStaticStep step(cable, ModelRules::consistent());
@@ -52,7 +53,7 @@ double slowest_step_s(int segments) {
     return *std::max_element(fastest_s.begin(), fastest_s.end());
 }
 
-// The memory's lower limit for such a step: only writing a state from two tables, without any check.
+// The memory bandwidth limit of such a step: it only writes a state from two tables, without any check.
 double bare_write_s(int segments) {
     const Cable cable = paper::preloaded_cable(segments);
     const PrefixTables tables(cable, ModelRules::consistent());
@@ -77,7 +78,7 @@ void print_race(ComparedMotion motion, int segments, double seconds_per_solver) 
          paper::race({motion, segments, seconds_per_solver},
                      {band_lu_peer(), paper::linear_assumed_peer(), paper::generic_peer()})) {
         if (!rate.steps_per_s) {
-            std::printf("  %24s", "over 1 s a step");
+            std::printf("  %24s", "above 1 s per step");
         } else if (rate.name == "closed_form") {
             std::printf("  %11.3g", *rate.steps_per_s);
         } else {
@@ -88,20 +89,39 @@ void print_race(ComparedMotion motion, int segments, double seconds_per_solver) 
     std::printf("\n");
 }
 
+constexpr const char* help_text =
+    "usage: race_solvers [SECONDS]\n\n"
+    "Compares the speed of the closed-form step with three other solvers on the same cable, in partial and\n"
+    "in mass motion, with 10 to 1000 segments. SECONDS is the time for each solver in each case (default\n"
+    "0.5); the complete comparison takes about 32 times as long. Rates depend on the machine and its load:\n"
+    "compare the ratios.\n";
+
 }  // namespace
 
 int main(int count, char** arguments) {
     constexpr int long_cable_segments = 1'000'000;
-    const double seconds_per_solver = count > 1 ? std::atof(arguments[1]) : 0.5;
+    double seconds_per_solver = 0.5;
+    if (count > 1) {
+        const std::string_view argument = arguments[1];
+        char* end = nullptr;
+        seconds_per_solver = std::strtod(arguments[1], &end);
+        const bool is_help = argument == "--help" || argument == "-h";
+        if (is_help || count > 2 || *end != '\0' || !(seconds_per_solver > 0.0)) {
+            std::fputs(help_text, is_help ? stdout : stderr);
+            return is_help ? 0 : 2;
+        }
+    }
     std::printf(
-        "Steps a second; in brackets how many times as fast the closed form is; fraction that converged.\n"
+        "Steps per second. For the other solvers: steps per second, in brackets the speed ratio of the closed\n"
+        "form to this solver, and the percentage of steps that converged.\n\n"
         "%-8s %8s  %11s  %24s  %24s  %24s\n",
-        "case", "segments", "closed form", "LAPACK band LU", "dense linear-assumed", "generic (MINPACK)");
+        "motion", "segments", "closed form", "band LU (LAPACK)", "dense (paper)", "root finder (MINPACK)");
     for (const ComparedMotion motion : {ComparedMotion::partial, ComparedMotion::mass}) {
         for (const int segments : {10, 40, 100, 1000}) print_race(motion, segments, seconds_per_solver);
     }
     std::printf(
-        "Slowest step of a cycle in mass motion with %d segments: %.3g ms; only writing its state: %.3g ms.\n",
+        "\nA cable of %d segments in mass motion: the slowest step of a cycle takes %.3g ms. Writing its state\n"
+        "alone takes %.3g ms.\n",
         long_cable_segments, 1e3 * slowest_step_s(long_cable_segments),
         1e3 * bare_write_s(long_cable_segments));
 }

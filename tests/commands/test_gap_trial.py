@@ -68,7 +68,7 @@ class GapTrial(CapstanTest):
         self.run_capstan("gap-trial", "--unseal", "nowhere/labels.json", expect=2)
         self.generate()
         other = self.run_capstan("gap-trial", "--cases", 3, "--keep", "kept", expect=2)
-        self.assertIn("another trial is kept there", other.stderr)
+        self.assertIn("holds a trial with other options", other.stderr)
         nobody = self.run_capstan("gap-trial", "--unseal", "kept/labels.json", expect=2)
         self.assertIn("no answers", nobody.stderr)
 

@@ -61,7 +61,7 @@ TEST(Cable, EveryProblemIsNamedAtOnce) {
     }
 }
 
-TEST(Cable, WithoutAPieceOrWithOneThatIsNoNumberIsRefused) {
+TEST(Cable, RejectsARoutingWithoutPiecesOrWithAPieceThatIsNotFinite) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CableSpecification bad = test::paper_specification(4);
     bad.curvature.clear();

@@ -99,7 +99,7 @@ TEST(BendingStiffness, DragDoesNotDependOnTension) {
     EXPECT_DOUBLE_EQ(laws::constant_drag_N(BendingStiffness{0.2}, 0.5), 0.1);
 }
 
-TEST(Creep, ApproachesItsShareOfTheElasticStrain) {
+TEST(Creep, ApproachesItsFractionOfTheElasticStrain) {
     const Creep law{.ratio = 0.2, .time_constant_s = 2.0};
     double strain = 0.0;
     for (int step = 0; step < 2000; ++step)

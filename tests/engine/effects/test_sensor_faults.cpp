@@ -23,7 +23,7 @@ TEST(SensorFaults, NoneChangesNoBit) {
     EXPECT_EQ(sensed(signal, {}, time_step_s), signal);
 }
 
-TEST(SensorFaults, OfASingleSampleNothingIsMade) {
+TEST(SensorFaults, ASingleSampleStaysUnchanged) {
     SensorFaults all{0.5, 0.1, 0.03, 1.1, 0.2, 0.25};
     EXPECT_EQ(sensed({4.0}, all, time_step_s), std::vector<double>{4.0});
     EXPECT_TRUE(sensed({}, all, time_step_s).empty());

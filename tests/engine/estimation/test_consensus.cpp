@@ -90,7 +90,7 @@ TEST(MedianDirection, DoesNotDependOnTheOrderOfTheVotes) {
     }
 }
 
-TEST(MedianDirection, OfNoVotesIsRest) {
+TEST(MedianDirection, WithoutVotesIsRest) {
     const DirectionConsensus consensus = median_direction({}, 10);
     EXPECT_EQ(consensus.directions, (DirectionBits{0, 0}));
     EXPECT_EQ(consensus.undecided, 0u);

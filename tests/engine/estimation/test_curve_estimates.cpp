@@ -93,7 +93,7 @@ double log_likelihood_at(const std::vector<double>& tension_N, const std::vector
 }
 
 // Where the curve has a kink a parabola overshoots a little: by less than 0.2 of log likelihood, which no one
-// would call evidence, and on the whole it gains.
+// would call evidence, and on average it gains.
 TEST(MaximumLikelihood, IsAsLikelyAsTheBestPointOfTheGridOrMore) {
     double gain = 0.0;
     for (const int sample : {112, 142, 6, 104}) {
@@ -174,13 +174,13 @@ TEST(CurvePeak, FoundWhileAddingIsTheFirstLargestOfTheSum) {
     }
 }
 
-TEST(CurvePeak, OfAPlateauIsThePointItself) {
+TEST(CurvePeak, OnAPlateauIsThePointItself) {
     const std::vector<double> flat{0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0};
     EXPECT_EQ(likeliest_place(flat, 2).fraction, 0.0);
     EXPECT_EQ(likeliest_place(flat, 2).point, 2);
 }
 
-TEST(CurvePeak, OfNoNumberIsTheFirstPoint) {
+TEST(CurvePeak, IsTheFirstPointIfNoValueIsANumber) {
     const std::vector<double> none(16, std::nan(""));
     EXPECT_EQ(likeliest_point(none), 0);
 }

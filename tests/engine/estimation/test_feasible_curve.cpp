@@ -62,7 +62,7 @@ double distance_from_truth_N(const Instant& instant, int points) {
     return nearest_N;
 }
 
-TEST(FeasibleCurve, PassesThroughTheTruthUnderTheCuredRules) {
+TEST(FeasibleCurve, PassesThroughTheTruthUnderTheConsistentRules) {
     const QuasiStaticStep step(test::paper_cable(10), ModelRules::consistent());
     for (const int sample : {112, 142, 6, 104}) {
         const Instant instant = test::instant_of(step, sample);
@@ -92,8 +92,8 @@ TEST(FeasibleCurve, RefusesAPriorThatItCannotSample) {
     }
 }
 
-// At the end of its range a sensor says "at least that": certain far below the true tension, a probability of one half
-// where the tension is the range itself, and never less likely for more tension.
+// A saturated sensor means "at least this tension". The likelihood is 1 for tensions far above the range, one
+// half at the range itself, and never falls with the tension.
 TEST(CurveLikelihood, ASaturatedReadingSaysAtLeastThat) {
     const Instant instant = paper_instant(112);
     const FeasibleCurve curve = curve_of(instant, 128);
@@ -130,7 +130,7 @@ TEST(CurveLikelihood, OneSensorMoreAddsItsOwn) {
     EXPECT_EQ(likeliest_point(grown), std::max_element(grown.begin(), grown.end()) - grown.begin());
 }
 
-TEST(CurveLikelihood, OfEquallyLikelyPointsTheFirstIsTaken) {
+TEST(CurveLikelihood, TakesTheFirstOfEquallyLikelyPoints) {
     std::vector<double> flat(16, -1.0);
     EXPECT_EQ(likeliest_point(flat), 0);
     flat[9] = flat[13] = 2.0;

@@ -65,7 +65,7 @@ TEST_P(EveryFusionMethod, IsExactWithoutNoiseInMassMotion) {
     }
 }
 
-TEST_P(EveryFusionMethod, GivesAFiniteAnswerAndTheSameOneTwice) {
+TEST_P(EveryFusionMethod, IsFiniteAndReproducible) {
     for (const int sample : {112, 142, 6, 104}) {
         const Instant instant = paper_instant(sample);
         for (int r = 0; r < 20; ++r) {
@@ -80,7 +80,7 @@ TEST_P(EveryFusionMethod, GivesAFiniteAnswerAndTheSameOneTwice) {
 }
 
 // Sums in another order: a few units in the last place of 10 N, a thousand times that allowed.
-TEST_P(EveryFusionMethod, DoesNotCareForTheOrderOfTheSensors) {
+TEST_P(EveryFusionMethod, IsInvariantToTheOrderOfTheSensors) {
     std::mt19937_64 random(1);
     for (const int sample : {142, 6}) {
         const Instant instant = paper_instant(sample);

@@ -35,8 +35,9 @@ double error_N(const Instant& instant, const SensorBranch& branch, double readin
     return test::mean_abs_error_N(tension_N, instant.truth.tension_N);
 }
 
-// A reading scales the whole profile, so that a relative error e of the reading is one of the mean tension.
-TEST(KnownDirection, ErrsByTheReadingsRelativeErrorWhereverTheSensorSits) {
+// A reading scales the complete profile, so that a relative error e of the reading is one of the mean
+// tension.
+TEST(KnownDirection, RelativeErrorIsThatOfTheReadingAtAnySensorNode) {
     for (const int sample : test::mass_samples) {
         const Instant instant = paper_instant(sample);
         const Branches branches = known_branches(instant);
@@ -90,7 +91,7 @@ TEST(KnownDirection, NoReadingSaysAnythingOfASlackCable) {
 }
 
 // The point without velocity lies in the fourth segment; the segment goes with the longer part of it.
-TEST(KnownDirection, OfEndsThatPartChangesWhereTheVelocityIsZero) {
+TEST(KnownDirection, ChangesAtTheZeroVelocityPointWhereTheEndsMoveApart) {
     const Instant instant = paper_instant(112);
     for (const double fraction : {0.3, 0.7}) {
         const MotionPattern truth{

@@ -102,7 +102,7 @@ TEST(RecursiveEstimator, WithBothEndsKnownItIsTheModelWhateverTheReadingsSay) {
 }
 
 // A far end that moves unseen, and the readings are the answer. Not to the last bit: a gain counts only by
-// how far its correlation is beyond chance, so that a step takes a little less than the whole correction.
+// how far its correlation is beyond chance, so that a step takes a little less than the full correction.
 TEST(RecursiveEstimator, WithoutNoiseAndASensorAtEveryNodeItIsRightToMillinewtons) {
     Trial trial;
     for (int node = 0; node <= 10; ++node) trial.sensors.push_back(node);
@@ -129,7 +129,7 @@ TEST(RecursiveEstimator, The95PercentBandHoldsTheTruthOnSimulatedCycles) {
     }
 }
 
-TEST(RecursiveEstimator, ReadingsLowerTheErrorAndMoreReadingsLowerItMore) {
+TEST(RecursiveEstimator, MoreReadingsLowerTheErrorMore) {
     Trial trial;
     trial.noise.multiplicative_ratio = 0.1;
     trial.wander.distal_m = 1e-4;
@@ -176,7 +176,7 @@ TEST(RecursiveEstimator, TensionsStayPositiveWhereReadingsAreFarOff) {
     }
 }
 
-TEST(RecursiveEstimator, RefusesWhatItCannotUse) {
+TEST(RecursiveEstimator, RejectsInvalidInputs) {
     const CableState start = pretensioned(paper_model().cable());
     RecursiveSettings settings;
     settings.members = 30;

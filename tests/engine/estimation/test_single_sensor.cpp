@@ -123,7 +123,7 @@ SensorSpread errors_of(int sensor, int sample) {
 
 // Stored numbers, from an independent prototype with 2000 draws of its own: the difference of two such means
 // spreads by sqrt(2) standard errors; 3 of those, and half a unit of the last digit given.
-TEST(SingleSensorEstimator, ErrsAsThePrototypeOfThePapersExperiment) {
+TEST(SingleSensorEstimator, HasTheErrorsOfThePapersPrototype) {
     const auto expect_mean = [](int sensor, double prototype_N) {
         const SensorSpread forward = errors_of(sensor, 112);
         const SensorSpread backward = errors_of(sensor, 142);

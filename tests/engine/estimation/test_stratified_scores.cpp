@@ -25,7 +25,7 @@ TEST(NormalScores, RiseAreSymmetricAndHaveVarianceOne) {
 }
 
 // Phi(2.575829) = 0.995, Phi(1.253565) = 0.895, Phi(0.510073) = 0.695; all by one factor, for the variance.
-TEST(NormalScores, AreTheQuantilesOfTheMiddlesOfEqualSharesButForAFactor) {
+TEST(NormalScores, AreTheQuantilesOfTheMiddlesOfEqualFractionsUpToAFactor) {
     const std::vector<double> scores = normal_scores(100);
     EXPECT_NEAR(scores[99] / scores[89], 2.575829 / 1.253565, 1e-5);
     EXPECT_NEAR(scores[89] / scores[69], 1.253565 / 0.510073, 1e-5);

@@ -152,7 +152,7 @@ TEST(VerifiedReadings, EndWhereTheChecksFailUnderThePapersRules) {
     }
 }
 
-TEST(VerifiedReadings, EndWhereTheChecksFailUnderTheCuredRules) {
+TEST(VerifiedReadings, EndWhereTheChecksFailUnderTheConsistentRules) {
     const QuasiStaticStep step(test::paper_cable(10), ModelRules::consistent());
     for (const int sample : {112, 142, 6, 104}) {
         SCOPED_TRACE("sample " + std::to_string(sample));

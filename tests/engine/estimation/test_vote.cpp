@@ -34,7 +34,7 @@ std::vector<double> fused(const FusionMethod& method, const Estimates& estimates
     return tension_N;
 }
 
-TEST(SensorVote, IsUnanimousWhenAllSayTheSame) {
+TEST(SensorVote, IsUnanimousIfAllEstimatesAreEqual) {
     const SensorVote vote = take_vote(Estimates{}.view(), std::vector{0, 1, 3});
     EXPECT_TRUE(vote.unanimous);
     EXPECT_EQ(vote.used, 3);
@@ -94,7 +94,7 @@ TEST(Fusion, FollowsItsDefinitionWhenOneDisagrees) {
 }
 
 // The excluded weight is not shared out (the paper), so that tensions come out too small, whoever is right.
-TEST(Fusion, WMeanRIsBelowWMeanWhereSomeoneIsExcluded) {
+TEST(Fusion, WMeanRIsBelowWMeanWhereASensorIsExcluded) {
     Estimates estimates;
     const std::vector<int> sensors = {0, 1, 2};
     const std::vector<double> weight = {1.0, 2.0, 0.5, 1.0};
@@ -107,7 +107,7 @@ TEST(Fusion, WMeanRIsBelowWMeanWhereSomeoneIsExcluded) {
     }
 }
 
-TEST(Fusion, LeavingOutChangesNothingWhenNobodyDisagrees) {
+TEST(Fusion, LeavingOutChangesNothingIfAllSensorsAgree) {
     const std::vector<int> sensors = {0, 1, 2};
     const std::vector<double> weight = {1.0, 2.0, 0.5, 1.0};
     const Estimates estimates;
@@ -118,7 +118,7 @@ TEST(Fusion, LeavingOutChangesNothingWhenNobodyDisagrees) {
 }
 
 // Two sensors, opposite directions: the median is rest, and nobody says rest.
-TEST(Fusion, FallsBackToTheMeanWhereNobodyAgrees) {
+TEST(Fusion, FallsBackToTheMeanWhereNoSensorAgrees) {
     Estimates estimates;
     estimates.directions[1] = backward;
     const std::vector<int> sensors = {0, 1};

@@ -141,7 +141,7 @@ TEST(LoadBacklash, BeyondItsGapALoadIsOneWithoutThatMuchFurtherBack) {
 
 // Where contact opens and closes Newton's method goes to and fro, and the load's angle is closed in on
 // instead.
-TEST(LoadBacklash, AHandleThatCrossesItsGapFeelsWhatTheCablesPull) {
+TEST(LoadBacklash, AHandleThatCrossesItsGapCarriesTheCableTorque) {
     BenchEffects effects;
     effects.of<Backlash>().load_half_gap_rad = 0.01;
     BenchSimulation bench = pair_with(effects);
@@ -159,7 +159,7 @@ TEST(LoadBacklash, AHandleThatCrossesItsGapFeelsWhatTheCablesPull) {
 }
 
 // The hand moves a third of a radian in a step: some steps are not met and say so, the others are balanced.
-TEST(LoadBacklash, AStepThatSaysItIsSolvedIsBalanced) {
+TEST(LoadBacklash, ASolvedStepIsBalanced) {
     BenchEffects effects;
     effects.of<Backlash>().load_half_gap_rad = 0.05;
     BenchSimulation bench = pair_with(effects);
@@ -190,7 +190,7 @@ TEST(TurnedMotor, GivesItsInertiaItsAcceleration) {
                                  time_step_s, time_s};
         heavy.advance(inputs);
         light.advance(inputs);
-        if (step == 1) continue;  // out of rest: half of it in a whole step
+        if (step == 1) continue;  // out of rest: half of it in one step
         ASSERT_NEAR(heavy.motor_torque_Nm() - light.motor_torque_Nm(), 2e-3 * acceleration_rad_per_s2, 1e-9)
             << step;
     }

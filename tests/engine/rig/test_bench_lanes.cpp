@@ -36,9 +36,9 @@ BenchInputs hand_at(int step) {
     return {MotorTorque{-0.3 * angle}, LoadAngle{angle}, 0.005, step * 0.005};
 }
 
-// What neighbours need (creep, a gap that Newton's method cannot close, friction that varies) is no business
-// of a bench.
-TEST(BenchSimulations, ABenchDoesNotFeelItsNeighbours) {
+// Effects of neighbouring benches (creep, a gap that Newton's method cannot close, friction that varies) do
+// not change a bench's result.
+TEST(BenchSimulations, ABenchIsIndependentOfItsNeighbours) {
     const std::vector<BenchDescription> descriptions = {bench_with(0.21), bench_with(0.15), bench_with(0.21),
                                                         bench_with(0.3)};
     const std::vector<BenchEffects> effects = {
@@ -60,7 +60,7 @@ TEST(BenchSimulations, ABenchDoesNotFeelItsNeighbours) {
 }
 
 // A rotor on two locked cables rings at sqrt(k / J), and Newmark's method keeps it ringing.
-TEST(BenchSimulations, AnUnmodelledRotorRings) {
+TEST(BenchSimulations, AnUnmodelledRotorOscillates) {
     BenchDescription description = bench_with(1e-4);
     BenchEffects effects;
     effects.of<Inertia>().motor_kg_m2 = 1e-3;

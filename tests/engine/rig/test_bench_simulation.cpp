@@ -137,7 +137,7 @@ TEST_P(EveryEffect, GrowsFromNothing) {
 }
 
 // Over complete cycles hand and motor put in at least as much work as they get back.
-TEST_P(EveryEffect, GivesNoWorkAway) {
+TEST_P(EveryEffect, DissipatesEnergy) {
     BenchEffects effects;
     GetParam().apply(effects, typical(GetParam(), 2.0));
     BenchSimulation bench({cable_with(50), CableArrangement::pull_pull, pulleys, {}}, effects);
@@ -201,7 +201,7 @@ TEST(BenchSimulation, FollowsACableThatFallsSlack) {
     EXPECT_LT(rms_difference(load_torque_Nm[0], load_torque_Nm[1]), 0.02 * largest_Nm);
 }
 
-TEST(BenchSimulation, RefusesInputsThatMoveNothingDefinite) {
+TEST(BenchSimulation, RejectsInputsThatDetermineNoMotion) {
     BenchSimulation bench({cable_with(10), CableArrangement::pull_pull, pulleys, {}}, {});
     EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadTorque{0.1}, time_step_s, 0.0}), InvalidInput);
     EXPECT_THROW(bench.advance({MotorTorque{std::nan("")}, LoadAngle{0.0}, time_step_s, 0.0}), InvalidInput);

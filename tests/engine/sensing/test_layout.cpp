@@ -12,7 +12,7 @@ namespace {
 
 constexpr int max_nodes = 30;
 
-// Calls check(family, count, nodes, layouts) for the whole catalogue.
+// Calls check(family, count, nodes, layouts) for every family of the catalogue.
 template <typename Check>
 void for_each_family_count_and_cable(const Check& check) {
     for (const LayoutFamily& family : layout_families()) {

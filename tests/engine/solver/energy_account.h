@@ -14,8 +14,8 @@ struct EnergyAccount {
     double stored_J = 0.0;      ///< rise of the elastic energy of all segments
     double friction_J = 0.0;    ///< tension difference times sliding of all segments
     /// A slack segment is shorter than its tension of 0 explains, by a gap. In the step in which a cable goes
-    /// slack, or taut again, the middle tension is half that of its taut end, and the account takes the whole
-    /// step at it though the gap opened at none: too much by middle tension times gap.
+    /// slack, or taut again, the middle tension is half that of its taut end, and the account uses it for
+    /// the complete step although the gap opened at zero tension: too much by middle tension times gap.
     double untaken_slack_J = 0.0;
     double worst_sliding_J = 0.0;  ///< the least that a segment lost that slid on the way it slid before
 

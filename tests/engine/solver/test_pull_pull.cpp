@@ -101,7 +101,7 @@ TEST(PullPull, MotorTorqueAgainstASpringHoldsBothBalances) {
 
 // Laws.
 
-TEST(PullPull, StartsInBalanceWithNothingToDo) {
+TEST(PullPull, StartsInBalance) {
     const PullPull pair = gentle_pair(5.0);
     PullPullState state = pair.at_rest();
     EXPECT_EQ(pair.motor_torque_Nm(state), 0.0);
@@ -268,7 +268,7 @@ TEST(PullPull, RefusesTorqueWithTorqueByName) {
     }
 }
 
-TEST(PullPull, RefusesWhatIsNoNumberAndLeavesTheStateAlone) {
+TEST(PullPull, RejectsInputsThatAreNotFiniteAndKeepsTheState) {
     const PullPull pair = gentle_pair(5.0);
     PullPullState state = pair.at_rest();
     pair.advance(state, {MotorAngle{0.1}, locked});

@@ -16,7 +16,7 @@ TEST(AngleSearch, EndsAtAJumpWithTheResidual) {
     EXPECT_EQ(search.torque_residual_Nm, -1.0) << "the side that is less wrong";
 }
 
-TEST(AngleSearch, GivesUpWhereTheTorqueCannotBeReached) {
+TEST(AngleSearch, StopsWhereTheTorqueCannotBeReached) {
     double last_tried_rad = 1.0;
     const AngleSearch search = search_angle({0.5, 10.0}, [&](double angle_rad) {
         last_tried_rad = angle_rad;

@@ -21,7 +21,7 @@ class Slack : public testing::Test {
     StepReport report;
 };
 
-TEST_F(Slack, BeginsWhereTheEndsAreAsNearAsTheUnstretchedCableIsLong) {
+TEST_F(Slack, BeginsWhereTheEndDistanceEqualsTheUnstretchedLength) {
     move_proximal_end_to(-1e-6);
     EXPECT_NE(report.pattern.kind, MotionKind::slack);
     EXPECT_GT(state.tension_N.front(), 0.0);
@@ -40,7 +40,7 @@ TEST_F(Slack, CarriesNothingUntilTautAgain) {
     }
 }
 
-TEST_F(Slack, IsStillSlackWhileNothingMoves) {
+TEST_F(Slack, StaysSlackWhileNothingMoves) {
     move_proximal_end_to(0.002);
     const CableState hanging = state;
     move_proximal_end_to(0.002);
@@ -59,7 +59,7 @@ TEST_F(Slack, ErasesFrictionHistory) {
     }
 }
 
-TEST_F(Slack, ATensionInputOfNothingLeavesTheCableJustUnstretched) {
+TEST_F(Slack, AZeroTensionInputLeavesTheCableJustUnstretched) {
     const StepReport released =
         step.advance(state, {EndCondition::tension_N(0.0), EndCondition::position_m(0.0)});
     EXPECT_EQ(released.pattern.kind, MotionKind::slack);
@@ -73,7 +73,7 @@ TEST_F(Slack, ASlackCableRelaxesItsSpring) {
     EXPECT_NEAR(state.displacement_m.back(), 10.0 / 500.0, 1e-15);
 }
 
-TEST_F(Slack, CyclesThroughItWithoutHarm) {
+TEST_F(Slack, CyclesThroughSlackStayFinite) {
     for (const EndConditions& ends : test::sine_against_locked_end(cable, 0.02, 200, 2000)) {
         const StepReport passed = step.advance(state, ends);
         EXPECT_TRUE(passed.verified);

@@ -74,7 +74,7 @@ TEST(TimeSteps, ConvergeWithOrderOneWhereBothEndsSlideAgainstEachOther) {
     EXPECT_GT(std::ranges::min(errors.orders()), 0.8);
 }
 
-// A front held by stiction gives way at an instant; samples beside it differ by the whole jump until the
+// A front held by stiction gives way at an instant; samples beside it differ by the complete jump until the
 // instant is met, so only the mean over instants converges, and less evenly.
 TEST(TimeSteps, ConvergeWithStictionTooInTheMeanOverInstants) {
     const auto errors = errors_of(sampled(test::both_ends_cycle), cable_with_stiction(0.63));

@@ -18,7 +18,7 @@ const ParameterEstimate& estimate_of(const Calibration& calibration, const std::
 // Truth: 25% more friction, 10% less stiffness, 8% more pretension than the sidecar says.
 const std::vector<double> off_nominal = {0.25, 0.5, 3600.0, 1.08};
 
-TEST(Calibration, FindsTheParametersThatTheBenchWasMadeWith) {
+TEST(Calibration, RecoversTheTrueParameters) {
     const Recording recording = measured_session(off_nominal);
     const Calibration calibration = calibrate(recording, {});
     EXPECT_TRUE(calibration.converged);
@@ -41,7 +41,7 @@ TEST(Calibration, FindsTheParametersThatTheBenchWasMadeWith) {
 
 // Torque that dies out in the first bends: the motor angle goes as torque squared over (K mu T0), so that
 // only the product of the three can be told, and with a coarse encoder not even that.
-TEST(Calibration, SaysWhatARecordingDoesNotConfine) {
+TEST(Calibration, ReportsParametersThatTheRecordingDoesNotDetermine) {
     Recording recording = driven_session();
     recording.runs.resize(1);
     recording.runs[0].pretension_N = 40.0;
@@ -72,7 +72,7 @@ TEST(Calibration, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(calibrate(recording, {{}, 40, 3}).values(), one);
 }
 
-TEST(Calibration, FitsOnlyWhatItIsAskedTo) {
+TEST(Calibration, FitsOnlyTheRequestedParameters) {
     const Calibration calibration = calibrate(measured_session(off_nominal), {{"pretension"}, 40, 0});
     EXPECT_EQ(estimate_of(calibration, "dynamic_friction").value, 0.2);
     EXPECT_FALSE(estimate_of(calibration, "dynamic_friction").fitted);
@@ -93,7 +93,7 @@ TEST(Twin, MotorAngleAndMotorTorqueDriveTheSameBench) {
         EXPECT_NEAR(angle_run.values[3][sample], torque_run.values[3][sample], 1e-6);
 }
 
-TEST(Twin, TwoTorquesDriveNothing) {
+TEST(Twin, RejectsABenchDrivenByTwoTorques) {
     Recording recording = measured_session({0.2, 0.4, 4000.0, 1.0});
     recording.runs[0].driven = {"motor_torque", "load_torque"};
     EXPECT_THROW(make_twin(recording), InvalidInput);
@@ -106,7 +106,7 @@ class OpenRecordings : public testing::Test {
 };
 
 // The two without a gap, and the one whose friction is 1.3166 times what its sidecar says.
-TEST_F(OpenRecordings, CalibrateToWhatTheyWereMadeWith) {
+TEST_F(OpenRecordings, CalibrateToTheirTrueParameters) {
     const std::string folder = CAPSTAN_OPEN_RECORDINGS;
     if (!there(folder)) GTEST_SKIP() << folder << " is not here";
     for (const auto& [file, friction, tolerance] :
@@ -124,7 +124,7 @@ TEST_F(OpenRecordings, CalibrateToWhatTheyWereMadeWith) {
     EXPECT_NE(friction.reason.find("trades with"), std::string::npos);
 }
 
-TEST_F(OpenRecordings, ARealGraspersDriveIsMetOnRunsHeldOut) {
+TEST_F(OpenRecordings, HeldOutRunsOfARealGrasperArePredicted) {
     const std::string file = std::string(CAPSTAN_REAL_RECORDINGS) + "/davinci-grip/tool4.csv";
     if (!there(file)) GTEST_SKIP() << file << " is not here";
     const Recording recording = open(file);

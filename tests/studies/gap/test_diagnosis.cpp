@@ -44,7 +44,7 @@ const ChannelGap& channel_of(const Diagnosis& diagnosis, const std::string& name
     throw std::out_of_range(name);
 }
 
-TEST(Diagnosis, OfABenchThatIsItsModelSaysNone) {
+TEST(Diagnosis, ReportsNoneWhereTheBenchIsItsModel) {
     const Diagnosis diagnosis = diagnosed(session_of({}));
     EXPECT_EQ(diagnosis.ranked.front().effect, "none");
     EXPECT_TRUE(diagnosis.causes.empty());
@@ -58,7 +58,7 @@ TEST(Diagnosis, ProbabilitiesSumToOne) {
     EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-TEST(Diagnosis, FindsDragAndHowMuch) {
+TEST(Diagnosis, FindsViscousFrictionAndItsSize) {
     BenchNumbers numbers;
     numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 4.0;
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
@@ -71,7 +71,7 @@ TEST(Diagnosis, FindsDragAndHowMuch) {
     EXPECT_LT(torque.held_out_rms, 0.35 * torque.before_rms);
 }
 
-TEST(Diagnosis, TellsWhereABendIs) {
+TEST(Diagnosis, LocatesABend) {
     BenchNumbers numbers;
     numbers.effects.of<LocalBend>() = {.extra_angle_rad = 1.0, .middle_m = 1.2, .length_m = 0.2};
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
@@ -80,7 +80,7 @@ TEST(Diagnosis, TellsWhereABendIs) {
     EXPECT_NEAR(*diagnosis.position_m, 1.2, 0.25);
 }
 
-TEST(Diagnosis, OfOneFaultySensorNamesItsChannel) {
+TEST(Diagnosis, NamesTheChannelOfAFaultySensor) {
     BenchNumbers numbers;
     numbers.sensor_faults["load_torque"].lag_s = 0.06;
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
@@ -89,7 +89,7 @@ TEST(Diagnosis, OfOneFaultySensorNamesItsChannel) {
     EXPECT_EQ(diagnosis.gap.worst_channel, "load_torque");
 }
 
-TEST(Diagnosis, AWrongFrictionCoefficientIsNoMissingEffect) {
+TEST(Diagnosis, DistinguishesAWrongFrictionCoefficientFromAMissingEffect) {
     BenchNumbers numbers;
     numbers.friction_ratio = 1.35;
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
@@ -97,7 +97,7 @@ TEST(Diagnosis, AWrongFrictionCoefficientIsNoMissingEffect) {
     EXPECT_NEAR(diagnosis.friction_ratio, 1.35, 0.05);
 }
 
-TEST(Diagnosis, OfABenchWhoseGeometryIsNotKnownIsRefused) {
+TEST(Diagnosis, RejectsABenchOfUnknownGeometry) {
     Recording recording = driven_session();
     recording.mode = BenchMode::lumped_drive;
     EXPECT_THROW(diagnosed(recording), std::runtime_error);

@@ -45,7 +45,7 @@ double probability(const std::vector<RankedEffect>& ranked, const std::string& e
 
 const Evidence evidence(200.0);
 
-TEST(Evidence, OfNothingToExplainIsForNone) {
+TEST(Evidence, FavoursNoneWhereNothingIsLeftToExplain) {
     const Known known;
     const auto ranked = ranked_by(
         evidence, {known.none, known.drag, known.gain},
@@ -54,7 +54,7 @@ TEST(Evidence, OfNothingToExplainIsForNone) {
     EXPECT_GT(ranked.front().probability, 0.9);
 }
 
-TEST(Evidence, OfACauseThatLeavesNoiseIsForIt) {
+TEST(Evidence, FavoursTheCauseThatLeavesOnlyNoise) {
     const Known known;
     const auto ranked =
         ranked_by(evidence, {known.none, known.drag, known.gain},
@@ -65,7 +65,7 @@ TEST(Evidence, OfACauseThatLeavesNoiseIsForIt) {
     EXPECT_EQ(ranked[1].effect, "unknown");
 }
 
-TEST(Evidence, OfTwoAlikeGoesToTheOneWithUsualNumbers) {
+TEST(Evidence, UnusualNumbersLowerTheEvidenceByTheirPenalty) {
     const Known known;
     const ScoredFit usual = fitted(evidence, {&known.drag}, 1.0, {4.0});
     ScoredFit odd;
@@ -76,7 +76,7 @@ TEST(Evidence, OfTwoAlikeGoesToTheOneWithUsualNumbers) {
     EXPECT_NEAR(usual.evidence - evidence.of(odd), odd.shape_penalty, 1e-12);
 }
 
-TEST(Evidence, OfStructureThatNobodyExplainsIsForUnknown) {
+TEST(Evidence, UnexplainedStructureIsReportedAsUnknown) {
     const Known known;
     const auto ranked = ranked_by(
         evidence, {known.none, known.drag},
@@ -84,7 +84,7 @@ TEST(Evidence, OfStructureThatNobodyExplainsIsForUnknown) {
     EXPECT_EQ(ranked.front().effect, "unknown");
 }
 
-TEST(Evidence, OfTwoCausesLeadsOnlyIfBothAreSeen) {
+TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
     const Known known;
     const ScoredFit single = fitted(evidence, {&known.drag}, 2.0, {6.0});
     const ScoredFit both = fitted(evidence, {&known.drag, &known.gain}, 1.0, {6.0, 4.0});
@@ -95,7 +95,7 @@ TEST(Evidence, OfTwoCausesLeadsOnlyIfBothAreSeen) {
     EXPECT_NEAR(probability(ranked, "viscous_friction"), probability(ranked, "sensor_gain"), 0.01);
 }
 
-TEST(Evidence, ProbabilitiesSumToOneAndNothingIsImpossible) {
+TEST(Evidence, ProbabilitiesSumToOneAndNoneIsZero) {
     const Known known;
     const auto ranked = ranked_by(
         evidence, {known.none, known.drag, known.gain},

@@ -45,7 +45,7 @@ TEST(GapMap, FindsTheRunThatHoldsTheGap) {
     EXPECT_NE(gap_sentence(map).find("run 2"), std::string::npos);
 }
 
-TEST(GapMap, SharesOfAKindSumToOne) {
+TEST(GapMap, FractionsOfAKindSumToOne) {
     const Recording recording = measured_session(nominal_values(*make_twin(driven_session())));
     double direction = 0.0;
     for (const GapFraction& fraction : gap_map(recording, larger_in(recording, 0))) {
@@ -54,7 +54,7 @@ TEST(GapMap, SharesOfAKindSumToOne) {
     EXPECT_NEAR(direction, 1.0, 1e-12);
 }
 
-TEST(GapMap, OfNothingIsEmpty) {
+TEST(GapMap, IsEmptyWithoutAGap) {
     const Recording recording = measured_session(nominal_values(*make_twin(driven_session())));
     std::vector<RunResiduals> quiet = larger_in(recording, 0);
     for (RunResiduals& run : quiet) {
@@ -63,7 +63,7 @@ TEST(GapMap, OfNothingIsEmpty) {
     EXPECT_TRUE(gap_map(recording, quiet).empty());
 }
 
-TEST(EstimatedNoise, IsThatOfTheSamples) {
+TEST(EstimatedNoise, IsTheNoiseOfTheSamples) {
     Recording recording = driven_session();
     const auto channel = static_cast<std::size_t>(*recording.channel("load_torque"));
     recording.channels[channel].noise_std.reset();
@@ -77,7 +77,7 @@ TEST(EstimatedNoise, IsThatOfTheSamples) {
     EXPECT_NEAR(*with_estimated_noise(recording).channels[channel].noise_std, 0.03, 0.002);
 }
 
-TEST(EstimatedNoise, IsNoneBesideAStepThatExplainsIt) {
+TEST(EstimatedNoise, IsZeroWhereTheStatedStepExplainsIt) {
     Recording recording = driven_session();
     const auto channel = static_cast<std::size_t>(*recording.channel("motor_angle"));
     recording.channels[channel].noise_std.reset();
@@ -90,7 +90,7 @@ TEST(EstimatedNoise, IsNoneBesideAStepThatExplainsIt) {
     EXPECT_EQ(*with_estimated_noise(recording).channels[channel].noise_std, 0.0);
 }
 
-TEST(UnstatedStep, ShowsWhereValuesLieOnALattice) {
+TEST(UnstatedStep, IsFoundWhereValuesLieOnALattice) {
     Recording recording = driven_session();
     const auto channel = static_cast<std::size_t>(*recording.channel("load_torque"));
     for (RecordedRun& run : recording.runs) {

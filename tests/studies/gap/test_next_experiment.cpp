@@ -61,7 +61,7 @@ class BendOrFriction : public testing::Test {
     }
 };
 
-TEST_F(BendOrFriction, IsToldApartByASensorBeyondTheBendSoonerThanByOneBeforeIt) {
+TEST_F(BendOrFriction, IsDistinguishedBetterByASensorBeyondTheBendThanByOneBeforeIt) {
     const ScoredFit bend = fitted("local_bend", "both cables", {0.2, 0.2, 0.0});
     const ScoredFit friction = fitted("param_mu", "", {});
     const std::vector<WeighedHypothesis> group = {{{"local_bend"}, 0.5, 0.0, &bend},
@@ -74,7 +74,7 @@ TEST_F(BendOrFriction, IsToldApartByASensorBeyondTheBendSoonerThanByOneBeforeIt)
               discrimination_probability(result, "steps with dwells"));
 }
 
-TEST_F(BendOrFriction, NothingTellsAnExplanationFromItself) {
+TEST_F(BendOrFriction, NoExperimentDistinguishesAnExplanationFromItself) {
     const ScoredFit friction = fitted("param_mu", "", {});
     const std::vector<WeighedHypothesis> group = {{{"param_mu"}, 0.5, 0.0, &friction},
                                                   {{"param_mu"}, 0.5, 0.0, &friction}};
@@ -97,14 +97,14 @@ TEST_F(BendOrFriction, GivesTheSameAnswerForAnyNumberOfThreads) {
     }
 }
 
-TEST(NonIdentifiable, IsNothingWhereTheFirstIsSure) {
+TEST(NonIdentifiable, IsEmptyWhereTheFirstIsCertain) {
     const ScoredFit any;
     EXPECT_TRUE(non_identifiable(std::vector<WeighedHypothesis>{{{"creep"}, 0.96, 0.0, &any},
                                                                 {{"backlash"}, 0.04, -3.0, &any}})
                     .empty());
 }
 
-TEST(NonIdentifiable, LeavesOutWhatCannotBeSimulated) {
+TEST(NonIdentifiable, LeavesOutExplanationsThatCannotBeSimulated) {
     const ScoredFit any;
     const std::vector<WeighedHypothesis> weighed = {{{"unknown"}, 0.4, 0.0, nullptr},
                                                     {{"creep"}, 0.3, -0.3, &any},

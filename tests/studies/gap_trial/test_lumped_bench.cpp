@@ -38,7 +38,7 @@ std::vector<double> missed_by_the_twin(BenchKind kind, const std::string& channe
 }
 
 // Two models of the same bench that share no code: lumped masses in time, and the engine's quasi-static step.
-TEST(LumpedBench, WithoutAnEffectTheEnginesTwinMeetsIt) {
+TEST(LumpedBench, WithoutAnEffectTheEnginesTwinAgrees) {
     // ramp_locked, tunnel, sines, steps_dwell: ringing and inertia are left where it moves [N m].
     const std::vector<double> wide = missed_by_the_twin(BenchKind::uniform_wide, "load_torque");
     ASSERT_EQ(wide.size(), 4U);
@@ -58,7 +58,7 @@ TEST(LumpedBench, WithoutAnEffectTheEnginesTwinMeetsIt) {
         EXPECT_LT(missed_rad, 2e-3);
 }
 
-TEST(LumpedBench, RestsUntilSomethingMovesIt) {
+TEST(LumpedBench, RestsUntilItIsDriven) {
     TrialStream draws(1, 1, DrawTopic::bench);
     const TrialBench bench = make_trial_bench(BenchKind::uniform_wide, 1.0, draws);
     TrialRun still = sample_session(bench).front();

@@ -41,7 +41,7 @@ TEST(Sha256, OfAbc) {
     EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-TEST(SealedLabels, ComeBackAsTheyWere) {
+TEST(SealedLabels, AreReadAsTheyWereWritten) {
     const ScratchFolder folder;
     const TrialLabels labels = sample_labels();
     const std::string seal = seal_labels(folder.path(), labels);
@@ -52,7 +52,7 @@ TEST(SealedLabels, ComeBackAsTheyWere) {
     EXPECT_EQ(bytes_of(folder.path() / "labels.sha256"), seal + "  labels.json\n");
 }
 
-TEST(SealedLabels, CannotBeChangedUnnoticed) {
+TEST(SealedLabels, AChangeIsDetected) {
     const ScratchFolder folder;
     const std::string seal = seal_labels(folder.path(), sample_labels());
     const std::filesystem::path file = folder.path() / "labels.json";
@@ -65,7 +65,7 @@ TEST(SealedLabels, CannotBeChangedUnnoticed) {
     EXPECT_THROW(unseal_labels(file, seal), InvalidInput);
 }
 
-TEST(SealedLabels, TheSaltHidesWhatIsInside) {
+TEST(SealedLabels, TheSaltChangesTheHash) {
     TrialLabels once = sample_labels();
     TrialLabels again = once;
     again.salt = random_salt();
@@ -75,13 +75,13 @@ TEST(SealedLabels, TheSaltHidesWhatIsInside) {
 TEST(SealedLabels, OtherFilesAreRefusedWithAReason) {
     try {
         read_labels(R"({"salt": "0", "cases": 3})", "my.json");
-        FAIL() << "took what is no label";
+        FAIL() << "accepted a file that is not a label";
     } catch (const InvalidInput& problem) {
         EXPECT_NE(std::string(problem.what()).find("my.json"), std::string::npos);
     }
 }
 
-TEST(CaseAnswer, ComesBackAndBelongsToItsSeal) {
+TEST(CaseAnswer, IsReadAsItWasWrittenUnderItsSeal) {
     const ScratchFolder folder;
     const std::filesystem::path file = folder.path() / "case001.json";
     const CaseAnswer answer{"case001", {{"creep", 0.75}, {"none", 0.25}}, {"creep"}, "cable", "",

@@ -7,7 +7,7 @@
 namespace capstan::gap_trial {
 namespace {
 
-TEST(TrialPlan, TwoHundredCasesAreMixedAsPromised) {
+TEST(TrialPlan, TwoHundredCasesHaveTheStatedMix) {
     TrialOptions options;
     options.cases = 200;
     std::map<TruthGroup, int> groups;
@@ -73,7 +73,7 @@ TEST(TrialPlan, OneSeverityWhereOneIsAskedFor) {
     }
 }
 
-TEST(TrialStream, IsItsAddressAndNothingElse) {
+TEST(TrialStream, DependsOnlyOnItsAddress) {
     TrialStream one(5, 3, DrawTopic::effect);
     TrialStream same(5, 3, DrawTopic::effect);
     TrialStream other_case(5, 4, DrawTopic::effect);
@@ -93,9 +93,9 @@ TEST(TrialStream, StaysInsideItsLimits) {
         ASSERT_GE(value, 2.0);
         ASSERT_LE(value, 4.0);
         mean += value / count;
-        const int whole = draws.integer_below(3);
-        ASSERT_GE(whole, 0);
-        ASSERT_LE(whole, 2);
+        const int integer = draws.integer_below(3);
+        ASSERT_GE(integer, 0);
+        ASSERT_LE(integer, 2);
     }
     EXPECT_NEAR(mean, 3.0, 0.05);
 }

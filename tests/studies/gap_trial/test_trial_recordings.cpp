@@ -45,7 +45,7 @@ TEST(TrialRecordings, AreTheSameBitsForAnyNumberOfThreads) {
     }
 }
 
-TEST(TrialFolder, RefusesAnotherTrialsFolder) {
+TEST(TrialFolder, RejectsTheFolderOfAnotherTrial) {
     const ScratchFolder scratch;
     TrialOptions options = short_trial();
     { const TrialFolder folder = TrialFolder::kept(scratch.path() / "t", options); }
@@ -54,7 +54,7 @@ TEST(TrialFolder, RefusesAnotherTrialsFolder) {
     EXPECT_THROW(TrialFolder::kept(scratch.path() / "t", options), InvalidInput);
 }
 
-TEST(TrialFolder, ATemporaryOneGoesAway) {
+TEST(TrialFolder, ATemporaryFolderIsRemoved) {
     std::filesystem::path path;
     {
         const TrialFolder folder = TrialFolder::temporary(short_trial());

@@ -50,7 +50,7 @@ class HandMadeTrial : public testing::Test {
             label("bend", TruthGroup::catalogue, {bend}),
             label("bearing", TruthGroup::catalogue, {cause("pulley_friction", "motor", "motor")}),
             label("law", TruthGroup::catalogue, {cause("stribeck")}),
-            label("stranger", TruthGroup::foreign, {cause("unknown", "")}),
+            label("foreign", TruthGroup::foreign, {cause("unknown", "")}),
             label("pair", TruthGroup::mixture, {cause("creep"), cause("backlash")}),
         };
         answers_ = {
@@ -60,7 +60,7 @@ class HandMadeTrial : public testing::Test {
             answer("bearing", {{"pulley_friction", 0.9}, {"none", 0.1}}),
             // Right family, right answer third.
             answer("law", {{"viscous_friction", 0.5}, {"creep", 0.3}, {"stribeck", 0.2}}),
-            answer("stranger", {{"unknown", 0.7}, {"none", 0.3}}),
+            answer("foreign", {{"unknown", 0.7}, {"none", 0.3}}),
             answer("pair", {{"backlash", 0.5}, {"creep", 0.4}, {"none", 0.1}}),
         };
         answers_[2].position_m = 0.6;
@@ -119,7 +119,7 @@ TEST_F(HandMadeTrial, BrierScoreIsTheMeanSquaredDistanceFromTheTruth) {
                        + 0.0                   // bend
                        + (0.01 + 0.01)         // bearing
                        + (0.25 + 0.09 + 0.64)  // law
-                       + (0.09 + 0.09)         // stranger
+                       + (0.09 + 0.09)         // foreign
                        + (0.0 + 0.01 + 0.01);  // pair: half of the truth each
     EXPECT_NEAR(score_.calibration.brier, sum / 7.0, 1e-12);
 }
@@ -135,7 +135,7 @@ TEST_F(HandMadeTrial, CalibrationErrorWeighsBinsByCases) {
 }
 
 TEST_F(HandMadeTrial, PlacesCountWhereTheCauseIsNamedRightly) {
-    EXPECT_EQ(score_.component.of, 2);  // bend and bearing; the pair and the stranger have no single place
+    EXPECT_EQ(score_.component.of, 2);  // bend and bearing; the pair and the foreign have no single place
     EXPECT_EQ(score_.component.hits, 2);
     EXPECT_EQ(score_.end.of, 1);
     EXPECT_EQ(score_.end.hits, 0);  // said load, was motor

@@ -95,7 +95,7 @@ TEST(Catalogue, EveryEffectHasAFamilyAndForeignCausesAreDiverse) {
     EXPECT_EQ(effect_family("unknown"), "unknown");
 }
 
-TEST(Visibility, WhatNominalNumbersExplainIsInvisible) {
+TEST(Visibility, ChangesThatNominalNumbersExplainAreInvisible) {
     TrialStream draws(1, 1, DrawTopic::bench);
     const TrialBench bench = make_trial_bench(BenchKind::uniform_wide, 1.0, draws);
     const std::vector<TrialRun> runs = sample_session(bench);
@@ -110,7 +110,7 @@ TEST(Visibility, WhatNominalNumbersExplainIsInvisible) {
     EXPECT_GT(seen(1.3), 3.0);
 }
 
-TEST(FindSize, GivesAVisibilityInTheRange) {
+TEST(FindSize, ReachesAVisibilityInTheRange) {
     TrialStream draws(1, 1, DrawTopic::bench);
     const TrialBench bench = make_trial_bench(BenchKind::uniform_wide, 1.0, draws);
     const std::vector<TrialRun> runs = sample_session(bench);

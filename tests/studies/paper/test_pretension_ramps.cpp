@@ -88,12 +88,12 @@ TEST(PretensionRamps, ReproducesTheSettingsPeaks) {
     }
 }
 
-TEST(PretensionRamps, TableOneAsItStandsGivesNothingAtTheLoad) {
+TEST(PretensionRamps, TableOneAsPrintedGivesNoTorqueAtTheLoad) {
     const CableSetting& setting = setting_named("table_1");
     const RampRun run = run_pretension_ramps(setting, setting.pretensions_N.front(), {});
     EXPECT_EQ(run.unsolved_steps, 0);
     EXPECT_NEAR(run.peak_load_torque_Nm, 0.0, 1e-12);
-    EXPECT_NEAR(run.dead_width_Nm, 0.25, 1e-9) << "the whole ramp";
+    EXPECT_NEAR(run.dead_width_Nm, 0.25, 1e-9) << "the complete ramp";
     EXPECT_NEAR(run.lost_transfer_ratio, 1.0, 1e-12);
 }
 

@@ -30,18 +30,18 @@ TEST(ViscousTunnel, WithoutTheTermTheModelIsThatOfTheTunnel) {
 }
 
 // The two numbers of the paper that the simulated bench was made for.
-TEST(ViscousTunnel, TheTermTakesAboutHalfOfThePapersResidual) {
+TEST(ViscousTunnel, TheTermExplainsAboutHalfOfThePapersResidual) {
     EXPECT_NEAR(usual().without_term.rms_Nm, PaperViscous{}.rms_without_term_Nm, 0.01);
     EXPECT_NEAR(usual().reduction(), PaperViscous{}.reduction, 0.03);
 }
 
-TEST(ViscousTunnel, TheTermTakesTheSlopeOverVelocityAway) {
+TEST(ViscousTunnel, TheTermRemovesTheSlopeOverVelocity) {
     EXPECT_LT(usual().without_term.slope_Nm_s_per_rad, -0.1) << "drag opposes the hand";
     EXPECT_LT(std::abs(usual().with_term.slope_Nm_s_per_rad),
               0.05 * std::abs(usual().without_term.slope_Nm_s_per_rad));
 }
 
-TEST(ViscousTunnel, WhereNothingElseIsMissingTheFitFindsTheDragAndLeavesTheNoise) {
+TEST(ViscousTunnel, WithoutOtherErrorsTheFitFindsTheDragAndLeavesTheNoise) {
     ViscousBench bench;
     bench.remainder = 0.0;
     bench.load_friction_Nm = 0.0;
@@ -50,7 +50,7 @@ TEST(ViscousTunnel, WhereNothingElseIsMissingTheFitFindsTheDragAndLeavesTheNoise
     EXPECT_NEAR(clean.with_term.rms_Nm, bench.torque_noise_Nm, 0.1 * bench.torque_noise_Nm);
 }
 
-TEST(ViscousTunnel, PulleyFrictionThatNoModelHasIsTakenForDrag) {
+TEST(ViscousTunnel, UnmodelledPulleyFrictionIsFittedAsDrag) {
     EXPECT_GT(usual().fitted_drag_N_s_per_m2, usual().bench.drag_N_s_per_m2 + 1.0);
 }
 

@@ -47,7 +47,7 @@ TEST(DrivenInputs, FastMotionIsNotFlattened) {
     EXPECT_LT(rms_error(smoothed(with_noise(sine, 0.001), 0.001), sine), 0.0011);
 }
 
-TEST(DrivenInputs, EncoderStepsOfASlowMotionVanish) {
+TEST(DrivenInputs, EncoderStepsOfASlowMotionAreSmoothedOut) {
     constexpr double step = 1.57e-4;
     const auto motion = sampled([](double t) { return 0.02 * t; });
     auto counted = motion;

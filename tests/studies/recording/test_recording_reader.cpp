@@ -25,8 +25,8 @@ std::string with_line(const std::string& text, int number,
     std::size_t first = 0;
     for (int line = 1; first < text.size(); ++line) {
         const std::size_t end = text.find('\n', first);
-        const std::string whole = text.substr(first, end - first);
-        out += (line == number ? change(whole) : whole) + "\n";
+        const std::string original = text.substr(first, end - first);
+        out += (line == number ? change(original) : original) + "\n";
         first = end + 1;
     }
     return out;
@@ -156,7 +156,7 @@ const Fault faults[] = {
      {"runs[1].T0", "missing"}},
     {"BrokenJson",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"runs\": [", "\"runs\": "); },
-     {"bench.json", "no JSON", "line"}},
+     {"bench.json", "is not JSON", "line"}},
     {"UnknownMode",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"pull_pull\"", "\"push_pull\""); },
      {"mode", "push_pull", "single_cable"}},
@@ -182,7 +182,7 @@ TEST(RecordingReader, NamesAConstantChannel) {
         InvalidInput);
 }
 
-TEST(RecordingReader, TellsAFewOfManyProblems) {
+TEST(RecordingReader, ListsTheFirstOfManyProblems) {
     RecordingFiles files = as_files(measured_session(true_parameters));
     for (char& letter : files.samples_csv) {
         if (letter == '.') letter = ';';
@@ -193,11 +193,11 @@ TEST(RecordingReader, TellsAFewOfManyProblems) {
         FAIL() << "taken";
     } catch (const InvalidInput& error) {
         EXPECT_LT(error.problems().size(), 20u);
-        EXPECT_NE(error.problems().back().find("problems more"), std::string::npos);
+        EXPECT_NE(error.problems().back().find("more problems"), std::string::npos);
     }
 }
 
-TEST(RecordingReader, RefusesANumberThatNoMachineHolds) {
+TEST(RecordingReader, RejectsANumberBeyondDoubleRange) {
     const TemporaryFolder folder;
     try {
         read_recording(folder.write({"run,t\n1,0\n", R"({"sample_rate_hz": 1e999})"}));
@@ -207,7 +207,7 @@ TEST(RecordingReader, RefusesANumberThatNoMachineHolds) {
     }
 }
 
-TEST(RecordingReader, SaysWhichFileIsMissing) {
+TEST(RecordingReader, NamesTheMissingFile) {
     try {
         read_recording("/no/such/bench.csv");
         FAIL() << "taken";

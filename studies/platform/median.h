@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace capstan {
+
+/// The middle value of at least one; of an even number the upper of the two in the middle, so that the result is
+/// always one of the values.
+inline double upper_median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// The middle value; of an even number the mean of the two in the middle; 0 without any value.
+inline double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const double upper = upper_median(values);
+    if (values.size() % 2 == 1) return upper;
+    std::sort(values.begin(), values.end());
+    return 0.5 * (values[values.size() / 2 - 1] + upper);
+}
+
+}  // namespace capstan
