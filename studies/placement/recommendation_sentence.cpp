@@ -123,8 +123,9 @@ std::string gain_words(const storage::RecommendationRecord& r, double worthwhile
     const double gain_N = searched_error_N(r) - next->error_N;
     const int added = next->sensor_count - r.sensor_count;
     const std::string more = added == 1 ? "One more sensor" : std::to_string(added) + " more sensors";
-    if (gain_N < smallest_shown_N) return more + " would not lower the error.";
-    return more + " would lower the error by " + newtons(gain_N) +
+    const std::string objective = r.scope == "minimax_regret" ? "excess" : "error";
+    if (gain_N < smallest_shown_N) return more + " would not lower the " + objective + ".";
+    return more + " would lower the " + objective + " by " + newtons(gain_N) +
            " (threshold for adding a sensor: " + newtons(worthwhile_gain_N) + ").";
 }
 
