@@ -21,9 +21,6 @@ DrivenInputs driven_inputs(const Recording& recording, const RecordedRun& run);
 /// neither is.
 double sample_noise(const Channel& channel);
 
-/// The median; with an even number of values the larger of the middle two. Not for an empty list.
-double upper_median(std::vector<double> values);
-
 /// The smoothing itself, for samples with this noise.
 std::vector<double> smoothed(const std::vector<double>& samples, double noise_std);
 

@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "capstan/recording/csv_numbers.h"
-#include "capstan/recording/recording_checks.h"
-#include "capstan/recording/sidecar.h"
 
 namespace capstan {
 
