@@ -112,7 +112,7 @@ TEST(FusionMethods, HaveDifferentNamesAndTitles) {
         EXPECT_TRUE(names.insert(method.name).second) << method.name;
         EXPECT_TRUE(titles.insert(method.title).second) << method.title;
     }
-    EXPECT_EQ(find_fusion_method("median"), nullptr);
+    EXPECT_EQ(find_fusion_method("not_a_method"), nullptr);
 }
 
 // The posterior mean overwrites the likelihood that maximum likelihood reads.
