@@ -42,7 +42,7 @@ std::string alternatives(const StudyTables& tables, std::int64_t recommendation_
         return "<p class=\"quiet\">No other choice with this many sensors comes close: the draws tell them "
                "all apart.</p>\n";
     return fmt::format(
-        R"(<details class="alternatives"><summary>{} other {} the draws cannot tell from it</summary>
+        R"(<details class="alternatives"><summary>{} other {} equally good within the statistical error</summary>
 <div class="scroll" tabindex="0" role="region" aria-label="Choices as good as the recommended one"><table><thead><tr><th scope="col">Layout</th><th scope="col">Nodes</th><th scope="col">Fusion method</th><th scope="col">Difference [N]</th><th scope="col">95% interval</th></tr></thead><tbody>
 {}</tbody></table></div></details>
 )",
@@ -125,7 +125,7 @@ std::string recommendation_section(const StudyTables& tables) {
     const std::vector<double> positions_m = node_positions_m(tables["cable_segment"]);
     std::string html =
         "<section id=\"recommendation\" aria-labelledby=\"recommendation-title\">\n"
-        "<h2 id=\"recommendation-title\">What to do</h2>\n"
+        "<h2 id=\"recommendation-title\">Recommendations</h2>\n"
         "<p class=\"intro\">Sensors are pinned on the cable at their nodes; darker bands bend more sharply. "
         "The chart beside "
         "each cable shows what every further sensor would buy.</p>\n";

@@ -13,7 +13,7 @@ std::string recommendations_markdown(const StudyTables& tables) {
     const auto rows = tables["recommendation"].each();
     if (rows.empty()) return "";
     std::string text =
-        "## What to do\n\n| Scope | Noise | Sensors | Nodes | Method | Objective | [N] | 95% interval |\n"
+        "## Recommendations\n\n| Scope | Noise | Sensors | Nodes | Method | Objective | [N] | 95% interval |\n"
         "| --- | --- | ---: | --- | --- | --- | ---: | --- |\n";
     std::string sentences;
     for (const Row& row : rows) {

@@ -21,15 +21,15 @@ struct Section {
 
 // In the order of the page, between the recommendation and how the study was made.
 constexpr Section figure_sections[] = {
-    {"one-sensor", "What one sensor tells",
+    {"one-sensor", "Single sensors",
      "One noisy reading and the motor's position give the tension profile of the cable. How accurate it is depends on "
      "where the "
      "sensor sits and on whether the direction of motion is known."},
-    {"fusion", "What several sensors tell",
+    {"fusion", "Several sensors",
      "The same readings, fused. Every method sees the same draws, so lines may be compared more closely than "
      "their "
      "bands suggest."},
-    {"doubt", "Where to be careful",
+    {"doubt", "Caveats",
      "How often the direction of motion is uncertain, and at which node the error of the recommended layout is largest."},
 };
 
@@ -140,10 +140,10 @@ std::string noise_selector(const StudyTables& tables) {
 }
 
 std::string navigation(const std::string& main_html, const StudyTables& tables) {
-    std::vector<SectionLink> links = {{"recommendation", "What to do"}};
+    std::vector<SectionLink> links = {{"recommendation", "Recommendations"}};
     for (const Section& section : figure_sections) links.push_back({section.id, section.title});
     links.push_back({"paper", "The paper and ours"});
-    links.push_back({"making", "How it was made"});
+    links.push_back({"making", "Settings"});
     return navigation_html(main_html, links, noise_selector(tables));
 }
 

@@ -29,7 +29,7 @@ void simulate_a_little(bench::BenchPlan plan) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
-        const cli::ReadBench config =
+        const config::ReadBench config =
             config::parse_plan<bench::BenchPlan>(fuzz::text_of(data, size), "fuzzed.toml");
         const std::string text = config::config_text(config.plan, config::Comments::none);
         const std::string again = config::config_text(

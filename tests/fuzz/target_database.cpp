@@ -3,9 +3,8 @@
 #include <functional>
 #include <span>
 
+#include "capstan/answers/placement_answers.h"
 #include "capstan/cable/invalid_input.h"
-#include "capstan/cli/recommendation_words.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/storage/diagnosis_store.h"
@@ -54,8 +53,7 @@ void let_refuse(const std::function<void()>& reader) {
         reader();
     } catch (const storage::Error& refusal) {
         fuzz::demand(std::string_view(refusal.what()).size() > 10, "a refusal has words");
-    } catch (const cli::UsageError&) {  // of a configuration that is stored
-    } catch (const InvalidInput&) {
+    } catch (const InvalidInput&) {  // of a configuration that is stored
     }
 }
 
@@ -65,8 +63,8 @@ void read_study(Database& database, std::int64_t id) {
     let_refuse([&] { reports::study_report_json(database, id); });
     let_refuse([&] { reports::study_report_markdown(database, id); });
     let_refuse([&] { reports::study_error_csv(database, id); });
-    let_refuse([&] { cli::in_words(cli::read_conclusions(database, id)); });
-    let_refuse([&] { cli::load_stored_study(database, id); });
+    let_refuse([&] { reports::answer_text(answers::recommendation_answer(answers::read_conclusions(database, id))); });
+    let_refuse([&] { load_stored_study(database, id); });
     let_refuse([&] { storage::pending_units(database, id); });
     let_refuse([&] { storage::read_single_sensor(database, id, 0, 0); });
     let_refuse([&] { storage::read_fusion(database, id, 0, 0); });

@@ -81,7 +81,7 @@ TEST(StudyMarkdown, BeginsWithTheRecommendationAndShowsTheTables) {
     SampleReport sample;
     const std::string text = study_report_markdown(sample.database, sample.study_id);
     EXPECT_EQ(text.substr(0, 2), "# ");
-    EXPECT_NE(text.find("## What to do"), std::string::npos);
+    EXPECT_NE(text.find("## Recommendations"), std::string::npos);
     EXPECT_NE(text.find("| Single sensor at node 1 | 1.60 | 1.36 | -0.240 |"), std::string::npos);
     std::istringstream lines(text);
     std::string line;
