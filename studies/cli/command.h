@@ -95,4 +95,10 @@ class Invocation {
     std::vector<std::string> repeated_argument_;
 };
 
+/// A command line, a configuration or a query that cannot be followed; says what to try.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 }  // namespace capstan::cli

@@ -1,8 +1,8 @@
+#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/completion_text.h"
+#include "capstan/cli/help_text.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/usage_error.h"
 
 namespace capstan::cli {
 

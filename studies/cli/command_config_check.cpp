@@ -9,7 +9,7 @@
 #include "capstan/config/config_file.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/config/config_reader.h"
-#include "capstan/config/config_studies.h"
+#include "capstan/config/plan_checks.h"
 
 namespace capstan::cli {
 

@@ -8,7 +8,6 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
-#include "capstan/cli/simd_choice.h"
 #include "capstan/platform/child_process.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/health.h"

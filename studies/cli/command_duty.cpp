@@ -3,7 +3,6 @@
 #include "capstan/answers/recording_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/log_argument.h"
 #include "capstan/cli/output.h"
 #include "capstan/duty/duty_cycle.h"
 #include "capstan/recording/recording_reader.h"

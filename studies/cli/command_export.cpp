@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "capstan/answers/study_answers.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/platform/files.h"
 #include "capstan/platform/nearest_name.h"
 #include "capstan/platform/standard_streams.h"

@@ -4,10 +4,10 @@
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/gap_trial/blind_trial.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"

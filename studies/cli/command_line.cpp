@@ -6,7 +6,7 @@
 #include <boost/program_options.hpp>
 #include <charconv>
 
-#include "capstan/cli/usage_error.h"
+#include "capstan/cli/command.h"
 #include "capstan/platform/nearest_name.h"
 
 namespace capstan::cli {

@@ -1,10 +1,10 @@
 #include <filesystem>
 
+#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/man_page.h"
+#include "capstan/cli/help_text.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/usage_error.h"
 
 namespace capstan::cli {
 

@@ -5,14 +5,13 @@
 #include "capstan/answers/placement_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/noise_option.h"
 #include "capstan/cli/output.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/config/plan_checks.h"
 #include "capstan/duty/duty_cycle.h"
-#include "capstan/search/sensor_placement.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/recording_reader.h"
+#include "capstan/search/sensor_placement.h"
 
 namespace capstan::cli {
 

@@ -3,10 +3,10 @@
 #include <cstdio>
 
 #include "capstan/answers/study_answers.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/reports/plain_tables.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/read_only_query.h"

@@ -5,10 +5,10 @@
 #include <cstdio>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"

@@ -3,9 +3,7 @@
 #include "capstan/answers/placement_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/noise_option.h"
 #include "capstan/cli/output.h"
-#include "capstan/config/config_studies.h"
 #include "capstan/config/plan_checks.h"
 
 namespace capstan::cli {

@@ -4,7 +4,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/config/config_studies.h"
+#include "capstan/config/plan_checks.h"
 #include "capstan/placement/study_cost.h"
 #include "capstan/placement/study_shard.h"
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include "capstan/answers/study_answers.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/placement/replay.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/storage/study_store.h"

@@ -7,8 +7,8 @@
 #include "capstan/cli/program.h"
 #include "capstan/cli/shard_option.h"
 #include "capstan/cli/watched_run.h"
-#include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
+#include "capstan/config/plan_checks.h"
 
 namespace capstan::cli {
 

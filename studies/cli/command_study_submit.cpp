@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
+#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/cluster/slurm_queue.h"
-#include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
+#include "capstan/config/plan_checks.h"
 
 namespace capstan::cli {
 

@@ -1,6 +1,9 @@
 #include "capstan/cli/common_options.h"
 
+#include <fmt/format.h>
+
 #include "capstan/config/config_truth.h"
+#include "capstan/platform/nearest_name.h"
 
 namespace capstan::cli {
 
@@ -87,6 +90,30 @@ config::ReadConfig read_config_of(const Invocation& invocation) {
     if (invocation.has("repetitions")) plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
     if (invocation.has("truth")) plan.truth = config::read_truth(invocation.text("truth"));
     return config;
+}
+
+const Option noise_option{.name = "noise",
+                          .kind = OptionKind::string,
+                          .value = "LABEL",
+                          .meaning = "Which of the configuration's noise levels; the first if not given."};
+
+int noise_index_of(const StudyPlan& plan, const Invocation& invocation) {
+    if (!invocation.has("noise")) return 0;
+    std::vector<std::string> labels;
+    for (std::size_t k = 0; k < plan.noise_levels.size(); ++k) {
+        labels.push_back(plan.noise_levels[k].label);
+        if (labels.back() == invocation.text("noise")) return static_cast<int>(k);
+    }
+    throw UsageError(fmt::format("--noise: the configuration has no noise level \"{}\"{}",
+                                 invocation.text("noise"), suggestion(invocation.text("noise"), labels)));
+}
+
+const Argument log_argument{
+    "LOG",
+    "A recording: NAME.csv with NAME.json beside it, which says what the columns are; either name is taken."};
+
+bool names_a_recording(const std::filesystem::path& path) {
+    return path.extension() == ".csv" || path.extension() == ".json";
 }
 
 }  // namespace capstan::cli

@@ -1,8 +1,11 @@
 #pragma once
 // Options that mean the same wherever they appear.
 
+#include <filesystem>
+
 #include "capstan/cli/command.h"
 #include "capstan/config/config_reader.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan::cli {
 
@@ -25,5 +28,16 @@ extern const Argument study_argument;  ///< latest where left out
 /// The configuration that the argument CONFIG names, with --seed, --repetitions and --truth in place of its
 /// own.
 config::ReadConfig read_config_of(const Invocation& invocation);
+
+extern const Option noise_option;
+
+/// Which of the plan's noise levels --noise names; the first if it is not given. Throws UsageError with the
+/// nearest label.
+int noise_index_of(const StudyPlan& plan, const Invocation& invocation);
+
+extern const Argument log_argument;
+
+/// True if a file's name is that of a recording (CSV or its JSON sidecar) rather than of a configuration.
+bool names_a_recording(const std::filesystem::path& path);
 
 }  // namespace capstan::cli

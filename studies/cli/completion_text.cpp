@@ -1,10 +1,9 @@
-#include "capstan/cli/completion_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "capstan/cli/commands.h"
+#include "capstan/cli/help_text.h"
 
 namespace capstan::cli {
 

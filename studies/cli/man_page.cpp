@@ -1,11 +1,10 @@
-#include "capstan/cli/man_page.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <span>
 
 #include "capstan/cli/commands.h"
+#include "capstan/cli/help_text.h"
 #include "capstan/cli/program.h"
 
 namespace capstan::cli {

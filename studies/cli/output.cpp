@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "capstan/cli/usage_error.h"
+#include "capstan/cli/command.h"
 
 namespace capstan::cli {
 

@@ -8,12 +8,11 @@
 #include <new>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/command_line.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/help_text.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/simd_choice.h"
-#include "capstan/cli/usage_error.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/platform/nearest_name.h"
 #include "capstan/reports/page_frame.h"

@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-#include "capstan/cli/usage_error.h"
+#include "capstan/cli/command.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {

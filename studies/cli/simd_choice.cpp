@@ -1,5 +1,3 @@
-#include "capstan/cli/simd_choice.h"
-
 #include <fmt/format.h>
 #include <hwy/targets.h>
 
@@ -7,7 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "capstan/cli/usage_error.h"
+#include "capstan/cli/command.h"
+#include "capstan/cli/program.h"
 
 namespace capstan::cli {
 

@@ -2,10 +2,7 @@
 // in its help.
 
 #include "capstan/config/config_cable_keys.h"
-#include "capstan/config/config_layout_keys.h"
-#include "capstan/config/config_placement_keys.h"
-#include "capstan/config/config_sensitivity_keys.h"
-#include "capstan/config/config_sweep_keys.h"
+#include "capstan/config/config_study_keys.h"
 #include "capstan/config/config_truth.h"
 
 namespace capstan::config {

@@ -1,8 +1,7 @@
-#include "capstan/config/config_layout_keys.h"
-
 #include <numeric>
 
 #include "capstan/config/config_key_makers.h"
+#include "capstan/config/config_study_keys.h"
 #include "capstan/estimation/fusion_method.h"
 
 namespace capstan::config {

@@ -10,7 +10,6 @@
 #include "capstan/config/config_values.h"
 #include "capstan/config/plan_checks.h"
 #include "capstan/config/toml_nodes.h"
-#include "capstan/config/unknown_keys.h"
 
 namespace capstan::config {
 

@@ -1,6 +1,5 @@
-#include "capstan/config/config_sensitivity_keys.h"
-
 #include "capstan/config/config_key_makers.h"
+#include "capstan/config/config_study_keys.h"
 
 namespace capstan::config {
 

@@ -1,7 +1,6 @@
-#include "capstan/config/config_studies.h"
 
 #include "capstan/config/plan_checks.h"
-#include "capstan/plan/study_sweep.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan::config {
 

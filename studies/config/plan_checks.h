@@ -15,4 +15,8 @@ std::vector<ConfigProblem> value_problems(const ReadBench& bench, const std::vec
 /// Throws ConfigError with everything that keeps the study from running, at the lines of the keys.
 void require_runnable(const ReadConfig& config);
 
+/// The studies that a configuration describes, one without a sweep; each checked. Throws ConfigError or
+/// InvalidInput with what is wrong with any of them.
+std::vector<StudyPlan> runnable_studies(const ReadConfig& config);
+
 }  // namespace capstan::config

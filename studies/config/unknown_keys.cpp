@@ -1,10 +1,9 @@
-#include "capstan/config/unknown_keys.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "capstan/config/config_key.h"
+#include "capstan/config/toml_nodes.h"
 #include "capstan/platform/nearest_name.h"
 
 namespace capstan::config {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/estimate/paper_tracking.h"
+#include "capstan/estimate/tracking.h"
 #include "capstan/platform/parallel_for.h"
 
 namespace capstan::estimate {

@@ -1,7 +1,7 @@
-#include "capstan/estimate/paper_tracking.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "capstan/estimate/tracking.h"
 
 namespace capstan::estimate {
 

@@ -7,7 +7,6 @@
 #include "capstan/cable/cable_state.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/recording/driven_inputs.h"
-#include "capstan/recording/estimated_noise.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::estimate {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capstan/estimate/sensed_cable.h"
+#include "capstan/estimation/recursive_fusion.h"
 
 namespace capstan::estimate {
 
@@ -44,5 +45,11 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
 /// The trust under which the readings used are most likely (E38), from a fixed grid: first the wander, then
 /// the error ratio, then the wander again. Looks at no other channel.
 ModelTrust likeliest_trust(const SensedCable& cable, const ChannelSet& used, const TrackingOptions& options);
+
+/// RMS of a channel's readings less what one of the paper's methods says there, each step from its own last
+/// estimate, from the channels `used`, each read at the node nearest to it. Its cable has the 10 segments of
+/// the paper; of channels that share a node the one with the least noise is read.
+double paper_rms_N(const SensedCable& cable, const ChannelSet& used, std::size_t predicted,
+                   const FusionMethod& method);
 
 }  // namespace capstan::estimate

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "capstan/recording/json_file.h"
 #include "capstan/recording/json_object.h"
 
 namespace capstan::gap {

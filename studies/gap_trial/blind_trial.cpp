@@ -9,8 +9,8 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/platform/files.h"
 #include "capstan/platform/parallel_for.h"
-#include "capstan/recording/estimated_noise.h"
-#include "capstan/recording/json_file.h"
+#include "capstan/recording/driven_inputs.h"
+#include "capstan/recording/json_object.h"
 #include "capstan/recording/recording_reader.h"
 
 namespace capstan::gap_trial {

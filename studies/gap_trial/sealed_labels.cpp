@@ -10,7 +10,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/platform/files.h"
-#include "capstan/recording/json_file.h"
+#include "capstan/recording/json_object.h"
 
 namespace capstan::gap_trial {
 

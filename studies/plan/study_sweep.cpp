@@ -1,10 +1,9 @@
-#include "capstan/plan/study_sweep.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/plan/study_plan.h"
 
 namespace capstan {
 

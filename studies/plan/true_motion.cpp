@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "capstan/plan/true_cable.h"
+
 namespace capstan {
 
 namespace {
@@ -63,6 +65,14 @@ std::optional<Regime> regime_of(const MotionPattern& pattern) {
             return std::nullopt;
     }
     return std::nullopt;
+}
+
+CableSpecification true_specification(CableSpecification model, const TrueCable& truth) {
+    model.dynamic_friction *= truth.friction_ratio;
+    model.static_friction *= truth.friction_ratio;
+    model.axial_stiffness_N *= truth.stiffness_ratio;
+    model.pretension_N *= truth.pretension_ratio;
+    return model;
 }
 
 }  // namespace capstan

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "capstan/recording/json_file.h"
+#include "capstan/recording/json_object.h"
 
 namespace capstan {
 

@@ -24,4 +24,9 @@ double sample_noise(const Channel& channel);
 /// The smoothing itself, for samples with this noise.
 std::vector<double> smoothed(const std::vector<double>& samples, double noise_std);
 
+/// The recording with the noise of every channel stated. Where the sidecar states none, it is estimated from
+/// the median second difference of the samples, which slow motion changes little; it is 0 where the stated
+/// step of the channel explains that difference.
+Recording with_estimated_noise(Recording recording);
+
 }  // namespace capstan

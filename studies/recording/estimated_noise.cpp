@@ -1,10 +1,8 @@
-#include "capstan/recording/estimated_noise.h"
 
 #include <cmath>
 #include <utility>
 
 #include "capstan/platform/median.h"
-
 #include "capstan/recording/driven_inputs.h"
 
 namespace capstan {

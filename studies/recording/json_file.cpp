@@ -1,11 +1,10 @@
-#include "capstan/recording/json_file.h"
-
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/platform/files.h"
 #include "capstan/recording/csv_numbers.h"
+#include "capstan/recording/json_object.h"
 
 namespace capstan {
 

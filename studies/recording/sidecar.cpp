@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 
-#include "capstan/recording/json_file.h"
 #include "capstan/recording/json_object.h"
 #include "capstan/recording/recording_reader.h"
 #include "capstan/rig/channel_names.h"

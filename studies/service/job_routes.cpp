@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
+#include "capstan/config/plan_checks.h"
 #include "capstan/platform/files.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"

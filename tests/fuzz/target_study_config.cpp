@@ -3,8 +3,8 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/config/config_reader.h"
-#include "capstan/config/config_studies.h"
 #include "capstan/config/config_writer.h"
+#include "capstan/config/plan_checks.h"
 #include "capstan/placement/prepared_study.h"
 #include "target.h"
 

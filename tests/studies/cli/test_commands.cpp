@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "capstan/cli/command.h"
 #include "capstan/cli/command_line.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/help_text.h"
-#include "capstan/cli/usage_error.h"
 
 namespace capstan::cli {
 namespace {

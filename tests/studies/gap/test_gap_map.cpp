@@ -4,7 +4,7 @@
 
 #include "capstan/gap/candidate_cause.h"
 #include "capstan/gap/gap_map.h"
-#include "capstan/recording/estimated_noise.h"
+#include "capstan/recording/driven_inputs.h"
 #include "sample_recording.h"
 
 namespace capstan::gap {

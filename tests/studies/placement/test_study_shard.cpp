@@ -6,7 +6,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/placement/study_cost.h"
 #include "capstan/placement/study_shard.h"
-#include "capstan/plan/study_sweep.h"
+#include "capstan/plan/study_plan.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
 #include "paper_plan.h"

@@ -1,0 +1,18 @@
+#pragma once
+// The rows of the sections of a study's configuration, one source for each group of sections.
+
+#include <vector>
+
+#include "capstan/config/config_key.h"
+
+namespace capstan::config {
+
+using StudyKeys = std::vector<ConfigKey<StudyPlan>>;
+
+void add_layout_keys(StudyKeys& keys);       ///< [layouts]
+void add_estimation_keys(StudyKeys& keys);   ///< [estimation]: fusion methods and what they assume
+void add_placement_keys(StudyKeys& keys);    ///< [placement], for `capstan place`
+void add_sensitivity_keys(StudyKeys& keys);  ///< [sensitivity], for `capstan sensitivity`
+void add_sweep_keys(StudyKeys& keys);        ///< [sweep], for many studies from one file
+
+}  // namespace capstan::config
