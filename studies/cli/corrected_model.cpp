@@ -8,8 +8,8 @@ namespace capstan::cli {
 
 namespace {
 
-// Where a fitted cause stands in the engine's catalogue; past the end for wrong numbers and sensors. A study
-// has one cable: a bend of either of two is its own.
+// Index of a fitted cause in the engine's effect catalogue; past the end for wrong parameters and sensor
+// faults. A study has one cable, so an effect of cable B becomes one of cable A.
 std::size_t catalogue_index(const gap::FittedCause& cause) {
     const std::string variant = cause.variant == "cable B" ? "cable A" : cause.variant;
     std::size_t index = 0;
@@ -35,7 +35,8 @@ std::string corrected_model_text(const Recording& recording, const gap::Diagnosi
                                  const std::string& verdict) {
     std::vector<std::string> comments = {
         fmt::format("The model of {} as `capstan diagnose` corrects it.", recording.name), verdict,
-        "For `capstan study run CONFIG --truth THIS_FILE`: ratios are in parts of what CONFIG says."};
+        "For `capstan study run CONFIG --truth THIS_FILE`: ratios are relative to the values of "
+        "CONFIG."};
     TrueCable truth{diagnosis.friction_ratio, diagnosis.stiffness_ratio, diagnosis.pretension_ratio,
                     absent_effects()};
     for (const gap::FittedCause& cause : diagnosis.causes) {
@@ -43,8 +44,8 @@ std::string corrected_model_text(const Recording& recording, const gap::Diagnosi
         if (index < effect_catalogue().size() && effect_catalogue()[index].changes_the_cable) {
             truth.effects[index] = values_of(effect_catalogue()[index], cause);
         } else if (!cause.numbers.empty()) {
-            comments.push_back(fmt::format("Not in here, for it is not of the cable: {}{}{}.", cause.effect,
-                                           cause.variant.empty() ? "" : ", ", cause.variant));
+            comments.push_back(fmt::format("Not included, because it does not belong to the cable: {}{}{}.",
+                                           cause.effect, cause.variant.empty() ? "" : ", ", cause.variant));
         }
     }
     return config::truth_text(truth, comments);

@@ -10,7 +10,7 @@ namespace capstan::cli {
 const Option noise_option{.name = "noise",
                           .kind = OptionKind::string,
                           .value = "LABEL",
-                          .meaning = "Which of the configuration's noise levels; the first if not given."};
+                          .meaning = "Noise level of the configuration to use. Default: the first."};
 
 int noise_index_of(const StudyPlan& plan, const Invocation& invocation) {
     if (!invocation.has("noise")) return 0;
