@@ -1,5 +1,5 @@
 "use strict";
-// Draws the page's figures from its tables; redraws them for another noise level, theme or width.
+// Draws the page's figures from its tables and redraws them when the noise level, theme or width changes.
 (() => {
   let study, tables;  // set by load()
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -222,7 +222,7 @@
     if (data.open) showRows(figure);
   }
 
-  // For printing: synchronous, in black, at the width of the paper.
+  // For printing: synchronous, in black, as wide as the paper.
   function drawForPaper() {
     ++drawing;
     document.documentElement.dataset.paper = "";

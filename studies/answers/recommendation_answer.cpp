@@ -31,9 +31,14 @@ const std::vector<int>& nodes_of(const StudyDescription& study, int set_index) {
 std::vector<double> places_of(const StudyDescription& study, const std::vector<int>& nodes) {
     std::vector<double> places_m;
     for (const int node : nodes) {
-        const std::size_t before = static_cast<std::size_t>(std::max(0, node - 2));
-        const storage::CableSegmentRecord& segment = study.cable_segments[before];
-        places_m.push_back(node == 1 ? 0.0 : segment.start_m + segment.length_m);
+        const int segment = node - 2;  // the one that ends at the node
+        if (segment < -1 || segment >= static_cast<int>(study.cable_segments.size()))
+            throw storage::Error(
+                fmt::format("The study has a sensor at node {}, which its cable does not have. The "
+                            "file is damaged; `capstan doctor` examines it.",
+                            node));
+        const auto* before = segment < 0 ? nullptr : &study.cable_segments[static_cast<std::size_t>(segment)];
+        places_m.push_back(before == nullptr ? 0.0 : before->start_m + before->length_m);
     }
     return places_m;
 }
@@ -94,7 +99,7 @@ std::string alternatives_words(const StudyDescription& study, const Recommendati
     for (std::size_t k = 0; k < std::min(shown, r.alternatives.size()); ++k) {
         const auto& other = r.alternatives[k];
         text += fmt::format("{}{} [{}] by {}", k == 0 ? " Equally good: " : "; ",
-                            labels_of(study, other.set_index).front(),
+                            fmt::format("{}", fmt::join(labels_of(study, other.set_index), " or ")),
                             fmt::join(nodes_of(study, other.set_index), ", "), title_of_method(other.method));
     }
     if (r.alternatives.size() > shown)

@@ -41,18 +41,19 @@ Command calibrate_command() {
         .name = "calibrate",
         .summary = "Fit friction, stiffness and pretension to a recording.",
         .description =
-            "Moves the bench's model with the recording's driven channels and fits the model's parameters to the other "
-            "channels, all at once. Prints each parameter with a 95% interval, or says that this recording does not "
-            "confine it and which other parameter it trades with; then how well the model meets each channel of each run, "
-            "with nominal and with fitted parameters, and with parameters fitted to the other runs only. Where the "
-            "geometry is not known (mode lumped_drive) the model is a pull-pull pair with all wrap in one friction "
-            "exponent.",
+            "Drives the bench's model with the recording's driven channels and fits the model's "
+            "parameters to all other channels at once. Prints each parameter with a 95% interval. A "
+            "parameter that the recording does not determine is reported as such, with the parameter "
+            "that it trades off against. Also prints how well the model reproduces each channel of each "
+            "run: with the nominal parameters, with the fitted ones, and with parameters fitted to the "
+            "other runs only. Where the geometry is unknown (mode lumped_drive), the model is a "
+            "pull-pull pair with all wrap in one friction exponent.",
         .arguments = {log_argument},
         .options =
             {Option{.name = "fit",
                     .kind = OptionKind::string,
                     .value = "NAMES",
-                    .meaning = "Fit these parameters only, separated by commas; the others stay nominal."},
+                    .meaning = "Fit only these parameters, separated by commas; the others stay nominal."},
              segments_option,
              Option{.name = "save",
                     .kind = OptionKind::string,

@@ -19,16 +19,15 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command completion_command() {
-    return {
-        .name = "completion",
-        .summary = "Print a script that completes commands and options in bash or zsh.",
-        .description =
-            "Prints a completion script for a shell, written from the same table as this help. An installed capstan "
-            "has brought it along; from a build folder, load it as below.",
-        .arguments = {{"SHELL", "bash or zsh."}},
-        .options = {output_option, help_option},
-        .examples = {"source <(capstan completion bash)", "capstan completion zsh -o ~/.zfunc/_capstan"},
-        .run = run};
+    return {.name = "completion",
+            .summary = "Print a script that completes commands and options in bash or zsh.",
+            .description =
+                "Prints a completion script for a shell, generated from the same table as this help. An "
+                "installed capstan already includes it; from a build folder, load it as shown below.",
+            .arguments = {{"SHELL", "bash or zsh."}},
+            .options = {output_option, help_option},
+            .examples = {"source <(capstan completion bash)", "capstan completion zsh -o ~/.zfunc/_capstan"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

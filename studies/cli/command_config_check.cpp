@@ -17,7 +17,7 @@ namespace {
 
 using reports::Data;
 
-// How much work a plan is.
+// The size of a plan.
 struct PlanSize {
     int nodes = 0;
     std::size_t scenarios = 0;
@@ -50,7 +50,7 @@ std::string counted(std::size_t count, const std::string& thing) {
     return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
-// Of all studies of a sweep; nodes and sensor sets are those of the largest.
+// The total of all studies of a sweep; nodes and sensor sets are those of the largest.
 PlanSize size_of(const std::vector<StudyPlan>& studies) {
     PlanSize total;
     for (const StudyPlan& study : studies) {
@@ -105,7 +105,7 @@ Data bench_in_json(const bench::BenchPlan& plan) {
             {"effects", effects_there(plan.effects)}};
 }
 
-// Builds the cable, which refuses what no key alone shows.
+// Builds the cable, which also checks combinations of keys.
 void check_bench(const Invocation& invocation, const std::string& file) {
     const bench::BenchPlan plan = config::read_bench(file).plan;
     const Cable cable(plan.cable);
@@ -146,16 +146,16 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command config_check_command() {
-    return {
-        .name = "config check",
-        .summary = "Check a configuration; list every problem with its line.",
-        .description =
-            "Checks a configuration of a study or a bench without running it, except for the true motion, which shows whether each instant is "
-            "in its regime (studies). Prints ok and how much work the study is, or every problem with its line and what to try.",
-        .arguments = {config_argument},
-        .options = {output_option, json_option, help_option},
-        .examples = {"capstan config check my.toml"},
-        .run = run};
+    return {.name = "config check",
+            .summary = "Check a configuration; list every problem with its line.",
+            .description =
+                "Checks the configuration of a study or a bench without running it. Of a study only the true "
+                "motion is simulated, to check that each instant is in its regime. Prints ok and the size of "
+                "the study, or every problem with its line and a suggestion.",
+            .arguments = {config_argument},
+            .options = {output_option, json_option, help_option},
+            .examples = {"capstan config check my.toml"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

@@ -21,10 +21,12 @@ Command config_default_command() {
         .name = "config default",
         .summary = "Print a complete configuration with every key explained.",
         .description =
-            "Prints a complete configuration: every key with its meaning, unit, limits and default. It runs as it is.",
+            "Prints a complete configuration: every key with its meaning, unit, limits and default. It "
+            "can be run without changes.",
         .options = {{.name = "bench",
                      .kind = OptionKind::flag,
-                     .meaning = "Of a bench, for `capstan simulate`, instead of a study."},
+                     .meaning =
+                         "Print the configuration of a bench, for `capstan simulate`, instead of a study's."},
                     output_option,
                     help_option},
         .examples = {"capstan config default -o my.toml", "capstan config default --bench -o bench.toml"},

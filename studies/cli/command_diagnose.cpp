@@ -77,7 +77,7 @@ std::vector<int> run_numbers(const std::string& listed) {
     return numbers;
 }
 
-// Its runs with these numbers, in a list as of the command line.
+// Keeps only the runs of a list such as 1,2,5.
 Recording only_runs(Recording recording, const std::string& listed) {
     std::vector<RecordedRun> runs;
     for (const int number : run_numbers(listed)) {
@@ -91,7 +91,7 @@ Recording only_runs(Recording recording, const std::string& listed) {
     return recording;
 }
 
-// A bench of known geometry, or what moves as the recorded one does.
+// The recorded bench, or an equivalent bench where the geometry is unknown.
 Recording recorded_bench(const Invocation& invocation) {
     const Recording recorded = with_estimated_noise(read_recording(invocation.argument("LOG")));
     const Recording diagnosed =
@@ -135,46 +135,47 @@ ExitCode run(const Invocation& invocation) {
 const Option runs_option{.name = "runs",
                          .kind = OptionKind::string,
                          .value = "LIST",
-                         .meaning = "Diagnose these runs only, as 4,5,6."};
+                         .meaning = "Diagnose only these runs, for example 4,5,6."};
 const Option calibrate_on_option{
     .name = "calibrate-on",
     .kind = OptionKind::string,
     .value = "LIST",
     .meaning =
-        "Runs that a drive or band of unknown geometry gets its numbers from. Default: those diagnosed."};
+        "Runs to which a drive or band of unknown geometry is calibrated. Default: the diagnosed "
+        "runs."};
 const Option keep_option{
     .name = "db",
     .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
-        "Also keep the diagnosis in this results database; `capstan query \"SELECT * FROM "
-        "v_diagnosis\"` lists them."};
+        "Also store the diagnosis in this results database; `capstan query \"SELECT * FROM "
+        "v_diagnosis\"` lists the stored diagnoses."};
 
 const Option corrected_option{
     .name = "corrected",
     .kind = OptionKind::string,
     .value = "FILE",
-    .meaning = "Write the corrected model of the cable to FILE, for capstan study run --truth."};
+    .meaning = "Write the corrected model of the cable to FILE, for `capstan study run --truth FILE`."};
 
 Command diagnose_command() {
-    return {
-        .name = "diagnose",
-        .summary = "Find which unmodelled effect makes a recording disagree with its model.",
-        .description =
-            "Moves the bench's model with the recording's driven channels, fits every effect of the catalogue, wrong "
-            "parameters and sensor faults to what is left in the other channels, and says which explains it: where it "
-            "sits, how probable each is, how far the gap shrinks, also on runs that the fit has not seen. Says `none` "
-            "where only noise is left and `unknown` where the best known cause leaves much of the gap. Where explanations "
-            "cannot be told apart it says which, and which experiment would decide. Benches are pull_pull, single_cable, or "
-            "a drive or band of unknown geometry.",
-        .arguments = {log_argument},
-        .options = {runs_option, calibrate_on_option, keep_option, corrected_option, jobs_option,
-                    output_option, format_option, json_option, page_option, progress_option, help_option},
-        .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
-                     "capstan diagnose bench.csv --html bench.html",
-                     "capstan diagnose bench.csv --db bench.db",
-                     "capstan diagnose bench.csv --corrected corrected.toml"},
-        .run = run};
+    return {.name = "diagnose",
+            .summary = "Find which unmodelled effect makes a recording disagree with its model.",
+            .description =
+                "Drives the bench's model with the recording's driven channels and fits every effect of the "
+                "catalogue, wrong parameters and sensor faults to the residuals of the other channels. Names "
+                "the most probable cause and its location, and prints the probability of each cause and how "
+                "far the gap shrinks, also on runs that the fit did not use. The verdict is `none` where "
+                "only noise remains and `unknown` where the best known cause leaves much of the gap. Where "
+                "causes cannot be distinguished, it lists them and the experiment that would distinguish "
+                "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
+            .arguments = {log_argument},
+            .options = {runs_option, calibrate_on_option, keep_option, corrected_option, jobs_option,
+                        output_option, format_option, json_option, page_option, progress_option, help_option},
+            .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
+                         "capstan diagnose bench.csv --html bench.html",
+                         "capstan diagnose bench.csv --db bench.db",
+                         "capstan diagnose bench.csv --corrected corrected.toml"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

@@ -24,13 +24,11 @@ struct Tool {
     const char* what_for;
 };
 
-// None is needed to run a study.
+// Optional: a study needs none of them.
 constexpr Tool tools[] = {
-    {"sbatch", "capstan study submit --slurm"},
-    {"sqlite3", "looking into a database by hand"},
-    {"python3", "plots of your own (pandas, matplotlib)"},
-    {"Rscript", "plots of your own"},
-    {"chromium", "opening reports; any browser does"},
+    {"sbatch", "capstan study submit --slurm"},         {"sqlite3", "inspecting a database by hand"},
+    {"python3", "custom plots (pandas, matplotlib)"},   {"Rscript", "custom plots"},
+    {"chromium", "opening reports; any browser works"},
 };
 
 struct DatabaseState {
@@ -123,15 +121,14 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command doctor_command() {
-    return {
-        .name = "doctor",
-        .summary = "Check the installation and the integrity of the database.",
-        .description =
-            "Looks at the program, the processor and the programs that some commands or plots use, reads every page of "
-            "the database and checks every reference in it. Changes nothing.",
-        .options = {database_option, output_option, json_option, help_option},
-        .examples = {"capstan doctor", "capstan doctor --db results/capstan.db --json"},
-        .run = run};
+    return {.name = "doctor",
+            .summary = "Check the installation and the integrity of the database.",
+            .description =
+                "Checks the program, the processor and the optional programs, reads every page of the "
+                "database, and checks every reference in it. Changes nothing.",
+            .options = {database_option, output_option, json_option, help_option},
+            .examples = {"capstan doctor", "capstan doctor --db results/capstan.db --json"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

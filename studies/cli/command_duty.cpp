@@ -25,34 +25,35 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command duty_command() {
-    return {
-        .name = "duty",
-        .summary = "Measure from a recording how often each motion regime occurs.",
-        .description =
-            "Moves the bench's model with the recording's driven channels and counts, sample by sample, which nodes of each "
-            "cable slide: all of them (mass), those at the proximal end, the distal end, or both, none, or a slack cable. "
-            "The fractions of the moving time are the duty cycle over which `capstan place` and `capstan recommend` average.",
-        .arguments = {log_argument},
-        .options = {{.name = "still",
-                     .kind = OptionKind::number,
-                     .value = "MM/S",
-                     .meaning = "A cable whose ends both move slower stands still.",
-                     .default_value = "0.2",
-                     .low = 0,
-                     .high = 1e6},
-                    {.name = "parameters",
-                     .kind = OptionKind::string,
-                     .value = "FILE",
-                     .meaning =
-                         "Friction, stiffness and pretension as `capstan calibrate --save` wrote them."},
-                    segments_option,
-                    jobs_option,
-                    output_option,
-                    json_option,
-                    help_option},
-        .examples = {"capstan duty bench.csv",
-                     "capstan duty bench.csv --parameters fitted.json --json -o duty.json"},
-        .run = run};
+    return {.name = "duty",
+            .summary = "Measure from a recording how often each motion regime occurs.",
+            .description =
+                "Drives the bench's model with the recording's driven channels and counts at each sample "
+                "which nodes of each cable slide: all nodes (mass), nodes at the proximal end, at the distal "
+                "end, at both ends, or none. Slack cables are counted separately. The fractions of the "
+                "moving time are the duty cycle over which `capstan place` and `capstan recommend` average.",
+            .arguments = {log_argument},
+            .options =
+                {{.name = "still",
+                  .kind = OptionKind::number,
+                  .value = "MM/S",
+                  .meaning = "A cable is at rest while both its ends move slower than this.",
+                  .default_value = "0.2",
+                  .low = 0,
+                  .high = 1e6},
+                 {.name = "parameters",
+                  .kind = OptionKind::string,
+                  .value = "FILE",
+                  .meaning =
+                      "Friction, stiffness and pretension, in a file written by `capstan calibrate --save`."},
+                 segments_option,
+                 jobs_option,
+                 output_option,
+                 json_option,
+                 help_option},
+            .examples = {"capstan duty bench.csv",
+                         "capstan duty bench.csv --parameters fitted.json --json -o duty.json"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

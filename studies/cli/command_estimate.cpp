@@ -40,7 +40,8 @@ std::vector<answers::LeftOutCable> left_out_cables(const std::vector<SensedCable
     }
     if (results.empty()) {
         throw UsageError(fmt::format(
-            "capstan estimate: no channel \"{}\" tells a tension in this recording; these do: {}; or `each`",
+            "capstan estimate: no channel \"{}\" measures a tension in this recording; these channels "
+            "do: {}; or write `each`",
             wanted, known));
     }
     return results;
@@ -56,16 +57,16 @@ std::string head_line(const std::vector<SensedCable>& cables) {
     return line + "\n";
 }
 
-void append_cable(std::string& text, const SensedCable& cable, const estimate::WholeEstimate& whole,
+void append_cable(std::string& text, const SensedCable& cable, const estimate::WholeEstimate& tuned,
                   const estimate::TrackingOptions& options) {
     auto out = std::back_inserter(text);
-    track(cable, all_but(cable, {}), whole.trust, options, [&](const TrackedSample& at) {
+    track(cable, all_but(cable, {}), tuned.trust, options, [&](const TrackedSample& at) {
         const estimate::SensedRun& run = cable.runs[at.run];
         fmt::format_to(out, "{},{},{}", run.number, run.time_s[at.sample], cable.name);
         for (std::size_t node = 0; node < at.estimator.mean_N().size(); ++node) {
             const double mean_N = at.estimator.mean_N()[node];
             const double band_N =
-                estimate::band_N({mean_N, at.estimator.deviation_N()[node]}, whole.widening);
+                estimate::band_N({mean_N, at.estimator.deviation_N()[node]}, tuned.widening);
             fmt::format_to(out, ",{:.6g},{:.4g}", mean_N, band_N);
         }
         text += "\n";
@@ -102,16 +103,16 @@ ExitCode run(const Invocation& invocation) {
         deliver_answer(invocation, answers::left_out_answer(recording, results, options, figures));
         return ExitCode::success;
     }
-    std::vector<estimate::WholeEstimate> wholes;
-    for (const SensedCable& cable : cables) wholes.push_back(prepare_whole(cable, options));
-    const reports::Answer answer = answers::estimate_answer(recording, cables, wholes, options, figures);
+    std::vector<estimate::WholeEstimate> tuned;
+    for (const SensedCable& cable : cables) tuned.push_back(prepare_whole(cable, options));
+    const reports::Answer answer = answers::estimate_answer(recording, cables, tuned, options, figures);
     deliver_page(invocation, answer);
     if (invocation.has("json")) {
         deliver(invocation, reports::answer_json(answer));
         return ExitCode::success;
     }
     std::string text = head_line(cables);
-    for (std::size_t c = 0; c < cables.size(); ++c) append_cable(text, cables[c], wholes[c], options);
+    for (std::size_t c = 0; c < cables.size(); ++c) append_cable(text, cables[c], tuned[c], options);
     deliver(invocation, text);
     return ExitCode::success;
 }
@@ -121,23 +122,25 @@ const Option leave_out_option{
     .kind = OptionKind::string,
     .value = "CHANNEL",
     .meaning =
-        "Predict this channel from all the others and compare with what it read; `each`: every one in turn."};
+        "Predict this channel from all others and compare the prediction with its readings; `each` "
+        "does this for every channel in turn."};
 
 const Option cut_option{.name = "segments",
                         .kind = OptionKind::integer,
                         .value = "N",
-                        .meaning = "Segments to a cable.",
+                        .meaning = "Segments per cable.",
                         .default_value = "40",
                         .low = 2,
                         .high = 1000};
 
-const Option members_option{.name = "members",
-                            .kind = OptionKind::integer,
-                            .value = "N",
-                            .meaning = "States that stand for what the cable may be doing: a power of two.",
-                            .default_value = "32",
-                            .low = 8,
-                            .high = 1024};
+const Option members_option{
+    .name = "members",
+    .kind = OptionKind::integer,
+    .value = "N",
+    .meaning = "Number of ensemble members that represent the possible states of the cable; a power of two.",
+    .default_value = "32",
+    .low = 8,
+    .high = 1024};
 
 }  // namespace
 
@@ -146,14 +149,17 @@ Command estimate_command() {
         .name = "estimate",
         .summary = "Estimate the tension everywhere over time from a recording's few sensors.",
         .description =
-            "Runs the recursive estimator over each run of a recording: the model is moved with the measured angles, its "
-            "previous state is its own last estimate, and every channel that tells a tension corrects it. Writes CSV: the "
-            "tension at every node of every cable that carries a sensor, and half the width of its 95% band. How far the "
-            "model is trusted is chosen by how likely it makes the readings used; the band is widened by what predicting "
-            "each channel from the others shows. With --leave-out, predicts channels that it is not shown and prints the "
-            "error, the channel's noise, how often the reading was within the 95% band, and what the model alone and the "
-            "paper's estimators, started from their own estimates, make of the same samples. With a study's configuration: simulates its whole motion and scores each of its layouts by "
-            "the mean error of this estimator and of the paper's over it (--repetitions draws of noise, 20 if not given).",
+            "Runs the recursive estimator over each run of a recording: the measured angles drive the "
+            "model from the previous estimate, and every channel that measures a tension corrects it. "
+            "Writes CSV: the tension at every node of every cable that carries a sensor, and the "
+            "half-width of its 95% band. The trust in the model is chosen by the likelihood of the "
+            "readings; the band is widened by the errors of predicting each channel from the others. "
+            "With --leave-out, predicts the named channels from all others and prints the error, the "
+            "channel's noise, how often the reading was within the 95% band, and the errors of the model "
+            "alone and of the paper's estimators, started from their own estimates, on the same samples. "
+            "With a study's configuration: simulates its complete motion and scores each of its layouts "
+            "by the mean error of this estimator and of the paper's estimators over the motion "
+            "(--repetitions draws of noise, 20 by default).",
         .arguments = {Argument{
             "LOG", "A recording (NAME.csv with NAME.json beside it), or a study's configuration (TOML)."}},
         .options = {leave_out_option, cut_option, members_option, repetitions_option, seed_option,

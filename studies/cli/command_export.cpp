@@ -44,7 +44,7 @@ std::vector<DocumentedTable> chosen_tables(const Invocation& invocation) {
     return chosen;
 }
 
-// As declared; a view's computed column says by its values.
+// The declared type; for a computed column of a view, the type of its values.
 reports::ParquetType type_of(storage::Database& database, const DocumentedTable& table,
                              const storage::DocumentedColumn& column) {
     if (column.type == "INTEGER") return reports::ParquetType::integer;
@@ -61,7 +61,7 @@ reports::ParquetType type_of(storage::Database& database, const DocumentedTable&
     return holds(1) ? reports::ParquetType::integer : reports::ParquetType::number;
 }
 
-// The rows on their way into a file, in a format.
+// Writes rows to a file in one format.
 struct RowsToFile {
     storage::RowVisitor visitor;
     std::function<void()> end;
@@ -144,28 +144,27 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command export_command() {
-    return {
-        .name = "export",
-        .summary = "Write every table and view as CSV, Parquet or JSON.",
-        .description =
-            "Writes each table and view of the database into a file of its own, in full precision: CSV for a "
-            "spreadsheet, Parquet for pandas, R or DuckDB, JSON for programs.",
-        .arguments = {{"FOLDER", "Where the files go; made if it is not there."}},
-        .options = {{.name = "format",
-                     .kind = OptionKind::string,
-                     .value = "csv|parquet|json",
-                     .meaning = "How to write.",
-                     .default_value = "csv",
-                     .choices = {"csv", "parquet", "json"}},
-                    {.name = "tables",
-                     .kind = OptionKind::string,
-                     .value = "LIST",
-                     .meaning = "Only these, as cell,v_best_method."},
-                    database_option,
-                    help_option},
-        .examples = {"capstan export tables",
-                     "capstan export tables --format parquet --tables v_error_by_layout"},
-        .run = run};
+    return {.name = "export",
+            .summary = "Write every table and view as CSV, Parquet or JSON.",
+            .description =
+                "Writes each table and view of the database to a file of its own, in full precision: CSV for "
+                "spreadsheets, Parquet for pandas, R or DuckDB, JSON for programs.",
+            .arguments = {{"FOLDER", "Folder for the files; it is created if it does not exist."}},
+            .options = {{.name = "format",
+                         .kind = OptionKind::string,
+                         .value = "csv|parquet|json",
+                         .meaning = "Format of the files.",
+                         .default_value = "csv",
+                         .choices = {"csv", "parquet", "json"}},
+                        {.name = "tables",
+                         .kind = OptionKind::string,
+                         .value = "LIST",
+                         .meaning = "Export only these tables and views, for example cell,v_best_method."},
+                        database_option,
+                        help_option},
+            .examples = {"capstan export tables",
+                         "capstan export tables --format parquet --tables v_error_by_layout"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

@@ -20,7 +20,7 @@ using gap_trial::BlindTrialHooks;
 using gap_trial::TrialFolder;
 using gap_trial::TrialOptions;
 
-// Of friction, stiffness and pretension, where --nominal-error asks for it.
+// Relative error of nominal friction, stiffness and pretension with --nominal-error.
 constexpr double nominal_error = 0.01;
 
 TrialOptions options_of(const Invocation& invocation) {
@@ -65,8 +65,9 @@ ExitCode score_again(const Invocation& invocation) {
     const gap_trial::TrialScore score = gap_trial::unseal_and_score(
         folder, folder.seal(), static_cast<int>(invocation.integer("jobs")), hooks_of(invocation));
     if (score.groups.empty())
-        throw UsageError(fmt::format("{}: no answers lie beside it; `capstan gap-trial --keep {}` gives them",
-                                     labels.string(), folder.path().string()));
+        throw UsageError(
+            fmt::format("{}: there are no answers beside it; `capstan gap-trial --keep {}` computes them",
+                        labels.string(), folder.path().string()));
     deliver_answer(invocation, answers::trial_score_answer(options, folder.seal(), score));
     return ExitCode::success;
 }
@@ -75,7 +76,7 @@ ExitCode run(const Invocation& invocation) {
     if (invocation.has("unseal")) return score_again(invocation);
     const bool only_recordings = invocation.has("generate-only");
     if (only_recordings && !invocation.has("keep"))
-        throw UsageError("--generate-only makes recordings to keep: say where with --keep DIR");
+        throw UsageError("--generate-only needs --keep DIR, the folder for the recordings");
     const TrialOptions options = options_of(invocation);
     const BlindTrialHooks hooks = hooks_of(invocation);
     const int jobs = static_cast<int>(invocation.integer("jobs"));
@@ -103,26 +104,28 @@ ExitCode run(const Invocation& invocation) {
 Command gap_trial_command() {
     return {
         .name = "gap-trial",
-        .summary = "Try the diagnosis on recordings whose cause is withheld from it, and score it.",
+        .summary = "Test the diagnosis on simulated recordings whose cause is hidden from it, and score it.",
         .description =
-            "Simulates benches as chains of masses in time, apart from the engine's own model, with an effect, a wrong "
-            "parameter, a sensor fault, two effects together, something outside the catalogue or nothing put in. Seals "
-            "the labels (their hash is printed before the first diagnosis), diagnoses each recording from its files, "
-            "unseals, and prints how often the cause was named first, among the first three or in its family, false "
-            "alarms, refusals, calibration, places, and how far the gap shrinks against what the true cause achieves. "
-            "The same options give the same recordings. With --keep a trial that was killed goes on where it was.",
+            "Simulates benches as chains of masses over time, independently of the engine's own model. "
+            "Each bench has an effect, a wrong parameter, a sensor fault, two effects together, a cause "
+            "outside the catalogue, or none of these. Seals the labels (their hash is printed before the "
+            "first diagnosis), diagnoses each recording from its files, and unseals the labels. Prints "
+            "how often the cause was named first, among the first three or in its family, the false "
+            "alarms, the refusals, the calibration of the probabilities, the errors of the places, and "
+            "how far the gap shrinks compared with the true cause. The same options give the same "
+            "recordings. With --keep, a trial that was killed continues where it stopped.",
         .options =
             {Option{.name = "cases",
                     .kind = OptionKind::integer,
                     .value = "N",
-                    .meaning = "Recordings.",
+                    .meaning = "Number of recordings.",
                     .default_value = "60",
                     .low = 1,
                     .high = 999},
              Option{.name = "seed",
                     .kind = OptionKind::integer,
                     .value = "S",
-                    .meaning = "Seed of everything that is drawn.",
+                    .meaning = "Seed of all random numbers.",
                     .default_value = "1",
                     .low = 0,
                     .high = 9e15},
@@ -131,7 +134,8 @@ Command gap_trial_command() {
                  .kind = OptionKind::string,
                  .value = "mild|strong|both",
                  .meaning =
-                     "How far effects stand out of noise and model floor: 1.5 to 3 times, 4 to 10 times, or both.",
+                     "How far the effects exceed noise and model floor: mild is 1.5 to 3 times, strong is 4 to 10 "
+                     "times.",
                  .default_value = "both",
                  .choices = {"mild", "strong", "both"}},
              Option{.name = "noise",
@@ -144,7 +148,7 @@ Command gap_trial_command() {
              Option{.name = "length",
                     .kind = OptionKind::string,
                     .value = "standard|short",
-                    .meaning = "All protocols of a bench, or only one or two.",
+                    .meaning = "standard has all protocols of a bench, short has one or two.",
                     .default_value = "standard",
                     .choices = {"standard", "short"}},
              Option{
@@ -152,26 +156,30 @@ Command gap_trial_command() {
                  .kind = OptionKind::string,
                  .value = "GROUP",
                  .meaning =
-                     "All recordings of one kind: 'none' (no gap: how often is a false alarm given?), 'one effect', "
-                     "'two effects', 'wrong parameter', 'outside the catalogue'. Default: a mix of all.",
+                     "Generate recordings of one kind only: 'none' (no gap, to measure the false-alarm rate), "
+                     "'one effect', 'two effects', 'wrong parameter', 'outside the catalogue'. Default: a mix of "
+                     "all.",
                  .choices = {"none", "one effect", "two effects", "wrong parameter",
                              "outside the catalogue"}},
              Option{.name = "nominal-error",
                     .kind = OptionKind::flag,
-                    .meaning = "Nominal friction, stiffness and pretension are each off by about 1%."},
-             Option{.name = "keep",
-                    .kind = OptionKind::string,
-                    .value = "DIR",
-                    .meaning = "Keep recordings, labels and answers there, and go on from them."},
+                    .meaning = "Nominal friction, stiffness and pretension are each wrong by about 1%."},
+             Option{
+                 .name = "keep",
+                 .kind = OptionKind::string,
+                 .value = "DIR",
+                 .meaning =
+                     "Keep recordings, labels and answers in DIR, and continue a trial that is already there."},
              Option{.name = "generate-only",
                     .kind = OptionKind::flag,
-                    .meaning = "Stop once recordings and sealed labels are in DIR."},
+                    .meaning = "Stop when the recordings and the sealed labels are in DIR."},
              Option{
                  .name = "unseal",
                  .kind = OptionKind::string,
                  .value = "FILE",
                  .meaning =
-                     "Check FILE (a kept labels.json) against its hash and score the answers beside it again."},
+                     "Check FILE (a kept labels.json) against its hash and score the stored answers beside it "
+                     "again."},
              jobs_option, output_option, json_option, progress_option, help_option},
         .examples = {"capstan gap-trial --cases 200",
                      "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",

@@ -40,9 +40,9 @@ Command man_command() {
         .name = "man",
         .summary = "Print a manual page.",
         .description =
-            "Prints the manual page of capstan, or of one command, as man(1) reads it; with --directory writes all of "
-            "them. An installed capstan has brought them along: `man capstan-study-run`.",
-        .arguments = {{"COMMAND", "As \"study run\", in quotes where it has two words.",
+            "Prints the manual page of capstan or of one command in the format of man(1); --directory "
+            "writes all pages. An installed capstan already includes them: `man capstan-study-run`.",
+        .arguments = {{"COMMAND", "The command, for example \"study run\"; a name of two words needs quotes.",
                        ArgumentNeed::optional}},
         .options = {{.name = "directory",
                      .kind = OptionKind::string,

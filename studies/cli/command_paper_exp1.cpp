@@ -32,19 +32,20 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command paper_exp1_command() {
-    return {
-        .name = "paper exp1",
-        .summary = "Repeat the paper's Exp. 1: torque ramps against a locked load.",
-        .description =
-            "Simulates the pull-pull bench of the paper's Exp. 1 with our model: the load is locked, the motor torque "
-            "ramps up and down, the pretension varies. Prints peak load torque, dead width and lost torque transfer, the "
-            "paper's numbers beside ours. Two cable settings are run, because Table I as it stands gives nothing at the "
-            "load: table_1, and reproduces with less wrap and pretension. 100 segments to a cable and 5 ms to a step: "
-            "the stiction rule depends on the length of a segment, and with fewer of them so would the numbers.",
-        .options = {trajectories_option, page_option, json_option, help_option},
-        .examples = {"capstan paper exp1", "capstan paper exp1 --html exp1.html",
-                     "capstan paper exp1 --json -o ramps.csv"},
-        .run = run};
+    return {.name = "paper exp1",
+            .summary = "Repeat the paper's Exp. 1: torque ramps against a locked load.",
+            .description =
+                "Simulates the pull-pull bench of the paper's Exp. 1 with our model: the load is locked, the "
+                "motor torque ramps up and down, and the pretension varies. Prints peak load torque, dead "
+                "width and lost torque transfer beside the paper's numbers. Two cable settings are run, "
+                "because no torque reaches the load with Table I as printed: table_1, and reproduces with "
+                "less wrap and pretension. Each cable has 100 segments and each step takes 5 ms: the "
+                "stiction rule depends on the length of a segment, so fewer segments would change the "
+                "numbers.",
+            .options = {trajectories_option, page_option, json_option, help_option},
+            .examples = {"capstan paper exp1", "capstan paper exp1 --html exp1.html",
+                         "capstan paper exp1 --json -o ramps.csv"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

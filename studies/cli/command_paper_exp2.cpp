@@ -103,8 +103,8 @@ const Option viscous_drag_option{
     .kind = OptionKind::number,
     .value = "DRAG",
     .meaning =
-        "Viscous friction of the simulated bench, N s/m2 of conduit. The default leaves the model without it the paper's "
-        "residual of 264 mN m.",
+        "Viscous friction of the simulated bench, in N s/m2 of conduit. With the default, the model "
+        "without viscous friction leaves the paper's residual of 264 mN m.",
     .default_value = "4",
     .low = 0.1,
     .high = 100};
@@ -114,8 +114,8 @@ const Option remainder_option{
     .kind = OptionKind::number,
     .value = "PART",
     .meaning =
-        "What the simulated bench of Fig. 6 has beyond viscous friction, in parts of what leaves half of the residual: 0 is "
-        "nothing.",
+        "Size of the simulated bench's effects beyond viscous friction (Fig. 6), relative to the "
+        "size at which they cause half of the residual; 0 removes them.",
     .default_value = "1",
     .low = 0.0,
     .high = 10.0};
@@ -125,7 +125,8 @@ const Option recording_option{
     .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
-        "Also write the simulated bench of Fig. 6 as a recording, FILE.csv with its sidecar, for capstan diagnose."};
+        "Also write the simulated bench of Fig. 6 to FILE (CSV) as a recording with its sidecar, for "
+        "`capstan diagnose`."};
 
 }  // namespace
 
@@ -134,13 +135,15 @@ Command paper_exp2_command() {
         .name = "paper exp2",
         .summary = "Repeat the paper's Exp. 2: an error-reduction tunnel under a moving hand.",
         .description =
-            "Simulates the pull-pull bench of the paper's Exp. 2 with our model: a hand moves the handle about 40 deg "
-            "peak to peak (three sines; the paper does not print its participant's motion), and the motor torque follows "
-            "from the load angle by the paper's (7), a spring outside +-0.05 rad that ends at 0.2 N m. Prints peak load "
-            "torque and the loop that friction makes of the tunnel, beside the ideal transmission and the paper's "
-            "numbers. Both cable settings of `capstan paper exp1`, 100 segments to a cable, 5 ms to a step. Then the paper's "
-            "Fig. 6: what a viscous friction term takes of the residual, on a bench that is simulated too, with viscous "
-            "friction, noise and a remainder that no model has.",
+            "Simulates the pull-pull bench of the paper's Exp. 2 with our model. A hand moves the handle "
+            "by about 40 deg peak to peak (three sines; the paper does not print its participant's "
+            "motion). The motor torque follows from the load angle by the paper's (7), a spring outside "
+            "+-0.05 rad that is limited to 0.2 N m. Prints the peak load torque and the hysteresis that "
+            "friction adds to the tunnel, beside the ideal transmission and the paper's numbers. Both "
+            "cable settings of `capstan paper exp1` are run, with 100 segments per cable and steps of 5 "
+            "ms. Then repeats the paper's Fig. 6: how much of the residual a viscous friction term "
+            "explains, on a simulated bench with viscous friction, noise and a remainder that no model "
+            "contains.",
         .options = {viscous_drag_option, remainder_option, recording_option, trajectories_option, page_option,
                     json_option, help_option},
         .examples = {"capstan paper exp2", "capstan paper exp2 --html exp2.html",

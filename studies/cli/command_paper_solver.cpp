@@ -21,28 +21,27 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command paper_solver_command() {
-    return {
-        .name = "paper solver",
-        .summary = "Repeat the paper's comparison of solvers (Sec. III.B, Fig. 7).",
-        .description =
-            "Checks the closed-form step against a generic root finder on the same equations, step by step: fraction of steps "
-            "in which the root finder converges and largest difference of tension, in mass, partial, mono- and "
-            "bidirectional motion, 1 to 60 segments. Then rates against the number of segments, beside what the paper "
-            "says of its own.",
-        .options = {{.name = "seconds",
-                     .kind = OptionKind::number,
-                     .value = "S",
-                     .meaning = "Time for each solver and number of segments.",
-                     .default_value = "0.1",
-                     .low = 0.01,
-                     .high = 60},
-                    output_option,
-                    page_option,
-                    json_option,
-                    help_option},
-        .examples = {"capstan paper solver", "capstan paper solver --html solver.html",
-                     "capstan paper solver --json -o solver.json"},
-        .run = run};
+    return {.name = "paper solver",
+            .summary = "Repeat the paper's comparison of solvers (Sec. III.B, Fig. 7).",
+            .description =
+                "Compares the closed-form step with a generic root finder on the same equations, step by "
+                "step: the fraction of steps in which the root finder converges and the largest difference "
+                "of tension, in mass, partial, mono- and bidirectional motion with 1 to 60 segments. Then "
+                "prints steps per second against the number of segments, beside the paper's figures.",
+            .options = {{.name = "seconds",
+                         .kind = OptionKind::number,
+                         .value = "S",
+                         .meaning = "Time per solver and number of segments.",
+                         .default_value = "0.1",
+                         .low = 0.01,
+                         .high = 60},
+                        output_option,
+                        page_option,
+                        json_option,
+                        help_option},
+            .examples = {"capstan paper solver", "capstan paper solver --html solver.html",
+                         "capstan paper solver --json -o solver.json"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

@@ -17,7 +17,7 @@ namespace capstan::cli {
 
 namespace {
 
-// Duty shares out of a recording, in place of the configuration's.
+// Replaces the configuration's duty fractions by those of a recording.
 void take_duty(const Invocation& invocation, StudyPlan& plan) {
     duty::DutyOptions options;
     options.jobs = static_cast<int>(invocation.integer("jobs"));
@@ -66,18 +66,19 @@ Command place_command() {
         .name = "place",
         .summary = "Search all layouts for the best ones, under constraints.",
         .description =
-            "Scores every set of nodes with every fusion method of CONFIG on the same draws, and says for each number of "
-            "sensors which nodes are best, what error they leave, and how far the paper's families, greedy choices and the "
-            "D-optimal one are from it: in each motion regime, to be safe in every regime, and over the duty cycle. The "
-            "best of many looks better than it is, so its error is estimated again on independent draws. The section "
-            "[placement] of CONFIG says what is allowed and which error counts.",
+            "Scores every set of nodes with every fusion method of CONFIG on the same draws. For each "
+            "number of sensors, prints the best nodes, their expected error, and how much worse the "
+            "paper's families, the greedy choice and the D-optimal layout are: in each motion regime, "
+            "across all regimes (minimax regret), and over the duty cycle. The draws of the search are "
+            "optimistic about the best of many layouts, so its error is re-estimated on independent "
+            "draws. The section [placement] of CONFIG gives the constraints and the error to minimise.",
         .arguments = {config_argument},
         .options =
             {noise_option,
              {.name = "runners-up",
               .kind = OptionKind::integer,
               .value = "N",
-              .meaning = "How many of the next best layouts --json lists.",
+              .meaning = "How many runners-up --json lists.",
               .default_value = "3",
               .low = 0,
               .high = 1000},
@@ -90,8 +91,8 @@ Command place_command() {
               .kind = OptionKind::number,
               .value = "N",
               .meaning =
-                  "Draw more repetitions until, with 95 % certainty, no layout is better than the best of its count by more "
-                  "than this, in newtons.",
+                  "Draw more repetitions until, with 95 % certainty, no layout is better than the best of its "
+                  "count by more than N newtons.",
               .low = 1e-6,
               .high = 1e6},
              seed_option,

@@ -38,12 +38,13 @@ ExitCode run(const Invocation& invocation) {
     }
     if (!invocation.has_argument("SQL")) {
         throw UsageError(
-            "capstan query: SQL is missing, as \"SELECT * FROM v_progress\"; `capstan query --schema` shows "
-            "the tables");
+            "capstan query: SQL is missing, for example \"SELECT * FROM v_progress\"; `capstan query "
+            "--schema` shows the tables");
     }
     const std::string format = invocation.has("json") ? "json" : invocation.text("format");
     if (format == "md")
-        throw UsageError("capstan query: --format md is for --schema; rows come as table, csv or json");
+        throw UsageError(
+            "capstan query: --format md is for --schema; rows are printed as table, csv or json");
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     deliver(invocation, formatted(answer(database, invocation.argument("SQL")), format));
     return ExitCode::success;
@@ -52,32 +53,31 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command query_command() {
-    return {
-        .name = "query",
-        .summary = "Ask the database in SQL; it can only be read.",
-        .description =
-            "Runs one SELECT on the results and prints the rows. The views v_error_by_layout, v_best_method, "
-            "v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer the usual questions; --schema explains "
-            "every table, column and unit. Nothing can be changed, and after ten seconds a query is stopped.",
-        .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
-        .options =
-            {{.name = "format",
-              .kind = OptionKind::string,
-              .value = "table|csv|json|md",
-              .meaning =
-                  "How to print; csv and json in full precision; md is for --schema, as tables in words.",
-              .default_value = "table",
-              .choices = {"table", "csv", "json", "md"}},
-             {.name = "schema",
-              .kind = OptionKind::flag,
-              .meaning = "Print all tables and views, with comments, instead."},
-             database_option,
-             output_option,
-             {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
-             help_option},
-        .examples = {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
-                     "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
-        .run = run};
+    return {.name = "query",
+            .summary = "Run a read-only SQL query on the database.",
+            .description =
+                "Runs one SELECT on the results database and prints the rows. The views v_error_by_layout, "
+                "v_best_method, v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer "
+                "the usual questions; --schema explains every table, column and unit. A query cannot change "
+                "anything and is stopped after ten seconds.",
+            .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
+            .options = {{.name = "format",
+                         .kind = OptionKind::string,
+                         .value = "table|csv|json|md",
+                         .meaning =
+                             "Format of the rows; csv and json have full precision. md is only for --schema.",
+                         .default_value = "table",
+                         .choices = {"table", "csv", "json", "md"}},
+                        {.name = "schema",
+                         .kind = OptionKind::flag,
+                         .meaning = "Print all tables and views with their comments instead."},
+                        database_option,
+                        output_option,
+                        {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
+                        help_option},
+            .examples = {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
+                         "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

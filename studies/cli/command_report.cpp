@@ -69,11 +69,12 @@ ExitCode run(const Invocation& invocation) {
     const std::string& file = invocation.text("output");
     if (invocation.has("diagnosis") && invocation.has("compare"))
         throw UsageError(
-            "capstan report: --diagnosis reports on a recording, --compare on two studies; name one of them");
+            "capstan report: --diagnosis reports on a recording, --compare on two studies; give only one "
+            "of them");
     if (format == AnswerFormat::html && file == "-" && ::isatty(STDOUT_FILENO) == 1) {
         throw UsageError(
-            "capstan report: a terminal cannot show a page of HTML; name a file with -o report.html, or read the "
-            "report here with --format md");
+            "capstan report: a terminal cannot show an HTML page; name a file with -o report.html, or "
+            "read the report here with --format md");
     }
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     deliver(invocation, chosen_report(invocation, database, format));
@@ -88,25 +89,26 @@ Command report_command() {
         .name = "report",
         .summary = "Write a report: one HTML page, Markdown, CSV or JSON.",
         .description =
-            "Writes a study's report. The HTML page holds everything and needs no network: the recommendation first, "
-            "then the figures and the data behind them. Markdown is for reading in a terminal, CSV is the error of every "
-            "layout, count and method, JSON is every table. The same for a stored diagnosis: CSV has a line for every number, "
-            "JSON is the answer of capstan diagnose --json.",
+            "Writes a study's report. The HTML page is self-contained and needs no network: it shows the "
+            "recommendation first, then the figures and their data. Markdown can be read in a terminal, "
+            "CSV has the error of every layout, count and method, and JSON has every table. Reports on a "
+            "stored diagnosis have the same formats: CSV has one line per number, and JSON is the answer "
+            "of `capstan diagnose --json`.",
         .arguments = {study_argument},
         .options = {{.name = "format",
                      .kind = OptionKind::string,
                      .value = "html|md|csv|json",
-                     .meaning = "Default: as FILE ends, else html.",
+                     .meaning = "Default: by the extension of FILE, otherwise html.",
                      .choices = {"html", "md", "csv", "json"}},
                     {.name = "compare",
                      .kind = OptionKind::string,
                      .value = "OTHER",
-                     .meaning = "Report on OTHER and STUDY beside each other: settings, advice, errors."},
+                     .meaning = "Compare OTHER and STUDY: settings, recommendations, errors."},
                     {.name = "diagnosis",
                      .kind = OptionKind::string,
                      .value = "NUMBER",
                      .meaning =
-                         "Report on a diagnosis that `capstan diagnose --db` kept: its number, or latest."},
+                         "Report on a diagnosis stored by `capstan diagnose --db`: its number, or latest."},
                     database_option,
                     output_option,
                     {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},

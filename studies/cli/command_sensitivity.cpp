@@ -27,35 +27,35 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command sensitivity_command() {
-    return {
-        .name = "sensitivity",
-        .summary = "Ask which uncertain parameter would change the advice, and at what value.",
-        .description =
-            "Friction, curvature, stiffness, pretension and noise are never known exactly. For one number of sensors "
-            "this says how much each of them, within the range that [sensitivity] of CONFIG gives it, changes what "
-            "the best layout is worth (a Morris screening of all at once), how much the advice at the configured "
-            "values then loses against the best layout there, and at what value of each parameter alone another "
-            "layout becomes better. All sets of parameters share their draws; an instant that leaves its motion "
-            "regime is replaced by the nearest sample that is in it.",
-        .arguments = {config_argument},
-        .options = {noise_option,
-                    {.name = "sensors",
-                     .kind = OptionKind::integer,
-                     .value = "N",
-                     .meaning =
-                         "The number of sensors that the advice is for, instead of the configuration's.",
-                     .low = 1,
-                     .high = 64},
-                    seed_option,
-                    jobs_option,
-                    output_option,
-                    page_option,
-                    json_option,
-                    help_option},
-        .examples = {"capstan sensitivity configs/paper.toml",
-                     "capstan sensitivity my.toml --sensors 2 --html advice.html",
-                     "capstan sensitivity my.toml --json | jq '.parameters[] | {name, flips_above}'"},
-        .run = run};
+    return {.name = "sensitivity",
+            .summary = "Find which uncertain parameter would change the advice, and at what value.",
+            .description =
+                "Friction, curvature, stiffness, pretension and noise are never known exactly. For one "
+                "number of sensors, this varies each of them within the range that [sensitivity] of CONFIG "
+                "gives it. It prints how strongly each parameter affects the error of the best layout (a "
+                "Morris screening of all parameters at once), how much worse the advice at the configured "
+                "values then is than the best layout, and the value of each parameter alone at which another "
+                "layout becomes better. All sets of parameters share their draws. An instant that leaves its "
+                "motion regime is replaced by the nearest sample in that regime.",
+            .arguments = {config_argument},
+            .options = {noise_option,
+                        {.name = "sensors",
+                         .kind = OptionKind::integer,
+                         .value = "N",
+                         .meaning =
+                             "The number of sensors that the advice is for, instead of the configuration's.",
+                         .low = 1,
+                         .high = 64},
+                        seed_option,
+                        jobs_option,
+                        output_option,
+                        page_option,
+                        json_option,
+                        help_option},
+            .examples = {"capstan sensitivity configs/paper.toml",
+                         "capstan sensitivity my.toml --sensors 2 --html advice.html",
+                         "capstan sensitivity my.toml --json | jq '.parameters[] | {name, flips_above}'"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

@@ -22,7 +22,7 @@ std::string random_token() {
     std::ifstream random("/dev/urandom", std::ios::binary);
     unsigned char bytes[16] = {};
     if (!random.read(reinterpret_cast<char*>(bytes), sizeof bytes))
-        throw std::runtime_error("the system gives no random numbers for a token; name a --token-file");
+        throw std::runtime_error("cannot read random numbers for a token; give a --token-file");
     std::string token;
     for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
     return token;
@@ -64,7 +64,7 @@ service::ServiceOptions options_of(const Invocation& invocation) {
 }
 
 ExitCode run(const Invocation& invocation) {
-    { storage::Database::open_or_create(invocation.text("db")); }  // there, and of this program's schema
+    { storage::Database::open_or_create(invocation.text("db")); }  // creates or checks the file
     const service::ServiceOptions options = options_of(invocation);
     service::Service service(options);
     const bool anywhere = options.access.host == "0.0.0.0" || options.access.host == "::";
@@ -72,11 +72,11 @@ ExitCode run(const Invocation& invocation) {
     const std::string token = options.access.token.empty() ? "" : "?token=" + options.access.token;
     const StopRequest stoppable;
     say(fmt::format(
-        "capstan serves {} at http://{}:{}/{}\nCtrl-C ends it; a study under way goes on at the next start.",
+        "capstan serves {} at http://{}:{}/{}\nCtrl-C stops it; a running study continues at the next start.",
         invocation.text("db"), host, service.port(), token));
 
     std::future<void> running = std::async(std::launch::async, [&] { service.run(); });
-    // Signals come to this thread, which waits for nothing else.
+    // This thread receives the signals and waits for nothing else.
     bool stopped = false;
     while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
         if (StopRequest::flag()->load() && !stopped) stopped = service.stop();
@@ -92,18 +92,19 @@ Command serve_command() {
         .name = "serve",
         .summary = "Serve a database to a browser: studies, reports, diagnoses, SQL.",
         .description =
-            "Starts a small web service for a workstation or a lab. Its pages run studies one after the other and show how "
-            "far they are, plot their reports with filters, place sensors by hand on the cable, diagnose recordings that "
-            "are uploaded, and answer SQL; /openapi.json describes the same for programs. Jobs are kept beside the "
-            "database (FILE.jobs) and survive a restart, even a kill: the tables end with the same bits. It listens on "
-            "this machine only, unless --host says otherwise, and then every request needs a token.",
+            "Starts a small web service for a workstation or a lab. Its pages run studies one after the "
+            "other and show their progress, plot their reports with filters, score layouts that a user "
+            "draws on the cable, diagnose uploaded recordings, and run SQL queries; /openapi.json "
+            "describes the same functions for programs. Jobs are stored beside the database (FILE.jobs) "
+            "and survive a restart or a kill: the tables end with the same bits. The service listens on "
+            "this machine only unless --host is given; then every request needs a token.",
         .options =
             {database_option,
              {.name = "port",
               .letter = 'p',
               .kind = OptionKind::integer,
               .value = "N",
-              .meaning = "Port; 0 takes a free one.",
+              .meaning = "Port to listen on; 0 takes a free port.",
               .default_value = "8321",
               .low = 0,
               .high = 65535},
@@ -111,21 +112,23 @@ Command serve_command() {
               .kind = OptionKind::string,
               .value = "ADDRESS",
               .meaning =
-                  "Address to listen on; any but this machine's own demands a token, which is printed.",
+                  "Address to listen on. Any address other than this machine's own requires a token, which is "
+                  "printed.",
               .default_value = "127.0.0.1"},
              {.name = "token-file",
               .kind = OptionKind::string,
               .value = "FILE",
               .meaning =
-                  "Every request needs the token in the first line of FILE, of at least 16 letters and digits."},
+                  "Require the token in the first line of FILE with every request; it has at least 16 letters "
+                  "and digits."},
              {.name = "configs",
               .kind = OptionKind::string,
               .value = "FOLDER",
-              .meaning = "Configurations in FOLDER may be started by their name."},
+              .meaning = "Folder of configurations that users can start by name."},
              {.name = "query-limit",
               .kind = OptionKind::number,
               .value = "SECONDS",
-              .meaning = "Stop a query after this long.",
+              .meaning = "Stop a query after this time.",
               .default_value = "5",
               .low = 0.01,
               .high = 600},

@@ -67,7 +67,7 @@ ExitCode simulate_bench_file(const Invocation& invocation) {
 
 using gap::TwinRun;
 
-// What a run was driven by and what the model says to it, channel by channel.
+// The inputs of a run and the model's prediction, channel by channel.
 std::vector<std::vector<double>> fed_and_predicted(const Recording& recording, std::size_t run,
                                                    const TwinRun& twin) {
     DrivenInputs inputs = driven_inputs(recording, recording.runs[run]);
@@ -163,11 +163,11 @@ const Option parameters_option{
     .name = "parameters",
     .kind = OptionKind::string,
     .value = "FILE",
-    .meaning = "Recordings only: the model's parameters, as `capstan calibrate --save` wrote them."};
+    .meaning = "Recordings only: the model's parameters, in a file written by `capstan calibrate --save`."};
 
 const Option tensions_option{.name = "tensions",
                              .kind = OptionKind::flag,
-                             .meaning = "Benches only: also the tension of every node of both cables."};
+                             .meaning = "Benches only: also write the tension at every node of both cables."};
 
 }  // namespace
 
@@ -176,15 +176,18 @@ Command simulate_command() {
         .name = "simulate",
         .summary = "Simulate a study's motion, a bench, or a recording's model, as CSV.",
         .description =
-            "With a study's configuration: simulates the motion that it describes and writes one line per sample: time, kind of "
-            "motion, the study regime it belongs to, how many nodes move from each end (the last-moving nodes k and k' of "
-            "the paper, each counted from its own end) and which way (1 towards the load, -1 towards the motor), whether "
-            "the pattern passed the model's own check, tension and displacement of every node. Use it to find instants for "
-            "[[regime]]. With a bench's configuration (`capstan config default --bench`): simulates two cables between pulleys "
-            "and writes time, torque and angle of motor and load, whether the step was solved, and the least tension in "
-            "each cable (0: slack); --html draws them, with the tension along the cables. With a recording (NAME.csv and NAME.json): moves the bench's model with the recording's driven "
-            "channels and writes, in the recording's own form, what it was fed (freed of noise) and what it says that the "
-            "other channels should have measured; --html draws that over what they did measure.",
+            "With a study's configuration: simulates its motion and writes one line per sample: time, "
+            "kind of motion, motion regime, how many nodes move from each end (the last-moving nodes k "
+            "and k' of the paper, each counted from its own end) and in which direction (1 towards the "
+            "load, -1 towards the motor), whether the pattern passed the model's own check, and tension "
+            "and displacement of every node. Use it to find instants for [[regime]]. With a bench's "
+            "configuration (`capstan config default --bench`): simulates two cables between pulleys and "
+            "writes time, torque and angle of motor and load, whether the step was solved, and the "
+            "minimum tension in each cable (0: slack); --html plots them with the tension along the "
+            "cables. With a recording (NAME.csv and NAME.json): drives the bench's model with the "
+            "recording's driven channels and writes, in the format of the recording, the inputs (with "
+            "the noise removed) and the model's prediction of the other channels; --html plots the "
+            "prediction over the measurement.",
         .arguments = {Argument{"CONFIG",
                                "A study or a bench (TOML), or a recording (CSV with its JSON sidecar)."}},
         .options = {parameters_option, segments_option, tensions_option, output_option, page_option,

@@ -21,15 +21,15 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command study_delete_command() {
-    return {
-        .name = "study delete",
-        .summary = "Delete a study and everything that belongs to it.",
-        .description =
-            "Deletes a study and everything that belongs to it, at once and for good. The study must be named.",
-        .arguments = {{"STUDY", "Its number, its name (the last one begun under it), or latest."}},
-        .options = {database_option, help_option},
-        .examples = {"capstan study delete 3"},
-        .run = run};
+    return {.name = "study delete",
+            .summary = "Delete a study and everything that belongs to it.",
+            .description =
+                "Deletes a study and everything that belongs to it. This cannot be undone. The study must be "
+                "named.",
+            .arguments = {{"STUDY", "Its number, its name (the newest study of that name), or latest."}},
+            .options = {database_option, help_option},
+            .examples = {"capstan study delete 3"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

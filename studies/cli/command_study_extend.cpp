@@ -18,7 +18,8 @@ namespace capstan::cli {
 
 namespace {
 
-// A name, or `latest`, finds an extension that was killed; what is to be extended is the study before it.
+// A name or `latest` may find an extension that was killed; the study to extend is the complete one before
+// it.
 StudyToExtend study_to_extend(const Invocation& invocation, storage::Database& database) {
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     const StoredStudy stored = load_stored_study(database, id);
@@ -34,7 +35,7 @@ StudyToExtend study_to_extend(const Invocation& invocation, storage::Database& d
     }
     throw UsageError(fmt::format(
         "study {} ({}) is not complete, so there is nothing to extend yet. `capstan study resume {} --db {}` "
-        "ends it.",
+        "completes it.",
         id, study.name, id, invocation.text("db")));
 }
 
@@ -45,8 +46,8 @@ std::string words_of(const Invocation& invocation, const StudyToExtend& study,
         return "Stopped; every finished unit is kept. The same command goes on.";
     std::string words;
     if (outcome.run.study_id == study.study_id) {
-        words =
-            fmt::format("Study {} has enough with its {} repetitions.", study.study_id, outcome.repetitions);
+        words = fmt::format("Study {} needs no more than its {} repetitions.", study.study_id,
+                            outcome.repetitions);
     } else {
         words =
             fmt::format("Study {} ({}) has {} repetitions and is complete in {}; study {} is still there.",
@@ -55,7 +56,7 @@ std::string words_of(const Invocation& invocation, const StudyToExtend& study,
     if (outcome.unresolved_N) {
         const bool resolved = *outcome.unresolved_N <= invocation.number("until-resolved");
         words += fmt::format(
-            " With 95 % certainty no choice is better than the best of its count by more than "
+            " With 95 % certainty no layout is better than the best of its count by more than "
             "{:.4f} N{}.",
             *outcome.unresolved_N,
             resolved ? "" : ", which is not within the tolerance; --max-repetitions stopped it");
@@ -66,8 +67,8 @@ std::string words_of(const Invocation& invocation, const StudyToExtend& study,
 ExitCode run(const Invocation& invocation) {
     if (invocation.has("repetitions") == invocation.has("until-resolved")) {
         throw UsageError(
-            "capstan study extend: give one of --repetitions (how many the study is to have) and "
-            "--until-resolved (how much better, in newtons, another choice may still be)");
+            "capstan study extend: give either --repetitions (the total number of repetitions) or "
+            "--until-resolved (the tolerance in newtons)");
     }
     storage::Database database = storage::Database::open_existing(invocation.text("db"));
     refuse_shard_file(database);
@@ -83,7 +84,7 @@ ExitCode run(const Invocation& invocation) {
             resolution.max_repetitions = static_cast<int>(invocation.integer("max-repetitions"));
             if (invocation.text("progress") == "auto") {
                 resolution.on_look = [](int repetitions, double unresolved_N) {
-                    say(fmt::format("{} repetitions: some choice may still be better by {:.4f} N",
+                    say(fmt::format("{} repetitions: another layout may still be better by up to {:.4f} N",
                                     repetitions, unresolved_N));
                 };
             }
@@ -104,39 +105,39 @@ Command study_extend_command() {
         {.name = "repetitions",
          .kind = OptionKind::integer,
          .value = "N",
-         .meaning = "How many repetitions the study is to have in all.",
+         .meaning = "Total number of repetitions of the extended study.",
          .low = 2,
          .high = 1e7},
         {.name = "until-resolved",
          .kind = OptionKind::number,
          .value = "TOLERANCE",
          .meaning =
-             "Double the repetitions until, with 95 % certainty, no choice is better than the best of its count by more "
-             "than this, in newtons: at every noise level, question and number of sensors.",
+             "Double the repetitions until, with 95 % certainty, no layout is better than the best of its "
+             "count by more than TOLERANCE newtons, at every noise level, objective and number of sensors.",
          .low = 1e-6,
          .high = 1e6},
         {.name = "max-repetitions",
          .kind = OptionKind::integer,
          .value = "N",
-         .meaning = "Where --until-resolved stops in any case.",
+         .meaning = "Largest number of repetitions with --until-resolved.",
          .default_value = "128000",
          .low = 2,
          .high = 1e7}};
     options.insert(options.begin() + 1, own.begin(), own.end());
-    return {
-        .name = "study extend",
-        .summary = "Give a stored study more repetitions.",
-        .description =
-            "Runs a stored study with more repetitions, from the configuration stored with it. The larger study has "
-            "the draws of the smaller one and more; it stands beside it under the same name, with the same bits as "
-            "one run with that number from the start. Sums, quantiles and the weights of the W methods are of all "
-            "repetitions, so all are worked out again. Killed or stopped, the same command goes on.",
-        .arguments = {study_argument},
-        .options = std::move(options),
-        .examples = {"capstan study extend --repetitions 8000",
-                     "capstan study extend paper --until-resolved 0.002"},
-        .run = run,
-        .can_be_stopped = true};
+    return {.name = "study extend",
+            .summary = "Give a stored study more repetitions.",
+            .description =
+                "Runs a stored study with more repetitions, from the configuration stored with it. The "
+                "larger study contains the draws of the smaller one. It is stored beside it under the same "
+                "name, with the same bits as a run with that number of repetitions from the start. Sums, "
+                "quantiles and the weights of the W methods use all repetitions, so all results are computed "
+                "again. If the command is killed or stopped, running it again continues the study.",
+            .arguments = {study_argument},
+            .options = std::move(options),
+            .examples = {"capstan study extend --repetitions 8000",
+                         "capstan study extend paper --until-resolved 0.002"},
+            .run = run,
+            .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

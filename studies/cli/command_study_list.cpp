@@ -20,7 +20,8 @@ ExitCode run(const Invocation& invocation) {
                               std::int64_t{study.units}});
     }
     if (table.rows.empty() && !json) {
-        say(fmt::format("{} holds no study; `capstan study run CONFIG` makes one.", invocation.text("db")));
+        say(fmt::format("{} has no study yet; `capstan study run CONFIG` creates one.",
+                        invocation.text("db")));
     }
     deliver(invocation, json ? answers::rows_json(table) : answers::rows_text(table));
     return ExitCode::success;
@@ -31,7 +32,7 @@ ExitCode run(const Invocation& invocation) {
 Command study_list_command() {
     return {.name = "study list",
             .summary = "List the studies of a database.",
-            .description = "Lists the studies of a database, oldest first, with how far each has come.",
+            .description = "Lists the studies of a database, oldest first, with the progress of each.",
             .options = {database_option, output_option, json_option, help_option},
             .examples = {"capstan study list"},
             .run = run};

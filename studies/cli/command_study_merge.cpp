@@ -17,7 +17,7 @@ ExitCode run(const Invocation& invocation) {
         const RunEnd end = merge_shards(file, shards, options);
         const std::string words =
             end == RunEnd::complete
-                ? fmt::format("Merged {} into {}; `capstan recommend --db {}` says what follows.",
+                ? fmt::format("Merged {} into {}; `capstan recommend --db {}` shows the recommendation.",
                               shards.size() == 1 ? "1 shard" : fmt::format("{} shards", shards.size()), file,
                               file)
                 : "Stopped; nothing was written, and the shards are as they were.";
@@ -28,25 +28,25 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command study_merge_command() {
-    return {
-        .name = "study merge",
-        .summary = "Join the shards of a study.",
-        .description =
-            "Joins the files that `capstan study run --shard` wrote into a new database, draws the conclusions, and has the "
-            "same bits in every table as one run. Every shard must be there once, finished, and of the same study; "
-            "otherwise nothing is written and every shard that is missing, doubled, foreign or unfinished is named.",
-        .arguments = {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
-        .options = {{.name = "db",
-                     .kind = OptionKind::string,
-                     .value = "FILE",
-                     .meaning = "The new database; it appears complete or not at all.",
-                     .default_value = "capstan.db"},
-                    jobs_option,
-                    progress_option,
-                    help_option},
-        .examples = {"capstan study merge --db atlas.db shard-*.db"},
-        .run = run,
-        .can_be_stopped = true};
+    return {.name = "study merge",
+            .summary = "Join the shards of a study.",
+            .description =
+                "Joins the files written by `capstan study run --shard` into a new database and computes the "
+                "recommendations. Every table has the same bits as after one run. Every shard must be given "
+                "once, be finished, and belong to the same study. Otherwise nothing is written, and every "
+                "missing, repeated, foreign or unfinished shard is named.",
+            .arguments = {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
+            .options = {{.name = "db",
+                         .kind = OptionKind::string,
+                         .value = "FILE",
+                         .meaning = "The new database; it is written completely or not at all.",
+                         .default_value = "capstan.db"},
+                        jobs_option,
+                        progress_option,
+                        help_option},
+            .examples = {"capstan study merge --db atlas.db shard-*.db"},
+            .run = run,
+            .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

@@ -12,7 +12,7 @@ namespace capstan::cli {
 
 namespace {
 
-// A shard of a few minutes: short enough to lose, long enough to start.
+// Shards of a few minutes: a failed one costs little, and the start of one takes little of its time.
 int sensible_shards(const StudyCost& cost) {
     constexpr double shard_s = 300.0;
     return std::clamp(static_cast<int>(cost.processor_s / shard_s), 1, cost.parts);
@@ -34,24 +34,26 @@ ExitCode run(const Invocation& invocation) {
 Command study_plan_command() {
     return {
         .name = "study plan",
-        .summary = "Say what a study will cost before it is run.",
+        .summary = "Estimate the run time of a study before it starts.",
         .description =
-            "Counts the work of CONFIG and predicts its processor time on this machine, alone and in shards, and how wide "
-            "its intervals will be, from a pilot: some of its parts on one processor with few repetitions. Storing is "
-            "not counted. Nothing is written.",
+            "Counts the work of CONFIG and predicts its processor time on this machine, alone and in "
+            "shards, and the width of its intervals. The prediction uses a pilot: some parts of the "
+            "study on one processor with few repetitions. The time to store results is not included. "
+            "Nothing is written.",
         .arguments = {config_argument},
         .options =
             {{.name = "shards",
               .kind = OptionKind::integer,
               .value = "N",
-              .meaning = "Shards to predict for; left out, as many as take about five minutes each.",
+              .meaning = "Number of shards to predict for. Default: shards of about five minutes each.",
               .low = 1,
               .high = 1e6},
              {.name = "seconds",
               .kind = OptionKind::number,
               .value = "S",
               .meaning =
-                  "Processor time of the pilot; more makes it surer. At least one part of each cable length is timed.",
+                  "Processor time of the pilot; more time gives a better prediction. At least one part of each "
+                  "cable length is timed.",
               .default_value = "5",
               .low = 0,
               .high = 1e5},

@@ -13,7 +13,7 @@ namespace capstan::cli {
 
 namespace {
 
-// One of the addresses, from 1; a UsageError says what the study has.
+// The number given with an option, from 1, as an index; a UsageError states the valid range.
 int position(const Invocation& invocation, std::string_view option, std::size_t count) {
     const std::int64_t given = invocation.integer(option);
     if (given > static_cast<std::int64_t>(count)) {
@@ -44,42 +44,42 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command study_replay_command() {
-    constexpr double most = 1e9;
-    return {
-        .name = "study replay",
-        .summary = "Look at one repetition of a study: readings, estimates, errors.",
-        .description =
-            "Draws one repetition again, alone, as it ran in the study: the same readings, the same estimates. "
-            "Instants, noise levels and repetitions count from 1, as `capstan study show` lists them.",
-        .arguments = {study_argument},
-        .options = {{.name = "scenario",
-                     .kind = OptionKind::integer,
-                     .value = "N",
-                     .meaning = "Which instant.",
-                     .default_value = "1",
-                     .low = 1,
-                     .high = most},
-                    {.name = "noise",
-                     .kind = OptionKind::integer,
-                     .value = "N",
-                     .meaning = "Which noise level.",
-                     .default_value = "1",
-                     .low = 1,
-                     .high = most},
-                    {.name = "repetition",
-                     .kind = OptionKind::integer,
-                     .value = "N",
-                     .meaning = "Which repetition.",
-                     .default_value = "1",
-                     .low = 1,
-                     .high = most},
-                    database_option,
-                    jobs_option,
-                    output_option,
-                    json_option,
-                    help_option},
-        .examples = {"capstan study replay --scenario 2 --repetition 17"},
-        .run = run};
+    constexpr double max_number = 1e9;
+    return {.name = "study replay",
+            .summary = "Re-run one repetition of a study: readings, estimates, errors.",
+            .description =
+                "Re-runs a single repetition exactly as in the study: the same readings, the same estimates. "
+                "Instants, noise levels and repetitions count from 1, in the order in which `capstan study "
+                "show` lists them.",
+            .arguments = {study_argument},
+            .options = {{.name = "scenario",
+                         .kind = OptionKind::integer,
+                         .value = "N",
+                         .meaning = "Number of the instant.",
+                         .default_value = "1",
+                         .low = 1,
+                         .high = max_number},
+                        {.name = "noise",
+                         .kind = OptionKind::integer,
+                         .value = "N",
+                         .meaning = "Number of the noise level.",
+                         .default_value = "1",
+                         .low = 1,
+                         .high = max_number},
+                        {.name = "repetition",
+                         .kind = OptionKind::integer,
+                         .value = "N",
+                         .meaning = "Number of the repetition.",
+                         .default_value = "1",
+                         .low = 1,
+                         .high = max_number},
+                        database_option,
+                        jobs_option,
+                        output_option,
+                        json_option,
+                        help_option},
+            .examples = {"capstan study replay --scenario 2 --repetition 17"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

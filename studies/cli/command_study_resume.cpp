@@ -22,15 +22,16 @@ ExitCode resume_one(const Invocation& invocation, storage::Database& database, s
     }
     if (study.program_version != program_version()) {
         say(fmt::format(
-            "Note: study {} was begun by capstan {}, this is {}; the rest may differ in the last bits.", id,
-            study.program_version, program_version()));
+            "Note: study {} was started by capstan {}, and this is {}; the remaining units may differ in "
+            "the last bits.",
+            id, study.program_version, program_version()));
     }
     return run_watched(invocation, database, study.name, [&](const RunOptions& options) {
         return resume_study(database, id, stored.plan, options);
     });
 }
 
-// A study that is called "all" is found by its number.
+// A study named "all" must be given by its number.
 ExitCode resume_all(const Invocation& invocation, storage::Database& database) {
     int running = 0;
     for (const storage::StudySummary& study : storage::list_studies(database)) {
@@ -54,18 +55,17 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command study_resume_command() {
-    return {
-        .name = "study resume",
-        .summary = "Go on with a study that was stopped or killed.",
-        .description =
-            "Goes on with a study that was stopped or killed, from the configuration stored with it. The units that "
-            "are stored stay; the tables end with the same bits as without the interruption.",
-        .arguments = {{"STUDY", "Its number, its name (the last one begun under it), latest, or all.",
-                       ArgumentNeed::optional, "latest"}},
-        .options = watched_run_options(),
-        .examples = {"capstan study resume", "capstan study resume paper --db paper.db"},
-        .run = run,
-        .can_be_stopped = true};
+    return {.name = "study resume",
+            .summary = "Continue a study that was stopped or killed.",
+            .description =
+                "Continues a study that was stopped or killed, from the configuration stored with it. Stored "
+                "units are kept; the tables end with the same bits as without the interruption.",
+            .arguments = {{"STUDY", "Its number, its name (the newest study of that name), latest, or all.",
+                           ArgumentNeed::optional, "latest"}},
+            .options = watched_run_options(),
+            .examples = {"capstan study resume", "capstan study resume paper --db paper.db"},
+            .run = run,
+            .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

@@ -36,8 +36,8 @@ ExitCode run_sweep(const Invocation& invocation, const std::string& name,
         const std::string words =
             outcome.end == RunEnd::complete
                 ? fmt::format(
-                      "All {} studies of {} are complete in {}, after {}; `capstan study list --db {}` "
-                      "names them, `capstan recommend STUDY` says what follows from each.",
+                      "All {} studies of {} are complete in {}, after {}; `capstan study list --db {}` lists them, "
+                      "`capstan recommend STUDY` shows the recommendation of each.",
                       plans.size(), name, file, seconds(outcome.times), file)
                 : fmt::format(
                       "Stopped; every finished unit is kept. Go on with: capstan study resume all --db {}",
@@ -113,32 +113,33 @@ const Option truth_option{
     .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
-        "The true cable is not the model: it differs as the [truth] in FILE says, which capstan diagnose --corrected "
-        "writes. Runs the study with either truth and says whether the advice changes."};
+        "The true cable differs from the model as the [truth] in FILE says; `capstan diagnose "
+        "--corrected` writes such a file. Runs the study with either truth and reports whether the "
+        "advice changes."};
 
 }  // namespace
 
 Command study_run_command() {
     std::vector<Option> options = watched_run_options();
     options.insert(options.begin() + 2, {seed_option, repetitions_option, truth_option, shard_option});
-    return {
-        .name = "study run",
-        .summary = "Run a study and recommend sensors.",
-        .description =
-            "Runs the study that CONFIG describes, stores it in the results database, and says which sensors to use, "
-            "where, and how to fuse them. A database holds any number of studies; a CONFIG with a [sweep] makes one for "
-            "each combination. Ctrl-C stops after the unit under way, and even a killed run loses no more than that "
-            "unit: `capstan study resume` goes on, to the same bits. With --shard only one part is run, so that a "
-            "cluster can run all of them at once; `capstan study submit` does.",
-        .arguments = {config_argument},
-        .options = std::move(options),
-        .examples = {"capstan study run configs/quick.toml",
-                     "capstan study run configs/paper.toml --db paper.db --stats",
-                     "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
-                     "capstan study run my.toml --truth corrected.toml",
-                     "capstan study run my.toml --shard 2/8 --db part-2.db"},
-        .run = run,
-        .can_be_stopped = true};
+    return {.name = "study run",
+            .summary = "Run a study and recommend sensors.",
+            .description =
+                "Runs the study that CONFIG describes, stores it in the results database, and recommends "
+                "which sensors to use, where, and how to fuse them. A database holds any number of studies; "
+                "a CONFIG with a [sweep] gives one study for each combination. Ctrl-C stops after the "
+                "current unit, and a killed run loses no more than that unit: `capstan study resume` "
+                "continues with the same bits. With --shard only one part is run, so that a cluster can run "
+                "all parts at once; `capstan study submit` does that.",
+            .arguments = {config_argument},
+            .options = std::move(options),
+            .examples = {"capstan study run configs/quick.toml",
+                         "capstan study run configs/paper.toml --db paper.db --stats",
+                         "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
+                         "capstan study run my.toml --truth corrected.toml",
+                         "capstan study run my.toml --shard 2/8 --db part-2.db"},
+            .run = run,
+            .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

@@ -22,22 +22,21 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command study_show_command() {
-    return {
-        .name = "study show",
-        .summary = "Show what a study is and how far it has come.",
-        .description =
-            "Shows a study's cable, instants, noise levels, layouts and methods, and how far it has come; with "
-            "--config the configuration in full, from which the study can be run again.",
-        .arguments = {study_argument},
-        .options = {database_option,
-                    {.name = "config",
-                     .kind = OptionKind::flag,
-                     .meaning = "Print the stored configuration (TOML), every key written out."},
-                    output_option,
-                    json_option,
-                    help_option},
-        .examples = {"capstan study show", "capstan study show 3 --config -o again.toml"},
-        .run = run};
+    return {.name = "study show",
+            .summary = "Show a study and its progress.",
+            .description =
+                "Shows a study's cable, instants, noise levels, layouts, methods and progress; --config "
+                "prints the complete configuration, from which the study can be run again.",
+            .arguments = {study_argument},
+            .options = {database_option,
+                        {.name = "config",
+                         .kind = OptionKind::flag,
+                         .meaning = "Print the stored configuration (TOML) with every key."},
+                        output_option,
+                        json_option,
+                        help_option},
+            .examples = {"capstan study show", "capstan study show 3 --config -o again.toml"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

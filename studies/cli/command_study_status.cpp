@@ -16,7 +16,7 @@ using cluster::QueuedTask;
 using cluster::StudyDirectory;
 using reports::Data;
 
-// Of a shard or of the merge.
+// State of a shard or of the merge.
 struct TaskStatus {
     std::string state;  // done, running, waiting, failed, not_started; without Slurm also unfinished
     cluster::ShardProgress progress;
@@ -67,9 +67,9 @@ std::string advice(const StudyStatus& status) {
     for (const TaskStatus& shard : status.shards) {
         left = left || shard.state == "failed" || shard.state == "not_started";
     }
-    if (!left) return "Under way; nothing to do.";
+    if (!left) return "Running; nothing to do.";
     return fmt::format(
-        "Some of it is not in the queue. The logs in {0}/logs say why; submit what is missing with:\n"
+        "Some tasks are not in the queue. The logs in {0}/logs show why; submit them again with:\n"
         "capstan study submit --slurm {0}/config.toml --shards {1} --processors {2} --directory {0}",
         folder, directory.shards, directory.processors_per_shard);
 }
@@ -135,11 +135,12 @@ ExitCode run(const Invocation& invocation) {
 Command study_status_command() {
     return {
         .name = "study status",
-        .summary = "Show where a submitted study stands.",
+        .summary = "Show the progress of a submitted study.",
         .description =
-            "Shows for every shard of a folder that `capstan study submit` made whether it is done, running, waiting, "
-            "failed (begun, but not in Slurm's queue) or not started, how many of its units are stored, and what Slurm "
-            "says of it; then what to do. Reads the shards' files; works without Slurm too.",
+            "Shows for every shard in a folder made by `capstan study submit` whether it is done, "
+            "running, waiting, failed (started, but not in Slurm's queue) or not started, how many of "
+            "its units are stored, and its state in Slurm; then shows what to do next. It reads the "
+            "shards' files and also works without Slurm.",
         .arguments = {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
         .options = {output_option, json_option, help_option},
         .examples = {"capstan study status atlas", "capstan study status atlas --json | jq -r .merge.state"},

@@ -84,13 +84,13 @@ void submit(const StudyDirectory& directory) {
     }
     if (text.empty()) text = "Everything is in the queue already.\n";
     write_standard_output(
-        text + fmt::format("capstan study status {} shows where it stands.\n", directory.path.string()));
+        text + fmt::format("capstan study status {} shows the progress.\n", directory.path.string()));
 }
 
 ExitCode run(const Invocation& invocation) {
     if (!invocation.has("slurm")) {
         throw UsageError(
-            "capstan study submit: say --slurm; Slurm is the one scheduler that it knows. Elsewhere run "
+            "capstan study submit: give --slurm; Slurm is the only supported scheduler. Elsewhere run "
             "`capstan study run CONFIG --shard I/N` for each shard, then `capstan study merge`.");
     }
     const config::ReadConfig config = read_config_of(invocation);
@@ -105,14 +105,14 @@ ExitCode run(const Invocation& invocation) {
     const bool dry_run = invocation.has("dry-run");
     if (!dry_run && !cluster::slurm_is_there()) {
         throw UsageError(
-            "capstan study submit: sbatch and squeue are not on PATH, so there is no Slurm here. Run this "
-            "on a machine of the cluster, or see with --dry-run what would be submitted.");
+            "capstan study submit: sbatch and squeue are not on PATH, so there is no Slurm here. Run "
+            "this on a machine of the cluster, or use --dry-run to see what would be submitted.");
     }
     require_own_folder(directory, config::config_text(config.plan, config::Comments::none));
     if (fs::exists(directory.merged_file())) {
-        write_standard_output(
-            fmt::format("{} is complete; nothing to submit. `capstan recommend --db {}` says what follows.\n",
-                        directory.name, directory.merged_file().string()));
+        write_standard_output(fmt::format(
+            "{} is complete; nothing to submit. `capstan recommend --db {}` shows the recommendation.\n",
+            directory.name, directory.merged_file().string()));
         return ExitCode::success;
     }
     write_folder(directory, config::config_text(config.plan, config::Comments::none));
@@ -127,45 +127,46 @@ ExitCode run(const Invocation& invocation) {
 }  // namespace
 
 Command study_submit_command() {
-    return {
-        .name = "study submit",
-        .summary = "Run a study on a cluster, in shards.",
-        .description =
-            "Writes into a folder what Slurm needs to run CONFIG in shards: an array job, one task a shard, and a job that "
-            "merges them when all are done; then submits both with sbatch. Scheduling and the failure of nodes are Slurm's "
-            "business: a task that it starts again goes on where it was. Given again, it submits only the shards that are "
-            "neither done nor in the queue. The folder and this program must be seen under the same name by all machines. "
-            "Partition, account and time limit are sbatch's: set SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.",
-        .arguments = {config_argument},
-        .options = {{.name = "slurm", .kind = OptionKind::flag, .meaning = "Submit to Slurm."},
-                    {.name = "shards",
-                     .kind = OptionKind::integer,
-                     .value = "N",
-                     .meaning = "Into how many tasks to deal the study; `capstan study plan` helps.",
-                     .default_value = "8",
-                     .low = 1,
-                     .high = 1e6},
-                    {.name = "directory",
-                     .kind = OptionKind::string,
-                     .value = "DIR",
-                     .meaning = "The study's folder: scripts, shards, logs, and the result study.db.",
-                     .default_value = "capstan-study"},
-                    {.name = "processors",
-                     .kind = OptionKind::integer,
-                     .value = "N",
-                     .meaning = "Processors of each task.",
-                     .default_value = "1",
-                     .low = 1,
-                     .high = 1024},
-                    {.name = "dry-run",
-                     .kind = OptionKind::flag,
-                     .meaning = "Write the folder and print the scripts, but submit nothing."},
-                    seed_option,
-                    repetitions_option,
-                    help_option},
-        .examples = {"capstan study submit --slurm configs/atlas.toml --shards 100 --directory atlas",
-                     "SBATCH_PARTITION=long capstan study submit --slurm my.toml"},
-        .run = run};
+    return {.name = "study submit",
+            .summary = "Run a study on a cluster, in shards.",
+            .description =
+                "Writes a folder with the files that Slurm needs to run CONFIG in shards: an array job with "
+                "one task per shard, and a job that merges the shards when all are done. Submits both jobs "
+                "with sbatch. Slurm schedules the tasks and restarts those of a failed node; a restarted "
+                "task continues where it stopped. Running the command again submits only the shards that are "
+                "neither done nor in the queue. All machines must see the folder and this program under the "
+                "same path. Partition, account and time limit are options of sbatch: set SBATCH_PARTITION, "
+                "SBATCH_ACCOUNT, SBATCH_TIMELIMIT.",
+            .arguments = {config_argument},
+            .options = {{.name = "slurm", .kind = OptionKind::flag, .meaning = "Submit to Slurm."},
+                        {.name = "shards",
+                         .kind = OptionKind::integer,
+                         .value = "N",
+                         .meaning = "Number of shards; `capstan study plan` suggests one.",
+                         .default_value = "8",
+                         .low = 1,
+                         .high = 1e6},
+                        {.name = "directory",
+                         .kind = OptionKind::string,
+                         .value = "DIR",
+                         .meaning = "The study's folder: scripts, shards, logs, and the result study.db.",
+                         .default_value = "capstan-study"},
+                        {.name = "processors",
+                         .kind = OptionKind::integer,
+                         .value = "N",
+                         .meaning = "Processors per task.",
+                         .default_value = "1",
+                         .low = 1,
+                         .high = 1024},
+                        {.name = "dry-run",
+                         .kind = OptionKind::flag,
+                         .meaning = "Write the folder and print the scripts, but submit nothing."},
+                        seed_option,
+                        repetitions_option,
+                        help_option},
+            .examples = {"capstan study submit --slurm configs/atlas.toml --shards 100 --directory atlas",
+                         "SBATCH_PARTITION=long capstan study submit --slurm my.toml"},
+            .run = run};
 }
 
 }  // namespace capstan::cli

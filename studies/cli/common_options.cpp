@@ -19,16 +19,17 @@ const Option output_option{
     .letter = 'o',
     .kind = OptionKind::string,
     .value = "FILE",
-    .meaning = "Write the answer to FILE, which appears complete or not at all; - is standard output.",
+    .meaning = "Write the answer to FILE, which is written completely or not at all; - is standard output.",
     .default_value = "-"};
-const Option jobs_option{.name = "jobs",
-                         .letter = 'j',
-                         .kind = OptionKind::integer,
-                         .value = "N",
-                         .meaning = "Threads; 0 takes all processors. Any number gives the same bits.",
-                         .default_value = "0",
-                         .low = 0,
-                         .high = 1024};
+const Option jobs_option{
+    .name = "jobs",
+    .letter = 'j',
+    .kind = OptionKind::integer,
+    .value = "N",
+    .meaning = "Number of threads; 0 uses all processors. Any number gives the same bits.",
+    .default_value = "0",
+    .low = 0,
+    .high = 1024};
 const Option seed_option{.name = "seed",
                          .kind = OptionKind::integer,
                          .value = "S",
@@ -39,28 +40,30 @@ const Option repetitions_option{
     .name = "repetitions",
     .kind = OptionKind::integer,
     .value = "N",
-    .meaning = "Draws of noise, instead of the configuration's; a few for a quick look.",
+    .meaning = "Number of noise draws, instead of the configuration's; a few give a quick look.",
     .low = 2,
     .high = 1e7};
 const Option json_option{
-    .name = "json", .kind = OptionKind::flag, .meaning = "Answer in JSON, for a program."};
+    .name = "json", .kind = OptionKind::flag, .meaning = "Print the answer as JSON, for programs."};
 const Option progress_option{
     .name = "progress",
     .kind = OptionKind::string,
     .value = "auto|json|none",
     .meaning =
-        "On standard error: auto is a bar on a terminal and plain lines elsewhere, json is one object a line.",
+        "Progress on standard error: auto is a bar on a terminal and plain lines elsewhere, json is "
+        "one object per line.",
     .default_value = "auto",
     .choices = {"auto", "json", "none"}};
-const Option stats_option{
-    .name = "stats", .kind = OptionKind::flag, .meaning = "Say on standard error where the time went."};
+const Option stats_option{.name = "stats",
+                          .kind = OptionKind::flag,
+                          .meaning = "Print on standard error how much time each stage took."};
 const Option segments_option{
     .name = "segments",
     .kind = OptionKind::integer,
     .value = "N",
     .meaning =
-        "Segments of a cable in the model of a recorded bench. Friction at rest depends on their length; above about "
-        "100 segments the result changes by less than 1%.",
+        "Segments per cable in the model of a recorded bench. Friction at rest depends on their "
+        "length; above about 100 segments the result changes by less than 1%.",
     .default_value = "100",
     .low = 2,
     .high = 100000};
@@ -68,19 +71,18 @@ const Option segments_option{
 const Option format_option{.name = "format",
                            .kind = OptionKind::string,
                            .value = "text|md|csv|json",
-                           .meaning = "Default: as the name of the output file ends, else text.",
+                           .meaning = "Default: by the extension of the output file, otherwise text.",
                            .choices = {"text", "md", "csv", "json"}};
 
 const Option page_option{
     .name = "html",
     .kind = OptionKind::string,
     .value = "FILE",
-    .meaning =
-        "Also write FILE: one page of figures and numbers that needs no network; open it in a browser."};
+    .meaning = "Also write FILE, one self-contained page of figures and numbers; open it in a browser."};
 
 const Argument config_argument{
     "CONFIG", "The study's configuration (TOML); `capstan config default` explains every key."};
-const Argument study_argument{"STUDY", "Its number, its name (the last one begun under it), or latest.",
+const Argument study_argument{"STUDY", "Its number, its name (the newest study of that name), or latest.",
                               ArgumentNeed::optional, "latest"};
 
 config::ReadConfig read_config_of(const Invocation& invocation) {

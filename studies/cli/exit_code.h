@@ -20,10 +20,10 @@ struct ExitCodeMeaning {
 
 inline constexpr ExitCodeMeaning exit_code_meanings[] = {
     {ExitCode::success, "done"},
-    {ExitCode::failure, "failed while running, as when an output file cannot be written"},
+    {ExitCode::failure, "failed while running, for example because an output file cannot be written"},
     {ExitCode::wrong_input, "wrong usage, configuration or query; nothing was done"},
     {ExitCode::database_problem, "the results database cannot be used, or has no such study"},
-    {ExitCode::stopped, "stopped by Ctrl-C or a request to terminate; capstan study resume goes on"},
+    {ExitCode::stopped, "stopped by Ctrl-C or a request to terminate; capstan study resume continues"},
 };
 
 }  // namespace capstan::cli

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t help_width = 100;
 
-// Terms in a column of their own, meanings beside them.
+// Terms in the first column, meanings in the second.
 struct Entry {
     std::string term;
     std::string meaning;
@@ -91,17 +91,17 @@ std::string where_to_begin() {
 
 std::string program_help() {
     std::vector<Entry> entries = summaries("");
-    entries.push_back({"help COMMAND", "Explain a command; so does capstan COMMAND --help."});
+    entries.push_back({"help COMMAND", "Explain a command, as does capstan COMMAND --help."});
     entries.push_back({"--version", "Print the version."});
     return "Usage: capstan COMMAND [options]\n\n"
-           "Where to put tension sensors in a cable-conduit (Bowden) transmission: simulates the cable, draws\n"
-           "noisy readings, estimates the tension everywhere, and compares sensor layouts.\n\n"
+           "Finds where to put tension sensors in a cable-conduit (Bowden) transmission: simulates the cable,\n"
+           "draws noisy readings, estimates the tension everywhere, and compares sensor layouts.\n\n"
            "Commands:\n" +
            two_columns(entries) +
            "\nAnswers go to standard output, progress and messages to standard error.\n\n"
            "Environment:\n"
-           "  CAPSTAN_SIMD  Widest vector instructions to use (`capstan doctor` prints them): for the same last\n"
-           "                bits on unequal processors. Default: all that the processor has.\n\n" +
+           "  CAPSTAN_SIMD  Widest vector instructions to use, so that different processors give the same last\n"
+           "                bits; `capstan doctor` prints those in use. Default: the widest of the processor.\n\n" +
            exit_codes();
 }
 

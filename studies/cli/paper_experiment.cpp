@@ -10,7 +10,8 @@ const Option trajectories_option = {
     .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
-        "Also write the trajectories to FILE, as CSV; - writes them to standard output, and no table."};
+        "Also write the trajectories to FILE as CSV; - writes them to standard output instead of the "
+        "table."};
 
 ExitCode deliver_experiment(const Invocation& invocation, const std::string& trajectories_csv,
                             const reports::Answer& answer) {

@@ -44,7 +44,8 @@ FoundCommand find_command_in(const std::vector<std::string>& words) {
     const bool grouped = !group_help(words[0]).empty();
     const bool second = grouped && words.size() >= 2;
     if (grouped && !second)
-        throw UsageError(fmt::format("capstan {} what?\n\n{}", words[0], group_help(words[0])));
+        throw UsageError(
+            fmt::format("capstan {}: the command is not complete\n\n{}", words[0], group_help(words[0])));
     const std::string given = second ? words[0] + " " + words[1] : words[0];
     std::vector<std::string> known;
     for (const Command& command : commands()) {

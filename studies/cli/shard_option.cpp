@@ -14,8 +14,8 @@ const Option shard_option{
     .kind = OptionKind::string,
     .value = "I/N",
     .meaning =
-        "Run only part I of N into a file of its own; I from 1. `capstan study merge` joins "
-        "all N, to the bits of one run. Given again, it goes on where it was."};
+        "Run only part I of N (I from 1) into a file of its own. `capstan study merge` joins all N, "
+        "with the same bits as one run. Running the command again continues the part."};
 
 Shard parse_shard(const std::string& text) {
     Shard shard;
@@ -27,7 +27,9 @@ Shard parse_shard(const std::string& text) {
         if (other == std::errc{} && last == end && in_range) return shard;
     }
     throw UsageError(fmt::format(
-        "--shard is '{}', but must be I/N with I from 1 to N, as --shard 2/8 for the second of eight", text));
+        "--shard is '{}', but must be I/N with I from 1 to N, for example --shard 2/8 for the second "
+        "of eight",
+        text));
 }
 
 void refuse_shard_file(storage::Database& database) {
@@ -35,7 +37,7 @@ void refuse_shard_file(storage::Database& database) {
     if (!mark) return;
     const std::string file = database.path().string();
     throw UsageError(
-        fmt::format("{0} is the file of {1}. To go on with it: capstan study run CONFIG --shard "
+        fmt::format("{0} is the file of {1}. To continue it: capstan study run CONFIG --shard "
                     "{2}/{3} --db {0}\nFor a whole study name another file with --db.",
                     file, words_of({mark->shard, mark->shards}), mark->shard, mark->shards));
 }

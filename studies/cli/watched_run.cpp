@@ -61,7 +61,7 @@ ExitCode watch(const Invocation& invocation, const std::string& name, const Watc
     if (invocation.has("stats")) say_times(ended.times);
     switch (ended.end) {
         case RunEnd::stopped:
-            // Said even with --progress none: it is an answer, not progress.
+            // Printed even with --progress none: it is an answer, not progress.
             say_end(display.mode() == ProgressMode::none ? ProgressMode::automatic : display.mode(),
                     "stopped", ended.words, ended.study_id);
             return ExitCode::stopped;

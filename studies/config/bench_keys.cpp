@@ -30,7 +30,7 @@ void add_bench_keys(BenchKeys& keys) {
     BenchKey kind{"", "kind", {ValueKind::choice, ""}};
     kind.allowed.names = {"bench"};
     kind.presence = Presence::required;
-    kind.help = "What this file describes: a bench, to be simulated; a study has no such key.";
+    kind.help = "Kind of this file: a bench to simulate. The file of a study does not have this key.";
     kind.read = [](const BenchPlan&, int) -> ConfigValue { return std::string("bench"); };
     kind.write = [](BenchPlan&, int, const ConfigValue&) {};
     keys.push_back(std::move(kind));
@@ -41,12 +41,12 @@ void add_bench_keys(BenchKeys& keys) {
         {"", "sample_rate_Hz", "Hz", "Samples per second; each is one quasi-static step."}, above_zero, 200.0,
         [](auto& plan, int) -> auto& { return plan.sample_rate_Hz; }));
     keys.push_back(number<BenchPlan>(
-        {"", "duration_s", "s", "How long the bench moves, from rest."}, above_zero, 12.0,
+        {"", "duration_s", "s", "Duration of the simulation, which starts at rest."}, above_zero, 12.0,
         [](auto& plan, int) -> auto& { return plan.duration_s; }));
     add_cable_keys<BenchPlan>(
         keys, "cable",
         {100, 4.0,
-         "Equal pieces into which each of the two cables is cut. Friction at rest depends on their "
+         "Number of equal segments of each of the two cables. Friction at rest depends on their "
          "length; above about 100 segments the result changes by less than 1%."},
         bench_cable);
     keys.push_back(number<BenchPlan>(
@@ -57,25 +57,26 @@ void add_bench_keys(BenchKeys& keys) {
         [](auto& plan, int) -> auto& { return plan.pulleys.load_radius_m; }));
 }
 
-// ---- how an input goes over time
+// ---- the waveform of an input
 
-/// A waveform in one unit, and when it is in that unit.
+/// A waveform in one unit, and the condition under which that unit applies.
 struct WaveText {
     std::string section;
     Waveform BenchPlan::*wave;
-    std::string unit_in_names;  ///< as at the end of a key: Nm
+    std::string unit_in_names;  ///< the suffix of a key: Nm
     std::string unit;           ///< N m
     Holds holds;
     std::string words;   ///< input = "torque"
-    double usual = 0.0;  ///< a plain size of the motion, for defaults
+    double usual = 0.0;  ///< typical size of the input, for defaults
 };
 
 void add_waveform_kind(BenchKeys& keys, const std::string& section, Waveform BenchPlan::*wave,
                        const Holds& moves, const std::string& words) {
     BenchKey kind = choice<WaveformKind, BenchPlan>(
         {section, "waveform", "",
-         "How it goes over time: \"constant\", \"sines\" (a sum of them), \"ramps\" (to and fro between an amplitude "
-         "either way, from zero, with dwells) or \"steps\" (one level after the other, again and again)."},
+         "Shape over time: \"constant\", \"sines\" (a sum of sines), \"ramps\" (from zero, back and "
+         "forth between plus and minus the amplitude, with dwells) or \"steps\" (one level after the "
+         "other, repeated)."},
         {{"constant", WaveformKind::constant},
          {"sines", WaveformKind::sines},
          {"ramps", WaveformKind::ramps},
@@ -88,14 +89,14 @@ class WaveKeys {
   public:
     WaveKeys(BenchKeys& keys, const WaveText& about) : keys_(keys), about_(about) {}
 
-    void add_number(WaveformKind kind, const std::string& name, const std::string& per, const std::string& help,
-                Limits limits, double default_value, double Waveform::*field) {
+    void add_number(WaveformKind kind, const std::string& name, const std::string& per,
+                    const std::string& help, Limits limits, double default_value, double Waveform::*field) {
         add(kind, number<BenchPlan>(
                       text(name, per, help), limits, default_value,
                       [ wave = about_.wave, field ](auto& plan, int) -> auto& { return plan.*wave.*field; }));
     }
     void add_numbers(WaveformKind kind, const std::string& name, const std::string& help,
-                 std::vector<double> default_value, std::vector<double> Waveform::*field) {
+                     std::vector<double> default_value, std::vector<double> Waveform::*field) {
         add(kind, number_list<BenchPlan>(
                       text(name, "", help), {}, std::move(default_value),
                       [ wave = about_.wave, field ](auto& plan, int) -> auto& { return plan.*wave.*field; }));
@@ -123,17 +124,19 @@ class WaveKeys {
 // The values of a waveform, in its unit.
 void add_waveform_values(BenchKeys& keys, const WaveText& about) {
     WaveKeys add(keys, about);
-    add.add_number(WaveformKind::constant, "level", "", "Its value.", {}, 0.0, &Waveform::level);
+    add.add_number(WaveformKind::constant, "level", "", "The constant value.", {}, 0.0, &Waveform::level);
     add.add_numbers(WaveformKind::sines, "amplitudes", "Amplitude of each sine.", {about.usual},
-                &Waveform::amplitudes);
-    add.add_number(WaveformKind::ramps, "amplitude", "", "Where the ramps turn round, either way.", above_zero,
-               about.usual, &Waveform::ramp_amplitude);
-    add.add_number(WaveformKind::ramps, "slope", "s", "How steep the ramps are.", above_zero, 0.8 * about.usual,
-               &Waveform::slope_per_s);
-    add.add_numbers(WaveformKind::steps, "levels", "The levels, in turn.", {0.0, about.usual}, &Waveform::levels);
+                    &Waveform::amplitudes);
+    add.add_number(WaveformKind::ramps, "amplitude", "",
+                   "Amplitude at which the ramps reverse, in both directions.", above_zero, about.usual,
+                   &Waveform::ramp_amplitude);
+    add.add_number(WaveformKind::ramps, "slope", "s", "Slope of the ramps.", above_zero, 0.8 * about.usual,
+                   &Waveform::slope_per_s);
+    add.add_numbers(WaveformKind::steps, "levels", "The levels in their order.", {0.0, about.usual},
+                    &Waveform::levels);
 }
 
-// What is the same in every unit.
+// Keys that are the same in every unit.
 void add_waveform_times(BenchKeys& keys, const std::string& section, Waveform BenchPlan::*wave,
                         const Holds& moves) {
     const auto with = [&](WaveformKind kind, const std::string& words, BenchKey key) {
@@ -153,19 +156,19 @@ void add_waveform_times(BenchKeys& keys, const std::string& section, Waveform Be
              {0.0}, [wave](auto& plan, int) -> auto& { return (plan.*wave).phase_rad; }));
     with(WaveformKind::ramps, "waveform = \"ramps\"",
          number<BenchPlan>(
-             {section, "dwell_s", "s", "Rest at each end of a ramp."}, zero_or_more,
+             {section, "dwell_s", "s", "Dwell at each end of a ramp."}, zero_or_more,
              0.5, [wave](auto& plan, int) -> auto& { return (plan.*wave).dwell_s; }));
     with(WaveformKind::steps, "waveform = \"steps\"",
          number<BenchPlan>(
-             {section, "hold_s", "s", "How long each level lasts."}, above_zero,
+             {section, "hold_s", "s", "Duration of each level."}, above_zero,
              1.0, [wave](auto& plan, int) -> auto& { return (plan.*wave).hold_s; }));
 }
 
 void add_motor_keys(BenchKeys& keys) {
     keys.push_back(choice<MotorDrive, BenchPlan>(
         {"motor", "input", "",
-         "What the motor is made to do: a \"torque\" or an \"angle\"; positive reels cable A in. Not a torque at both "
-         "pulleys: the angles would be undetermined."},
+         "Prescribed quantity at the motor: \"torque\" or \"angle\"; positive reels cable A in. A "
+         "torque cannot be prescribed at both pulleys, because the angles would be undetermined."},
         {{"torque", MotorDrive::torque}, {"angle", MotorDrive::angle}}, std::string("torque"),
         [](auto& plan, int) -> auto& { return plan.motor_drive; }));
     add_waveform_kind(keys, "motor", &BenchPlan::motor, {}, "");
@@ -183,8 +186,9 @@ void add_motor_keys(BenchKeys& keys) {
 void add_load_keys(BenchKeys& keys) {
     keys.push_back(choice<LoadKind, BenchPlan>(
         {"load", "input", "",
-         "What the load pulley meets: \"locked\"; a \"handle\" moved from outside (its angle is prescribed); a \"torque\" "
-         "taken from the transmission, where zero is a free load; or a \"spring\" to a wall that may move."},
+         "What acts on the load pulley: \"locked\" holds it; \"handle\" prescribes its angle; "
+         "\"torque\" prescribes the torque taken from the transmission (zero is a free load); "
+         "\"spring\" connects it to a wall that may move."},
         {{"locked", LoadKind::locked},
          {"handle", LoadKind::handle},
          {"torque", LoadKind::torque},
@@ -218,17 +222,17 @@ std::vector<ConfigSection<BenchPlan>> bench_sections() {
     std::vector<ConfigSection<BenchPlan>> sections = {
         {"", "The bench."},
         {"cable", "Each of the two cables in its conduit."},
-        // 2.86 rad of wrap, with which the paper's Exp. 1 comes out.
+        // 2.86 rad of wrap, which reproduces the paper's Exp. 1.
         curvature_section<BenchPlan>("cable.curvature", bench_cable,
                                      [](BenchPlan& plan) {
                                          plan.cable.curvature = {{2.0, 0.70}};
                                      }),
         {"pulleys", "The two pulleys that both cables run on."},
         {"motor", "What moves the motor pulley."},
-        {"load", "What the load pulley meets."},
+        {"load", "What acts on the load pulley."},
         {"effect",
-         "What the ideal model leaves out. As long as every effect is absent, as by default, the closed-form "
-         "step simulates the bench; else the slower simulation with effects does."},
+         "Effects that the ideal model omits. While every effect is absent, as by default, the "
+         "closed-form step simulates the bench; otherwise the slower simulation with effects does."},
     };
     add_effect_sections(sections, "effect", every_effect);
     return sections;
@@ -249,9 +253,9 @@ BenchKeys bench_keys() {
 template <>
 const ConfigSchema<BenchPlan>& config_schema<BenchPlan>() {
     static const ConfigSchema<BenchPlan> schema{
-        "A bench for capstan: two cables between a motor pulley and a load pulley, and what is done with them. Every "
-        "key is here with its default; a key that is left out takes it. Check a file with `capstan config check "
-        "FILE`, run it with `capstan simulate FILE`.",
+        "A bench for capstan: two cables between a motor pulley and a load pulley, and their inputs. "
+        "Every key is listed with its default, which applies where the key is left out. Check a file "
+        "with `capstan config check FILE`, run it with `capstan simulate FILE`.",
         bench_sections(), bench_keys()};
     return schema;
 }

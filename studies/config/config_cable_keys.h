@@ -36,7 +36,7 @@ void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, c
     add({at, "static_friction", "",
          "Friction coefficient of a segment about to slide; at least dynamic_friction."},
         zero_or_more, 0.63, &CableSpecification::static_friction);
-    add({at, "pretension_N", "N", "Tension of the whole cable before anything moves."}, zero_or_more,
+    add({at, "pretension_N", "N", "Tension of the complete cable before the motion starts."}, zero_or_more,
         text.default_pretension_N, &CableSpecification::pretension_N);
 
     const std::string piece = at + ".curvature";
@@ -44,7 +44,8 @@ void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, c
         {piece, "length_m", "m", "Length of conduit along its axis."}, above_zero,
         {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].length_m; })));
     ConfigKey<Plan> radius = number<Plan>(
-        {piece, "bend_radius_m", "m", "Bend radius of the piece; left out where it is straight."}, above_zero,
+        {piece, "bend_radius_m", "m", "Bend radius of the piece; leave it out for a straight piece."},
+        above_zero,
         {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].bend_radius_m; });
     radius.read = [cable](const Plan& plan, int row) -> ConfigValue {
         const double radius_m = cable(plan).curvature[row].bend_radius_m;
@@ -56,7 +57,7 @@ void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, c
 /// The repeated section of the conduit's pieces. `CableOf{}(plan)` refers to a plan's specification.
 template <class Plan, class CableOf>
 ConfigSection<Plan> curvature_section(const std::string& path, CableOf, void (*fill_default)(Plan&)) {
-    return {path, "The conduit's course from the proximal end: pieces of one bend radius each.",
+    return {path, "The course of the conduit from the proximal end, as pieces with one bend radius each.",
             [](const Plan& plan) { return static_cast<int>(CableOf{}(plan).curvature.size()); },
             [](Plan& plan, int count) { CableOf{}(plan).curvature.assign(count, {}); }, fill_default};
 }

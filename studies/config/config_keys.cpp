@@ -11,7 +11,7 @@ namespace {
 
 using StudyKey = ConfigKey<StudyPlan>;
 
-// ---- the whole study
+// ---- keys before the first section
 
 void add_study_keys(std::vector<StudyKey>& keys) {
     keys.push_back(string(
@@ -23,12 +23,12 @@ void add_study_keys(std::vector<StudyKey>& keys) {
         [](auto& plan, int) -> auto& { return plan.seed; }));
     keys.push_back(integer(
         {"", "repetitions", "",
-         "Draws of sensor noise per instant and noise level. Standard errors shrink with the "
-         "square root; 2000 separate differences of about 0.01 N."},
+         "Number of sensor-noise draws per instant and noise level. Standard errors decrease with its "
+         "square root; 2000 draws resolve differences of about 0.01 N."},
         {1, true, 1e7}, std::int64_t{2000}, [](auto& plan, int) -> auto& { return plan.repetitions; }));
     keys.push_back(boolean(
         {"", "compare_with_paper", "",
-         "Show the paper's numbers beside ours. Only for the paper's own transmission, motion "
+         "Show the paper's numbers beside ours. Valid only for the paper's own transmission, motion "
          "and instants."},
         false, [](auto& plan, int) -> auto& { return plan.compare_with_paper; }));
 }
@@ -48,20 +48,20 @@ void add_transmission_keys(std::vector<StudyKey>& keys) {
     add_cable_keys<StudyPlan>(
         keys, at,
         {10, 10.0,
-         "Equal pieces into which the cable is cut; nodes are their ends, numbered 1 (proximal, "
-         "motor) to segments + 1 (distal, load). Sensors sit at nodes."},
+         "Number of equal segments of the cable. Nodes are their ends, numbered 1 (proximal, motor) "
+         "to segments + 1 (distal, load). Sensors sit at nodes."},
         transmission_cable);
     keys.push_back(choice<ModelRules>(
         {at, "rules", "",
-         "How the model is read where the paper is silent or contradicts itself: \"consistent\" is our consistent reading, "
-         "\"paper\" follows the paper to the letter."},
+         "Interpretation of the model where the paper is silent or contradicts itself: \"consistent\" "
+         "is our consistent interpretation, \"paper\" follows the paper literally."},
         {{"consistent", ModelRules::consistent()}, {"paper", ModelRules::paper()}}, std::string("consistent"),
         [](auto& plan, int) -> auto& { return plan.transmission.rules; }, same_rules));
 }
 
 // ---- [motion]
 
-// Both ends have the same keys; only what they do by default differs.
+// Both ends have the same keys and differ only in their defaults.
 struct EndText {
     std::string section;
     double default_amplitude_m;
@@ -77,8 +77,8 @@ void add_end_keys(std::vector<StudyKey>& keys, const EndText& end) {
 
     keys.push_back(choice<EndKind>(
         {at, "kind", "",
-         "What is prescribed here: the cable's \"position\", its \"tension\", or a "
-         "\"spring\" between the cable and a wall that moves. Not a tension at both ends."},
+         "What is prescribed here: the cable's \"position\", its \"tension\", or a \"spring\" between "
+         "the cable and a moving wall. A tension cannot be prescribed at both ends."},
         {{"position", EndKind::position}, {"tension", EndKind::tension}, {"spring", EndKind::spring}},
         std::string("position"), [motion](auto& plan, int row) -> auto& { return motion(plan, row).kind; }));
 
@@ -87,9 +87,8 @@ void add_end_keys(std::vector<StudyKey>& keys, const EndText& end) {
     };
     StudyKey amplitude_m =
         number({at, "amplitude_m", "m",
-                "Amplitude of the motion, of the cable's end or of the spring's wall: rest + "
-                "amplitude sin(2 pi frequency time + phase), positive towards the distal end. 0: "
-                "blocked."},
+                "Amplitude of the motion of the cable's end or of the spring's wall: rest + amplitude sin(2 "
+                "pi frequency time + phase), positive towards the distal end. 0: blocked."},
                zero_or_more, end.default_amplitude_m, amplitude);
     amplitude_m.condition = {[kind](const StudyPlan& plan, int) { return kind(plan) != EndKind::tension; },
                              "kind = \"position\" or \"spring\""};
@@ -108,10 +107,10 @@ void add_end_keys(std::vector<StudyKey>& keys, const EndText& end) {
         {at, "phase_rad", "rad", "Phase of the motion at time 0."}, {},
         0.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).phase_rad; }));
     keys.push_back(number(
-        {at, "start_s", "s", "When the motion begins; the end holds still before."}, zero_or_more,
+        {at, "start_s", "s", "Start of the motion; the end is at rest before."}, zero_or_more,
         0.0, [motion](auto& plan, int row) -> auto& { return motion(plan, row).start_s; }));
     keys.push_back(number(
-        {at, "stop_s", "s", "When it ends; the end holds still after."}, above_zero,
+        {at, "stop_s", "s", "Stop of the motion; the end is at rest afterwards."}, above_zero,
         EndMotion{}.stop_s, [motion](auto& plan, int row) -> auto& { return motion(plan, row).stop_s; }));
 
     StudyKey stiffness = required(number(
@@ -129,8 +128,7 @@ void add_motion_keys(std::vector<StudyKey>& keys) {
          "better."},
         above_zero, 100.0, [](auto& plan, int) -> auto& { return plan.motion.sample_rate_Hz; }));
     keys.push_back(integer(
-        {"motion", "samples", "",
-         "How many samples are simulated; sample 0 is the pretensioned cable at rest."},
+        {"motion", "samples", "", "Number of simulated samples; sample 0 is the pretensioned cable at rest."},
         {1, true, 1e7}, std::int64_t{200}, [](auto& plan, int) -> auto& { return plan.motion.samples; }));
     add_end_keys(keys, {"motion.proximal", 0.01, &TrueMotion::proximal});
     add_end_keys(keys, {"motion.distal", 0.0, &TrueMotion::distal});
@@ -143,15 +141,15 @@ void add_regime_keys(std::vector<StudyKey>& keys) {
     for (const Regime regime : all_regimes) regimes.push_back({std::string(name_of(regime)), regime});
     keys.push_back(required(choice<Regime>(
         {"regime", "name", "",
-         "Motion regime: all of the cable slides (mass), or nodes at the proximal "
-         "end, the distal end or both move while others rest."},
+         "Motion regime: the complete cable slides (mass), or nodes at the proximal end, the distal "
+         "end or both ends move while others rest."},
         regimes, {}, [](auto& plan, int row) -> auto& { return plan.regimes[row].regime; })));
 
     StudyKey samples{"regime", "samples", {ValueKind::integers, "", {1, true, 1e7}}};
     samples.presence = Presence::required;
     samples.help =
-        "Instants at which sensors are judged, as samples of the motion; each must be in this regime. "
-        "`capstan simulate CONFIG` shows which sample is in which.";
+        "Instants at which layouts are evaluated, as sample numbers of the motion; each must be in "
+        "this regime. `capstan simulate CONFIG` shows the regime of each sample.";
     samples.read = [](const StudyPlan& plan, int row) -> ConfigValue {
         return std::vector<std::int64_t>(plan.regimes[row].samples.begin(), plan.regimes[row].samples.end());
     };
@@ -174,25 +172,29 @@ void add_noise_keys(std::vector<StudyKey>& keys) {
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].label; })));
     keys.push_back(number(
         {"noise", "multiplicative_ratio", "",
-         "Standard deviation of a reading's error as a fraction of the tension: 0.1 is 10 %."},
+         "Standard deviation of the part of a reading's error that is proportional to the tension: "
+         "0.1 is 10 %."},
         zero_or_more, 0.0,
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.multiplicative_ratio; }));
     keys.push_back(number(
-        {"noise", "additive_N", "N", "Standard deviation of a reading's error at any tension."}, zero_or_more,
-        0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.additive_N; }));
+        {"noise", "additive_N", "N",
+         "Standard deviation of the part of a reading's error that does not depend on the tension."},
+        zero_or_more, 0.0,
+        [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.additive_N; }));
     keys.push_back(number(
         {"noise", "bias_N", "N",
          "Standard deviation of each sensor's offset, drawn once per repetition and the same at every "
          "instant."},
         zero_or_more, 0.0, [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.bias_N; }));
     keys.push_back(number(
-        {"noise", "quantisation_N", "N", "Step of the converter, to which readings are rounded; 0: none."},
+        {"noise", "quantisation_N", "N",
+         "Resolution of the converter, to which readings are rounded; 0: none."},
         zero_or_more, 0.0,
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.quantisation_N; }));
     keys.push_back(number(
         {"noise", "range_N", "N",
-         "The largest tension that the sensor can read; estimators on the feasible curve know that a reading at the "
-         "end of the range may be any larger one."},
+         "The largest tension that the sensor can read. Estimators on the feasible curve know that a "
+         "reading at the end of the range stands for any larger tension."},
         above_zero, NoiseLevel{}.range_N,
         [](auto& plan, int row) -> auto& { return plan.noise_levels[row].level.range_N; }));
 }
@@ -208,7 +210,7 @@ std::vector<StudyKey> all_keys() {
     add_estimation_keys(keys);
     keys.push_back(number(
         {"recommendation", "worthwhile_gain_N", "N",
-         "One more sensor must lower the error by this much to be recommended."},
+         "One more sensor must lower the error by at least this much to be recommended."},
         zero_or_more, default_worthwhile_gain_N,
         [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));
     add_placement_keys(keys);
@@ -227,10 +229,10 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
                                      [](StudyPlan& plan) {
                                          plan.transmission.cable.curvature = {{2.0, 0.28}};
                                      }),
-        {"motion", "The true motion, which the estimators have to find out from the sensors."},
+        {"motion", "The true motion, which the estimators infer from the sensors."},
         {"motion.proximal", "The proximal end, where the motor is."},
         {"motion.distal", "The distal end, where the load is."},
-        {"regime", "Instants at which sensors are judged, by motion regime. Each regime once.",
+        {"regime", "Instants at which layouts are evaluated, by motion regime. Each regime may appear once.",
          [](const StudyPlan& plan) { return static_cast<int>(plan.regimes.size()); },
          [](StudyPlan& plan, int count) { plan.regimes.assign(count, {}); },
          // The paper's: samples 112 and 142 of its motion.
@@ -238,26 +240,27 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
              plan.regimes = {{Regime::mass, {112, 142}, 1.0}};
          }},
         {"noise",
-         "Noise levels: reading = T (1 + multiplicative_ratio e1) + additive_N e2 + bias_N e3, all e standard normal, "
-         "then rounded to quantisation_N and cut off at range_N.",
+         "Noise levels: reading = T (1 + multiplicative_ratio e1) + additive_N e2 + bias_N e3, all e "
+         "standard normal, then rounded to quantisation_N and limited to range_N.",
          [](const StudyPlan& plan) { return static_cast<int>(plan.noise_levels.size()); },
          [](StudyPlan& plan, int count) { plan.noise_levels.assign(count, {}); },
          // The paper's.
          [](StudyPlan& plan) {
              plan.noise_levels = {{"10 %", {.multiplicative_ratio = 0.1}}};
          }},
-        {"layouts", "Where sensors may sit. Give families with counts, explicit layouts, or both."},
-        {"estimation", "How readings become tensions."},
-        {"recommendation", "What counts as better."},
+        {"layouts",
+         "Candidate layouts of the sensors. Give families with counts, explicit layouts, or both."},
+        {"estimation", "How tensions are estimated from readings."},
+        {"recommendation", "When an additional sensor is worthwhile."},
         {"placement",
-         "For `capstan place`, which searches all layouts: what a designer has to live with. Regimes, noise and methods "
-         "are those above; layouts is not used."},
+         "Objective and constraints of `capstan place`, which searches all layouts. Regimes, noise "
+         "and methods are those above; [layouts] is not used."},
         {"sensitivity",
-         "For `capstan sensitivity`, which asks what uncertain numbers would change the advice: how uncertain they are. "
-         "Constraints and the error that counts are those of placement."},
+         "Ranges of the uncertain parameters for `capstan sensitivity`, which finds those that would "
+         "change the advice. Constraints and objective are those of [placement]."},
         {"sweep",
-         "Many studies from one file: one for every combination of the values given here. `capstan study plan` says "
-         "what it costs, `capstan study submit` runs it on a cluster."},
+         "Many studies from one file: one for every combination of the values below. `capstan study "
+         "plan` estimates the cost, `capstan study submit` runs them on a cluster."},
     };
     for (ConfigSection<StudyPlan>& section : truth_sections()) sections.push_back(std::move(section));
     return sections;
@@ -268,8 +271,8 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
 template <>
 const ConfigSchema<StudyPlan>& config_schema<StudyPlan>() {
     static const ConfigSchema<StudyPlan> schema{
-        "A study for capstan: where to put tension sensors in a cable-conduit transmission. Every key is "
-        "here with its default; a key that is left out takes it. Check a file with "
+        "A study for capstan: where to put tension sensors in a cable-conduit transmission. Every "
+        "key is listed with its default, which applies where the key is left out. Check a file with "
         "`capstan config check FILE`, run it with `capstan study run FILE`.",
         all_sections(), all_keys()};
     return schema;

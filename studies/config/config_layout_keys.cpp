@@ -35,7 +35,7 @@ StudyKey name_list(KeyText about, const std::vector<std::string>& catalogue,
 
 StudyKey sensor_counts() {
     StudyKey key{"layouts", "counts", {ValueKind::integers, "", {1, true, 10001}}};
-    key.help = "Numbers of sensors tried with each family; \"all\" is 1 up to one at every node.";
+    key.help = "Numbers of sensors to try with each family; \"all\" means from 1 to one at every node.";
     key.allowed.takes_all = true;
     key.default_value = std::string("all");
     key.read = [](const StudyPlan& plan, int) -> ConfigValue {
@@ -52,7 +52,7 @@ StudyKey sensor_counts() {
     return key;
 }
 
-// People count nodes from 1, the plan from 0.
+// A configuration counts nodes from 1, the plan from 0.
 StudyKey explicit_layouts() {
     StudyKey key{"layouts", "explicit", {ValueKind::node_sets, "", {1, true, 10001}}};
     key.help = "Further layouts as lists of nodes, counted from 1 at the proximal end: [[1, 6, 11], [3, 9]].";
@@ -78,7 +78,7 @@ StudyKey explicit_layouts() {
 }  // namespace
 
 void add_layout_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
-    std::string help = "Rules that place sensors:";
+    std::string help = "Families of layouts, each a rule that places the sensors:";
     for (const LayoutFamily& family : layout_families()) {
         help += " \"" + std::string(family.name) + "\" " + std::string(family.meaning) + ";";
     }
@@ -91,7 +91,7 @@ void add_layout_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
 
 void add_estimation_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
     const std::string at = "estimation";
-    std::string help = "Ways to fuse several sensors:";
+    std::string help = "Methods that fuse several sensors:";
     for (const FusionMethod& method : fusion_methods()) {
         help += " \"" + std::string(method.name) + "\" (" + std::string(method.title) + ") " +
                 std::string(method.meaning) + ";";
@@ -101,26 +101,28 @@ void add_estimation_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
         name_list({at, "methods", "", help}, names_of(fusion_methods()), &StudyPlan::fusion_methods));
     keys.push_back(choice<DistalSide>(
         {at, "distal_side", "",
-         "Whether an estimate from one sensor may let the distal end set nodes of its own in motion. \"excluded\" fits "
-         "a blocked output, as in the paper; \"admitted\" fits an output that moves."},
+         "Whether an estimate from one sensor may contain nodes that the distal end has set in "
+         "motion. \"excluded\" fits a blocked output, as in the paper; \"admitted\" fits an output "
+         "that moves."},
         {{"excluded", DistalSide::excluded}, {"admitted", DistalSide::admitted}}, std::string("excluded"),
         [](auto& plan, int) -> auto& { return plan.distal_side; }));
     keys.push_back(choice<WeightSource>(
         {at, "weights", "",
-         "Where the W methods take their weights from: the single-sensor errors in \"mass_motion\" whatever the "
-         "regime, as the paper does (needs that regime), or those of the \"same_regime\"."},
+         "Source of the weights of the W methods: the single-sensor errors in \"mass_motion\" for "
+         "every regime, as in the paper (requires that regime), or those of the \"same_regime\"."},
         {{"mass_motion", WeightSource::mass_motion}, {"same_regime", WeightSource::same_regime}},
         std::string("mass_motion"), [](auto& plan, int) -> auto& { return plan.weight_source; }));
     keys.push_back(number(
         {at, "largest_distal_increment_m", "m",
-         "How far the distal end may have moved in one sample, either way: the flat prior of the "
-         "feasible-curve methods. 0.00063 m is the largest step of a 1 cm amplitude at 1 Hz and 100 "
-         "samples per second."},
+         "Largest movement of the distal end in one sample, in either direction: the flat prior of "
+         "the feasible-curve methods. 0.00063 m is the largest step of a 1 cm amplitude at 1 Hz and "
+         "100 samples per second."},
         above_zero, 0.00063, [](auto& plan, int) -> auto& { return plan.largest_distal_increment_m; }));
     keys.push_back(integer(
         {at, "curve_points", "",
-         "Points along the curve of feasible states; a multiple of 8. The grid leaves an error of its own, inverse to "
-         "their number: under 0.01 N with 128 in the paper's cable. Take more for sensors that are as good as that."},
+         "Number of points on the curve of feasible states; a multiple of 8. The grid adds an error "
+         "inversely proportional to their number: below 0.01 N with 128 points for the paper's cable. "
+         "Use more points for sensors with an error of this size."},
         {8, true, 100000}, std::int64_t{default_curve_points},
         [](auto& plan, int) -> auto& { return plan.curve_points; }));
 }

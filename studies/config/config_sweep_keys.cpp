@@ -9,7 +9,7 @@ using StudyKey = ConfigKey<StudyPlan>;
 
 StudyKey swept_ratio(std::string name, const std::string& what, std::vector<double> Sweep::*list) {
     StudyKey key = number_list<StudyPlan>(
-        {"sweep", std::move(name), "", "Factors on " + what + ", one study each; none: as above."},
+        {"sweep", std::move(name), "", "Factors on " + what + ", one study each; empty: the value above."},
         above_zero, {}, [list](auto& plan, int) -> auto& { return plan.sweep.*list; });
     key.allowed.may_be_empty = true;
     return key;
@@ -17,7 +17,7 @@ StudyKey swept_ratio(std::string name, const std::string& what, std::vector<doub
 
 StudyKey swept_segments() {
     StudyKey key{"sweep", "segments", {ValueKind::integers, "", {2, true, max_estimated_segments}}};
-    key.help = "Numbers of segments, one study each; none: as above.";
+    key.help = "Numbers of segments, one study each; empty: the value above.";
     key.default_value = std::vector<std::int64_t>{};
     key.read = [](const StudyPlan& plan, int) -> ConfigValue {
         return std::vector<std::int64_t>(plan.sweep.segments.begin(), plan.sweep.segments.end());
@@ -39,8 +39,8 @@ void add_sweep_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
     keys.push_back(swept_segments());
     keys.push_back(integer(
         {"sweep", "instants_per_regime", "",
-         "When a regime is reached depends on the transmission: take this many instants, spread evenly over all "
-         "samples that are in the regime, instead of the regime's samples. 0: its samples."},
+         "The samples that are in a regime depend on the transmission. Use this many of them, evenly "
+         "spread, instead of the regime's samples. 0: use the regime's samples."},
         {0, true, 1e6}, std::int64_t{0},
         [](auto& plan, int) -> auto& { return plan.sweep.instants_per_regime; }));
 }

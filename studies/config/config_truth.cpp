@@ -14,8 +14,8 @@ using StudyKey = ConfigKey<StudyPlan>;
 
 StudyKey ratio_key(const std::string& name, const std::string& of, double TrueCable::*ratio) {
     return number(
-        {"truth", name, "", "Of " + of + ", in parts of what [transmission] says."}, {0.01, true, 100.0},
-        1.0, [ratio](auto& plan, int) -> auto& { return plan.truth.*ratio; });
+        {"truth", name, "", "Ratio of the true value to that in [transmission], for " + of + "."},
+        {0.01, true, 100.0}, 1.0, [ratio](auto& plan, int) -> auto& { return plan.truth.*ratio; });
 }
 
 // A number that reads back to the same bits, and as a real number.
@@ -29,9 +29,10 @@ std::string real_text(double value) {
 std::vector<ConfigSection<StudyPlan>> truth_sections() {
     std::vector<ConfigSection<StudyPlan>> sections = {
         {"truth",
-         "How the true cable differs from the one above, in which the estimators believe; as by default, not at "
-         "all. `capstan diagnose --corrected FILE` writes one from a recording, `capstan study run --truth FILE` "
-         "takes it. Effects need both ends' positions to be given."}};
+         "How the true cable differs from the one above, which the estimators assume; by default it "
+         "does not. `capstan diagnose --corrected FILE` writes this section from a recording, "
+         "`capstan study run --truth FILE` reads it. Effects require prescribed positions at both "
+         "ends."}};
     add_effect_sections(sections, "truth", std::mem_fn(&Effect::changes_the_cable));
     return sections;
 }
@@ -52,8 +53,7 @@ TrueCable read_truth(const std::filesystem::path& path) {
     std::vector<ConfigProblem> problems;
     for (const auto& [key, line] : config.lines) {
         if (!key.empty() && !key.starts_with("truth"))
-            problems.push_back(
-                {line, 0, key, "does not belong into a file for --truth, which holds [truth] only"});
+            problems.push_back({line, 0, key, "does not belong in a --truth file, which holds only [truth]"});
     }
     if (!problems.empty()) throw ConfigError(path.string(), std::move(problems));
     return config.plan.truth;

@@ -29,7 +29,7 @@ void add_needed(const SensedCable& cable, const ChannelSet& used, std::size_t pr
         const double error_N = cable.runs[at.run].reading_N[predicted][at.sample] - moments.mean_N;
         const double within = std::pow(error_N / two_sided_95, 2) - std::pow(moments.deviation_N, 2) -
                               std::pow(channel.noise_N, 2);
-        // A slack cable's error is no part of its tension; a newton keeps the ratio finite.
+        // The error of a slack cable is not a fraction of its tension; 1 N keeps the ratio finite.
         const double tension_N = std::max(moments.mean_N, 1.0);
         needed.push_back(std::max(within, 0.0) / (tension_N * tension_N));
     });

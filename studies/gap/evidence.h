@@ -34,7 +34,7 @@ struct WeighedHypothesis {
 
 /// Compares explanations of a recording by the residuals that they leave.
 ///
-/// A hypothesis is no cause, one cause, two causes, or a cause outside the list. Its evidence is a Bayesian
+/// A hypothesis has no cause, one cause, two causes, or a cause outside the list. Its evidence is a Bayesian
 /// information criterion (G. Schwarz, Estimating the dimension of a model, Annals of Statistics 6, 1978,
 /// 461-464): the log-likelihood of the mean square residual over the independent samples, minus a penalty for
 /// each fitted number. Residuals are correlated in time, so only independent samples count. Three terms go

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "capstan/placement/recommendation.h"
+#include "capstan/storage/error.h"
 
 namespace capstan {
 
@@ -167,7 +168,13 @@ std::string alternative_words(const storage::StudyDescription& study,
 std::string place_words(const storage::StudyDescription& study, const std::vector<int>& nodes) {
     const std::vector<double> position_m = node_positions_m(study);
     std::vector<double> chosen_m;
-    for (const int node : nodes) chosen_m.push_back(position_m.at(node - 1));
+    for (const int node : nodes) {
+        if (node < 1 || node > static_cast<int>(position_m.size()))
+            throw storage::Error("A recommendation names node " + std::to_string(node) +
+                                 ", which the cable of the study does not have. The file is damaged; "
+                                 "`capstan doctor` examines it.");
+        chosen_m.push_back(position_m[static_cast<std::size_t>(node - 1)]);
+    }
     const int decimals = place_decimals(chosen_m);
     std::vector<std::string> places;
     for (std::size_t k = 0; k < nodes.size(); ++k) {

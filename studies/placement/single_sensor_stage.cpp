@@ -108,7 +108,7 @@ void read_repetition(const PreparedStudy& study, const StudyPoint& point, int r,
     read_tensions(noise, draws, study.scenarios[point.scenario_index].truth.tension_N, readings);
 }
 
-// A sensor that never errs gets a very large weight, not an infinite one.
+// A sensor without error gets a very large weight, not an infinite one.
 constexpr double smallest_error_N = 1e-12;
 
 }  // namespace

@@ -56,8 +56,8 @@ class Pilot {
         }
     }
 
-    // Studies in strides, so that early ones already show the whole range; each study once, then again with
-    // another part while there is time.
+    // Visits the studies in strides, so that the first ones already cover the complete range: each study
+    // once, then again with another part while there is time.
     void time_parts() {
         const double start_s = thread_processor_time_s();
         const int max_parts = parts_of(plans_.first(1));

@@ -40,9 +40,9 @@ struct Resolution {
     std::function<void(int repetitions, double unresolved_N)> on_look;  ///< may be empty
 };
 
-/// Doubles the repetitions until unresolved_N() is within the tolerance on all targets. Each look may err
-/// with half the chance of the one before, so that all together keep 95%. Of the studies that it runs on the
-/// way it keeps the last.
+/// Doubles the repetitions until unresolved_N() is within the tolerance on all targets. Each check has
+/// half the error probability of the one before, so that all checks together hold with 95%. Only the last of
+/// the studies that it runs is kept.
 ExtensionOutcome extend_until_resolved(storage::Database& database, const StudyToExtend& study,
                                        const Resolution& resolution, const std::string& program_version,
                                        const RunOptions& options);

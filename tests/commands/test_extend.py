@@ -39,14 +39,14 @@ class Extend(CapstanTest):
     def test_until_resolved(self):
         self.run_capstan(*STUDY, 50, "--db", "a.db")
         done = self.run_capstan("study", "extend", "--until-resolved", 0.2, "--db", "a.db")
-        self.assertIn("50 repetitions: some choice may still be better by", done.stderr)
-        self.assertIn("With 95 % certainty no choice is better", done.stderr)
+        self.assertIn("50 repetitions: another layout may still be better by up to", done.stderr)
+        self.assertIn("With 95 % certainty no layout is better", done.stderr)
         done = self.run_capstan("study", "extend", "--until-resolved", 1e-6, "--max-repetitions", 100, "--db", "a.db")
         self.assertIn("not within the tolerance", done.stderr)
 
     def test_says_what_is_missing(self):
         self.run_capstan(*STUDY, 50)
-        self.assertIn("give one of --repetitions", self.run_capstan("study", "extend", expect=2).stderr)
+        self.assertIn("give either --repetitions", self.run_capstan("study", "extend", expect=2).stderr)
         self.assertIn("50 repetitions already",
                       self.run_capstan("study", "extend", "--repetitions", 50, expect=2).stderr)
 

@@ -21,8 +21,11 @@ class Help(CapstanTest):
         for name in names:
             asked = self.run_capstan(*name.split(), "--help").stdout
             self.assertEqual(asked, self.run_capstan("help", *name.split()).stdout)
-            for part in ("Usage: capstan " + name, "Options:", "--help", "Exit codes:", "130"):
+            for part in ("Usage: capstan " + name, "Options:", "--help", "Exit codes:", "\n  2  "):
                 self.assertIn(part, asked)
+            codes = asked.split("Exit codes:")[1]
+            self.assertEqual("\n  3 " in codes, "--db FILE" in asked, name)
+            self.assertEqual("\n  130 " in codes, name in ("study run", "study resume", "study extend", "study merge"), name)
 
     def test_every_option_in_an_example_is_explained(self):
         for name in self.commands():

@@ -38,7 +38,8 @@ inline int one_main(int count, char** words, char** environment, const char* lin
     return code;
 }
 
-// Without the C library's streams, which would be half read in the forked process. False: there is no more.
+// Does not use the C library's streams, because the forked process would inherit a partly read buffer.
+// Returns false at the end of the input.
 inline bool read_line(char* line, std::size_t size) {
     std::size_t length = 0;
     while (length + 1 < size && ::read(STDIN_FILENO, line + length, 1) == 1) {

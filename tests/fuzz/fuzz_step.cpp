@@ -1,5 +1,5 @@
 // The step and the pull-pull pair on random benches with random inputs, good and bad (walk.h). Same seed,
-// same walks. `fuzz_step --steps 10000000` does the whole; the normal test run does a part of it.
+// same walks. `fuzz_step --steps 10000000` does all of them; the normal test run does a part.
 #include <unistd.h>
 
 #include <charconv>

@@ -113,7 +113,7 @@ Trial<CableSpecification> any_cable(Choices& choices) {
         const std::string name = spoil(s, choices);
         return {s, name};
     }
-    if (friction_exponent(s) > largest_friction_exponent) return {s, "static_friction times wrap angle"};
+    if (friction_exponent(s) > largest_friction_exponent) return {s, "static_friction times the wrap angle"};
     return {s};
 }
 

@@ -64,7 +64,7 @@ void change_once(std::string& bytes, const std::vector<Input>& others, Random& r
         case 3:
             bytes.insert(place, hard_words[below(random, std::size(hard_words))]);
             break;
-        case 4: {  // a number as a whole becomes another
+        case 4: {  // a complete number becomes another
             const auto digit = std::find_if(bytes.begin() + static_cast<std::ptrdiff_t>(place), bytes.end(),
                                             [](char c) { return c >= '0' && c <= '9'; });
             const auto start = static_cast<std::size_t>(digit - bytes.begin());

@@ -1,5 +1,5 @@
-// Requests to the service: bodies of every route that takes one, paths, and whole requests. Whatever comes,
-// the answer is HTTP and blames nobody but the sender: no 500.
+// Requests to the service: bodies of every route that takes one, paths, and complete requests. Every
+// answer is HTTP and reports an error of the sender, never one of the service (500).
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>

@@ -12,7 +12,7 @@ namespace {
 
 using namespace capstan;
 
-// A long motion of a long cable is no fault of a configuration, but would take the fuzzer's time.
+// A long motion of a long cable is valid, but would take the fuzzer's time.
 constexpr double max_node_steps = 20'000;
 constexpr std::size_t max_studies = 4;
 constexpr std::size_t max_instants = 8;

@@ -18,7 +18,7 @@ std::string refusal(const CableSpecification& specification) {
     return "";
 }
 
-TEST(Cable, CuttingIntoSegmentsKeepsTheWholeWrapAngle) {
+TEST(Cable, CuttingIntoSegmentsKeepsTheTotalWrapAngle) {
     const double wrap_rad = 0.2 / 0.06 + 0.25 / 0.1;
     for (const int segments : {1, 2, 3, 7, 10, 60, 1000}) {
         const Cable cable(test::routed_specification(segments));

@@ -12,7 +12,7 @@ double by_differences(const std::function<double(double)>& f, double at, double 
     return (f(at + step) - f(at - step)) / (2.0 * step);
 }
 
-TEST(Bristles, BendTowardsFullFrictionAndNeverBeyond) {
+TEST(Bristles, BendTowardsFullFrictionAndNotBeyond) {
     for (const double exponent : {0.0, 0.5, 1.0, 1.5}) {
         const Presliding law{1e-4, exponent};
         double bend = -1.0;

@@ -94,7 +94,7 @@ TEST(FeasibleCurve, RefusesAPriorThatItCannotSample) {
 
 // A saturated sensor means "at least this tension". The likelihood is 1 for tensions far above the range, one
 // half at the range itself, and never falls with the tension.
-TEST(CurveLikelihood, ASaturatedReadingSaysAtLeastThat) {
+TEST(CurveLikelihood, ASaturatedReadingIsALowerLimit) {
     const Instant instant = paper_instant(112);
     const FeasibleCurve curve = curve_of(instant, 128);
     const int node = 10;
@@ -112,7 +112,7 @@ TEST(CurveLikelihood, ASaturatedReadingSaysAtLeastThat) {
     }
 }
 
-TEST(CurveLikelihood, OneSensorMoreAddsItsOwn) {
+TEST(CurveLikelihood, AnotherSensorAddsItsLogLikelihood) {
     const Instant instant = paper_instant(6);
     const FeasibleCurve curve = curve_of(instant, 64);
     const CurveLikelihood likelihood(curve, {.multiplicative_ratio = 0.1});

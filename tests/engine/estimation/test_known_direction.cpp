@@ -73,7 +73,7 @@ TEST(KnownDirection, MeanErrorAtTenPercentNoiseIsEightPercentOfTheMeanTension) {
     }
 }
 
-TEST(KnownDirection, ASensorAtRestSaysNothing) {
+TEST(KnownDirection, ASensorAtRestCarriesNoInformation) {
     for (const int sample : test::partial_samples) {
         const Instant instant = paper_instant(sample);
         ASSERT_EQ(instant.truth.last_motion.proximal_moving_nodes, 8) << "the paper's last-moving node";
@@ -82,7 +82,7 @@ TEST(KnownDirection, ASensorAtRestSaysNothing) {
     }
 }
 
-TEST(KnownDirection, NoReadingSaysAnythingOfASlackCable) {
+TEST(KnownDirection, ReadingsOfASlackCableCarryNoInformation) {
     const Instant instant = paper_instant(112);
     MotionPattern slack;
     slack.kind = MotionKind::slack;

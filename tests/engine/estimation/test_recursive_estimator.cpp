@@ -90,7 +90,7 @@ const QuasiStaticStep& paper_model() {
     return model;
 }
 
-TEST(RecursiveEstimator, WithBothEndsKnownItIsTheModelWhateverTheReadingsSay) {
+TEST(RecursiveEstimator, WithBothEndsKnownItIsTheModelForAnyReadings) {
     Trial trial;
     trial.sensors = {3};
     trial.noise.additive_N = 5.0;

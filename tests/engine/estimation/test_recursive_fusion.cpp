@@ -47,7 +47,7 @@ TEST(RecursiveFusion, ErrorsOfReadingsComeBackInTheEstimate) {
     EXPECT_GT(off_N, exact_N);
 }
 
-TEST(RecursiveFusion, WhereNoPatternVerifiesTheWholeStateStays) {
+TEST(RecursiveFusion, WhereNoPatternVerifiesTheStateStays) {
     const QuasiStaticStep model(test::paper_cable(10), ModelRules::consistent());
     const CableState start = pretensioned(model.cable());
     RecursiveFusion fusion(model, start, mean_method, DistalSide::excluded);

@@ -32,7 +32,7 @@ TEST(NormalScores, AreTheQuantilesOfTheMiddlesOfEqualFractionsUpToAFactor) {
     EXPECT_NEAR(scores[99], 2.575829, 0.03);
 }
 
-TEST(StratifiedScores, DealEveryScoreOnceWhateverTheDraw) {
+TEST(StratifiedScores, UseEveryScoreOnceInEveryDraw) {
     const std::vector<double> scores = normal_scores(16);
     for (const double start : {0.01, 0.5, 0.99}) {
         for (const double stride : {0.01, 0.5, 0.99}) {

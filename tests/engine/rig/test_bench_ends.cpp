@@ -94,7 +94,7 @@ TEST(BenchSimulation, RefusesPulleysWithoutARadius) {
 
 // Lost motion.
 
-TEST(MotorBacklash, WithinItsGapAMotorTurnsNothing) {
+TEST(MotorBacklash, TransmitsNothingWithinItsGap) {
     BenchEffects effects;
     effects.of<Backlash>().motor_half_gap_rad = 0.05;
     BenchSimulation bench = pair_with(effects);
@@ -105,7 +105,7 @@ TEST(MotorBacklash, WithinItsGapAMotorTurnsNothing) {
     }
 }
 
-TEST(MotorBacklash, BeyondItsGapAMotorIsOneWithoutThatMuchFurtherBack) {
+TEST(MotorBacklash, BeyondTheGapEqualsAMotorWithoutBacklashShiftedByTheGap) {
     BenchEffects effects;
     effects.of<Backlash>().motor_half_gap_rad = 0.05;
     for (const double way : {1.0, -1.0}) {
@@ -122,7 +122,7 @@ TEST(MotorBacklash, BeyondItsGapAMotorIsOneWithoutThatMuchFurtherBack) {
     }
 }
 
-TEST(LoadBacklash, BeyondItsGapALoadIsOneWithoutThatMuchFurtherBack) {
+TEST(LoadBacklash, BeyondTheGapEqualsALoadWithoutBacklashShiftedByTheGap) {
     BenchEffects effects;
     effects.of<Backlash>().load_half_gap_rad = 0.02;
     for (const double way : {1.0, -1.0}) {
@@ -229,7 +229,7 @@ TEST(TurnedMotor, OnABearingWithPreslidingIsHeldAtRestToo) {
 
 // How much of the cable slides.
 
-TEST(SlidingShare, IsNoneAtRestAndAllButTheHeldEndsInMassMotion) {
+TEST(SlidingFraction, IsZeroAtRestAndAllButTheHeldEndsInMassMotion) {
     const std::vector<BenchDescription> bench = {{cable_with(30), CableArrangement::pull_pull, pulleys, {}}};
     const std::vector<BenchEffects> effects(1);
     BenchSimulations simulation(bench, effects);

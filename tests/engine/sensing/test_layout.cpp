@@ -32,7 +32,7 @@ std::vector<int> mirrored(const std::vector<int>& sensors, int nodes) {
     return mirror;
 }
 
-TEST(LayoutFamilies, PlaceTheAskedNumberOnDistinctNodesOfTheCableInRisingOrder) {
+TEST(LayoutFamilies, PlaceTheGivenNumberOnDistinctNodesInRisingOrder) {
     for_each_family_count_and_cable(
         [](const LayoutFamily& family, int count, int nodes, const auto& layouts) {
             ASSERT_FALSE(layouts.empty());
@@ -73,7 +73,7 @@ TEST(LayoutFamilies, TheTwoVariantsOfEvenAndOfBothAreMirrorImages) {
     });
 }
 
-TEST(LayoutFamilies, EverySensorOfEvenIsAsFarFromTheNextAsFits) {
+TEST(LayoutFamilies, EvenHasTheLargestPossibleSpacing) {
     for_each_family_count_and_cable(
         [](const LayoutFamily& family, int count, int nodes, const auto& layouts) {
             if (family.name != "even" || count < 2) return;
@@ -109,7 +109,7 @@ TEST(LayoutFamilies, ThreeSensorsOnThePapersCable) {
     EXPECT_EQ(find_layout_family("random"), nullptr);
 }
 
-TEST(ExplicitLayout, ListsItsNodesInRisingOrderAndCountsThemAsPeopleDo) {
+TEST(ExplicitLayout, ListsItsNodesInRisingOrderCountedFromOne) {
     const Layout layout = explicit_layout({10, 0, 5});
     EXPECT_EQ(layout.nodes, (std::vector<int>{0, 5, 10}));
     EXPECT_EQ(layout.label, "Nodes 1, 6, 11");

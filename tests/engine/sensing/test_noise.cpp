@@ -16,11 +16,11 @@ std::vector<double> readings(const NoiseLevel& noise, const ReadingDraws& draws)
     return reading_N;
 }
 
-TEST(Noise, NoneAtAllReadsTheTension) {
+TEST(Noise, WithoutNoiseTheReadingIsTheTension) {
     EXPECT_EQ(readings({}, draw_readings({1, 0, 0}, nodes)), tension_N);
 }
 
-TEST(Noise, EachPartDoesWhatItsDefinitionSays) {
+TEST(Noise, EachPartFollowsItsDefinition) {
     const ReadingDraws draws{{1.0, -2.0, 3.0, 0.5}, {0.25, 1.0, -1.0, 2.0}, {-1.0, 0.5, 2.0, 0.0}};
     const auto multiplicative = readings({0.1, 0.0, 0.0}, draws);
     const auto additive = readings({0.0, 0.2, 0.0}, draws);
@@ -46,7 +46,7 @@ TEST(Noise, ASensorKeepsItsBiasFromScenarioToScenario) {
     EXPECT_NE(draw_readings({5, 0, 0}, nodes).bias, draw_readings({5, 0, 1}, nodes).bias);
 }
 
-TEST(Noise, OneNodeMoreLeavesTheDrawsOfTheOthersAlone) {
+TEST(Noise, AnotherNodeDoesNotChangeTheDrawsOfTheOthers) {
     const ReadingDraws few = draw_readings({5, 1, 2}, 3);
     const ReadingDraws many = draw_readings({5, 1, 2}, 12);
     for (int i = 0; i < 3; ++i) {

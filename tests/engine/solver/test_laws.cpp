@@ -26,7 +26,7 @@ TEST(MassMotion, TensionGrowsByTheCapstanRatioTowardsWhereTheCableGoes) {
     }
 }
 
-TEST(MassMotion, AgainstASpringTheClosedFormOfTheWholeCableHolds) {
+TEST(MassMotion, AgainstASpringTheClosedFormOfTheCompleteCableHolds) {
     const Cable cable = test::paper_cable(10);
     const QuasiStaticStep step(cable, ModelRules::consistent());
     CableState state = pretensioned(cable);

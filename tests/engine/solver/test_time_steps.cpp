@@ -43,7 +43,7 @@ test::ErrorsByHalving errors_of(const test::SampledPath& path, const Cable& cabl
 
 class TimeSteps : public testing::TestWithParam<double> {};  // mu_s
 
-TEST_P(TimeSteps, DoNotMatterWhileNothingTurns) {
+TEST_P(TimeSteps, DoNotMatterWithoutTurningPoints) {
     const Cable cable = cable_with_stiction(GetParam());
     const test::SampledPath pull = sampled(test::pulled);
     const auto coarse = pull.states(cable, 1);

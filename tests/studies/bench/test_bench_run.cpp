@@ -44,7 +44,7 @@ double most(const std::vector<double>& tension_N) {
     return *std::max_element(tension_N.begin(), tension_N.end());
 }
 
-TEST(BenchRun, BeginsAtRestAndGoesOnForItsTime) {
+TEST(BenchRun, BeginsAtRestAndLastsItsDuration) {
     const auto instants = run(plan_with(5.0, 0.3));
     ASSERT_EQ(instants.size(), 601u);
     EXPECT_EQ(instants.front().load_torque_Nm, 0.0);
@@ -84,7 +84,7 @@ TEST(BenchRun, WhileOneCablePullsTheOtherGoesSlackAndComesBack) {
     EXPECT_GT(b_slack, 50);
 }
 
-TEST(BenchRun, AFreeLoadFeelsNothing) {
+TEST(BenchRun, AFreeLoadHasNoTorque) {
     BenchPlan plan = plan_with(5.0, 0.3);
     plan.load_kind = LoadKind::torque;
     for (const BenchInstant& now : run(plan)) EXPECT_NEAR(now.load_torque_Nm, 0.0, 1e-6) << now.time_s;

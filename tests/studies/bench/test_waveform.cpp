@@ -28,7 +28,7 @@ TEST(Waveform, RampsBeginAtZeroDwellAndComeBack) {
     EXPECT_DOUBLE_EQ(wave.at(6.75), -2.0) << "dwells";
 }
 
-TEST(Waveform, StepsGoRoundTheirLevels) {
+TEST(Waveform, StepsRepeatTheirLevels) {
     Waveform wave;
     wave.kind = WaveformKind::steps;
     wave.levels = {1.0, -1.0, 3.0};

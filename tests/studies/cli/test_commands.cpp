@@ -41,7 +41,7 @@ TEST(CommandLine, FillsInDefaults) {
     EXPECT_FALSE(invocation.has("json"));
 }
 
-TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+TEST(CommandLine, RejectsUnknownWords) {
     const Command& run = *find_command("study run");
     const std::vector<std::vector<std::string>> wrong = {
         {},                          // nothing to run

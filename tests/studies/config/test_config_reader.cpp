@@ -51,12 +51,12 @@ TEST(ConfigReader, KeyWithoutItsUnitIsUnknownAndTheFullNameIsOffered) {
                 ElementsAre(HasSubstr("did you mean 'pretension_N'?")));
 }
 
-TEST(ConfigReader, KeyInTheWrongSectionIsSentToTheRightOne) {
+TEST(ConfigReader, KeyInTheWrongSectionIsReportedWithTheRightOne) {
     EXPECT_THAT(problems_in("pretension_N = 5\n"),
                 ElementsAre(HasSubstr("it belongs to section [transmission]")));
 }
 
-TEST(ConfigReader, WrongTypeSaysWhatIsThereAndWhatMustBe) {
+TEST(ConfigReader, WrongTypeIsReportedWithTheExpectedType) {
     EXPECT_THAT(problems_in("repetitions = \"many\"\n"),
                 ElementsAre("1: repetitions: is a string, but must be an integer"));
     EXPECT_THAT(problems_in("repetitions = 2.5\n"), ElementsAre(HasSubstr("is a number with a fraction")));
@@ -99,7 +99,7 @@ TEST(ConfigReader, AllProblemsAreListedAtOnceInTheOrderOfLines) {
                     StartsWith("4: transmission.axial_stiffness_N"), StartsWith("6: layouts.counts")));
 }
 
-TEST(ConfigReader, MissingFileOffersToMakeOne) {
+TEST(ConfigReader, MissingFileSuggestsCreatingOne) {
     try {
         read_config("no/such/file.toml");
         FAIL() << "accepted";
@@ -130,7 +130,7 @@ TEST(ConfigReader, PieceWithoutRadiusIsStraight) {
     EXPECT_EQ(plan.transmission.cable.curvature.at(0).bend_radius_m, straight);
 }
 
-TEST(ConfigReader, ProblemsOfTheStudyAreShownAtTheLineTheySpeakOf) {
+TEST(ConfigReader, ProblemsOfTheStudyAreShownAtTheirLine) {
     const ReadConfig config =
         parse_config("[[regime]]\nname = \"mass\"\nsamples = [1]\nduty_fraction = 1\n", "x.toml");
     try {

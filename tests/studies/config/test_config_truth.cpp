@@ -51,7 +51,7 @@ TEST_F(TruthFile, OfNothingIsTheModel) {
     EXPECT_TRUE(read(truth_text({}, {})).is_the_model());
 }
 
-TEST_F(TruthFile, RefusesWhatIsNoTruthWithItsLine) {
+TEST_F(TruthFile, RejectsOtherContentWithItsLine) {
     try {
         read("[truth]\nfriction_ratio = 1.1\n[recommendation]\nworthwhile_gain_N = 0.1\n");
         FAIL() << "was taken";

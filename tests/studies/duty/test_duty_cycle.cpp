@@ -89,7 +89,7 @@ TEST(DutyCycle, ADriveThatNeverMovedHasNone) {
     EXPECT_THROW(duty.fraction(Regime::mass), InvalidInput);
 }
 
-TEST(DutyCycle, APlanTakesTheSharesOfItsRegimes) {
+TEST(DutyCycle, APlanTakesTheFractionsOfItsRegimes) {
     DutyCycle duty;
     duty.all.regime_s = {3.0, 1.0, 0.0, 1.0};  // mass, proximal, distal, both
     StudyPlan plan;
@@ -107,8 +107,8 @@ TEST(DutyCycle, ABenchWithoutGeometryIsRefused) {
     EXPECT_THROW(measure_duty(recording, {}), InvalidInput);
 }
 
-// Ramps against a locked load spend much of their time creeping along the cable, a moved handle hardly any.
-TEST(DutyCycle, OfARecordedSessionTellsRampsFromAHandle) {
+// Ramps against a locked load are in partial motion for much of their time, a moved handle almost never.
+TEST(DutyCycle, DistinguishesRampsFromAHandleInARecording) {
     const std::filesystem::path path = std::filesystem::path(CAPSTAN_OPEN_RECORDINGS) / "open01.csv";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
     const DutyCycle duty = measure_duty(read_recording(path), {});

@@ -5,7 +5,7 @@
 namespace capstan::estimate {
 namespace {
 
-// The paper's experiment, over a whole cycle instead of at two instants.
+// The paper's experiment, over a complete cycle instead of at two instants.
 StudyPlan paper_cycle() {
     StudyPlan plan;
     plan.name = "cycle";
@@ -20,7 +20,7 @@ StudyPlan paper_cycle() {
     return plan;
 }
 
-TEST(CycleTrial, TheRecursiveEstimatorErrsLessThanThePapersFromTheirOwnEstimates) {
+TEST(CycleTrial, TheRecursiveEstimatorHasASmallerErrorThanThePapers) {
     CycleOptions options;
     options.repetitions = 6;
     for (const CycleScore& score : score_cycles(paper_cycle(), options)) {

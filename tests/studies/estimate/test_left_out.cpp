@@ -50,7 +50,7 @@ SensedCable simulated_cable(double true_wander_m, double noise_N, int samples) {
     return cable;
 }
 
-TEST(LeaveOut, WithARightModelTheErrorIsTheNoiseAndTheBandHoldsWhatItSays) {
+TEST(LeaveOut, WithACorrectModelTheErrorIsTheNoiseAndTheBandCovers) {
     const SensedCable cable = simulated_cable(0.0, 0.25, 1500);
     for (const LeftOutChannel& result : leave_out(cable, {0, 1, 2}, {})) {
         EXPECT_NEAR(result.rms_N, 0.25, 0.02) << result.channel;
@@ -60,7 +60,7 @@ TEST(LeaveOut, WithARightModelTheErrorIsTheNoiseAndTheBandHoldsWhatItSays) {
 }
 
 // Not so the last sensor before that end, which alone sees the thin layer that its small motions move.
-TEST(LeaveOut, AFarEndThatMovesUnseenIsFollowedWhereTheModelAloneIsLost) {
+TEST(LeaveOut, TracksAnUnobservedFarEnd) {
     const SensedCable cable = simulated_cable(3e-5, 0.25, 1500);
     for (const LeftOutChannel& result : leave_out(cable, {0, 1}, {})) {
         EXPECT_LT(result.rms_N, 0.5 * result.model_alone_rms_N) << result.channel;
@@ -71,7 +71,7 @@ TEST(LeaveOut, AFarEndThatMovesUnseenIsFollowedWhereTheModelAloneIsLost) {
 }
 
 // What the left-out channel reads must not reach its own prediction or band.
-TEST(LeaveOut, NothingOfAChannelGoesIntoItsOwnPrediction) {
+TEST(LeaveOut, APredictionDoesNotUseItsOwnChannel) {
     SensedCable cable = simulated_cable(3e-5, 0.25, 400);
     const LeftOutChannel before = leave_out(cable, {1}, {}).front();
     for (SensedRun& run : cable.runs) {

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Benches, EveryEffect,
                          testing::Values(BenchKind::uniform_wide, BenchKind::single_cable),
                          [](const auto& kind) { return bench_kind_name(kind.param); });
 
-TEST(SensorQuantization, ReadsWholeSteps) {
+TEST(SensorQuantization, ReadsIntegerMultiplesOfTheStep) {
     TrialStream bench_draws(1, 1, DrawTopic::bench);
     const TrialBench bench = make_trial_bench(BenchKind::uniform_wide, 1.0, bench_draws);
     const SensedRun run(bench.channels().size(), {0.11, 0.26, -0.9});

@@ -60,7 +60,7 @@ TEST(ErrorReductionTunnel, ThePeakIsTwiceTheIdealsAndNearThePapers) {
     }
 }
 
-TEST(ErrorReductionTunnel, FrictionMakesALoopThatTakesWorkMoreWithPretension) {
+TEST(ErrorReductionTunnel, FrictionLoopTakesMoreWorkAtHigherPretension) {
     double before_J = 0.0;
     for (const TunnelRun& run : reproducing_runs()) {
         EXPECT_GT(run.loop_work_J, 0.5) << run.pretension_N;

@@ -1,5 +1,5 @@
 #pragma once
-// A results file that lives as long as a test, and its whole content as one value.
+// A results file that lives as long as a test, and its complete content as one value.
 
 #include <stdlib.h>
 

@@ -112,7 +112,7 @@ TEST(Recommendation, RecommendsTheCountWhereTheGainFlattens) {
     const auto mass = find("regime", "mass");
     EXPECT_EQ(mass.sensor_count, 2);
     EXPECT_EQ(mass.set_index, 2);
-    EXPECT_EQ(mass.method, "w_mean") << "a method that is told the direction is no choice";
+    EXPECT_EQ(mass.method, "w_mean") << "a method that needs the true direction is not a candidate";
     EXPECT_DOUBLE_EQ(mass.error_N, 0.5 + optimism_N) << "of the independent draws";
     EXPECT_DOUBLE_EQ(searched_error_N(mass), 0.5);
     // Student's t with 39 degrees of freedom; 40 equally spaced blocks.

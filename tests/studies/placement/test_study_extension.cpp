@@ -32,7 +32,7 @@ void expect_same(const test::Dump& a, const test::Dump& b) {
     for (const auto& [table, rows] : a) EXPECT_TRUE(rows == b.at(table)) << "table " << table << " differs";
 }
 
-// 57 is no multiple of 40: neither the first blocks nor the last are those of the smaller study.
+// 57 is not a multiple of 40: neither the first blocks nor the last are those of the smaller study.
 TEST(StudyExtension, HasTheBitsOfAStudyWithThatNumberFromTheStart) {
     for (const int many : {41, 57, 160}) {
         test::TemporaryStudy file;

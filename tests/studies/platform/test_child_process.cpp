@@ -14,7 +14,7 @@ TEST(ChildProcess, ReturnsTheExitCodeAndBothStreams) {
     EXPECT_EQ(done.messages, "message\n");
 }
 
-TEST(ChildProcess, ReadsBothStreamsHoweverMuchTheyHold) {
+TEST(ChildProcess, ReadsLargeOutputOfBothStreams) {
     const CommandOutput done =
         run_command({"sh", "-c", "head -c 300000 /dev/zero; head -c 300000 /dev/zero >&2; echo end"});
     EXPECT_EQ(done.output.size(), 300'004u);
@@ -34,7 +34,7 @@ TEST(ChildProcess, RefusesAProgramThatCannotBeStarted) {
     EXPECT_THROW(run_command({"capstan-no-such-program"}), std::runtime_error);
 }
 
-TEST(ChildProcess, EndsWhenAskedOrWhenItsOwnerGoes) {
+TEST(ChildProcess, StopsOnRequestAndWithItsOwner) {
     ChildProcess child({"sleep", "60"});
     child.ask_to_stop();
     EXPECT_EQ(child.wait().exit_code, 128 + 15);

@@ -14,12 +14,12 @@ TEST(NearestName, FindsLettersSwappedLeftOutOrAdded) {
     EXPECT_EQ(nearest_name("recomend", known), "recommend");
 }
 
-TEST(NearestName, ForgivesTheCaseAndAMissingUnit) {
+TEST(NearestName, IgnoresTheCaseAndAMissingUnit) {
     EXPECT_EQ(nearest_name("Pretension_n", known), "pretension_N");
     EXPECT_EQ(nearest_name("pretension", known), "pretension_N");
 }
 
-TEST(NearestName, SaysNothingWhereNothingIsNear) {
+TEST(NearestName, IsEmptyWithoutANearName) {
     EXPECT_EQ(nearest_name("colour", known), std::nullopt);
     EXPECT_EQ(nearest_name("x", known), std::nullopt);
 }

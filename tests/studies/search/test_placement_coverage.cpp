@@ -81,7 +81,8 @@ struct Tally {
     double fraction() const { return static_cast<double>(covered) / all; }
 };
 
-// Also of the optimum, though it was picked for looking good: its interval is that of the fresh draws.
+// This includes the optimum, although it was selected by its error: its interval is that of the independent
+// draws.
 TEST_F(Coverage, IntervalsCoverTheTruth93To97Percent) {
     std::map<std::string, Tally> tallies;
     for_each_count([&](const ScopeAnswer& scope, const CountAnswer& count) {

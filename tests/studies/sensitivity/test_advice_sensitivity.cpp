@@ -28,7 +28,7 @@ std::size_t index_of(const std::string& name) {
     return 99;
 }
 
-TEST(UncertainParameters, ScaleWhatTheySay) {
+TEST(UncertainParameters, ScaleTheNamedParameter) {
     const StudyPlan plan = plan_for(2);
     const std::vector<double> ratio = {1.1, 0.9, 1.2, 0.8, 2.0};
     const auto scaled = plan_with(plan, 0, ratio);
@@ -54,8 +54,8 @@ TEST(UncertainParameters, InstantsFollowTheirRegime) {
     }
 }
 
-// With hardly any friction the whole cable moves at once, and no instant of partial motion is left.
-TEST(UncertainParameters, ARegimeThatNeverOccursGivesItsShareAway) {
+// Almost without friction the complete cable moves at once, so no instant of partial motion remains.
+TEST(UncertainParameters, DistributesTheFractionOfAnAbsentRegime) {
     const auto scaled = plan_with(plan_for(2), 0, {1e-9, 1, 1, 1, 1});
     ASSERT_TRUE(scaled);
     double fraction = 0.0;
@@ -63,7 +63,7 @@ TEST(UncertainParameters, ARegimeThatNeverOccursGivesItsShareAway) {
     EXPECT_NEAR(fraction, 1.0, 1e-12);
 }
 
-TEST(AdviceQuestion, TheBestRegretsNothing) {
+TEST(AdviceQuestion, TheBestLayoutHasNoRegret) {
     const StudyPlan plan = plan_for(2);
     const auto there = AdviceQuestion(plan, 0).ask({1, 1, 1, 1, 1}, nullptr);
     ASSERT_TRUE(there);
@@ -72,7 +72,7 @@ TEST(AdviceQuestion, TheBestRegretsNothing) {
     EXPECT_EQ(there->regret.high_N, 0.0);
 }
 
-TEST(AdviceQuestion, ABadChoiceRegrets) {
+TEST(AdviceQuestion, AWorseLayoutHasRegret) {
     const StudyPlan plan = plan_for(1);
     const Advice proximal{{0}, "mean"};
     const auto there = AdviceQuestion(plan, 0).ask({1, 1, 1, 1, 1}, &proximal);
@@ -103,7 +103,7 @@ TEST(AdviceQuestion, RefusesWhatItCannotAnswer) {
 }
 
 // Asked again, the advice holds at the last value said to hold and not at the first said not to.
-TEST(AdviceSensitivity, FlipsWhereItSaysAndHoldsBefore) {
+TEST(AdviceSensitivity, FlipsAtTheStatedValueAndHoldsBefore) {
     StudyPlan plan = plan_for(1);
     plan.sensitivity.method = "mean";
     plan.sensitivity.regime = "mass";
@@ -126,7 +126,7 @@ TEST(AdviceSensitivity, FlipsWhereItSaysAndHoldsBefore) {
     RecordProperty("flips", flips);
 }
 
-TEST(AdviceSensitivity, TheScanGoesThroughTheConfiguredValueWhereNothingIsRegretted) {
+TEST(AdviceSensitivity, TheScanIncludesTheConfiguredValueWithoutRegret) {
     const SensitivityAnswer answer = advice_sensitivity(plan_for(2), {});
     ASSERT_EQ(answer.parameters.size(), 5u);
     for (const ParameterSensitivity& parameter : answer.parameters) {

@@ -36,7 +36,7 @@ TEST(MorrisDesign, EachWalkMovesAlongEveryAxisOnceAndStaysInside) {
     }
 }
 
-TEST(MorrisDesign, ComesBackWithItsSeed) {
+TEST(MorrisDesign, IsReproducibleFromItsSeed) {
     EXPECT_EQ(morris_design(10, 3, 5).points, morris_design(10, 3, 5).points);
     EXPECT_NE(morris_design(10, 3, 5).points, morris_design(10, 3, 6).points);
 }
@@ -62,7 +62,7 @@ TEST(ElementaryEffects, OfAProductSpread) {
     EXPECT_GT(effects[0].spread, 0.2);
 }
 
-TEST(ElementaryEffects, LeaveOutStepsToWhereThereIsNoResult) {
+TEST(ElementaryEffects, SkipStepsWithoutAResult) {
     const MorrisDesign design = morris_design(20, 2, 1);
     const auto effects =
         elementary_effects(design, evaluate(design, [](const std::vector<double>& x) {
