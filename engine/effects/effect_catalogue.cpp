@@ -38,6 +38,10 @@ const std::vector<Effect>& effect_catalogue() {
     return all;
 }
 
+// Built when the program starts. g++ 12 destroys members that do not exist yet when an allocation fails within
+// the nested braces of a row, so the rows must not be built where a lack of memory is to be reported.
+[[maybe_unused]] static const std::vector<Effect>& built_at_start = effect_catalogue();
+
 EffectValues absent_effects() {
     EffectValues absent;
     for (const Effect& effect : effect_catalogue()) absent.push_back(effect.absent);
