@@ -104,7 +104,7 @@ ExitCode run(const Invocation& invocation) {
 Command gap_trial_command() {
     return {
         .name = "gap-trial",
-        .summary = "Test the diagnosis on simulated recordings whose cause is hidden from it, and score it.",
+        .summary = "Test the diagnosis on simulated recordings with hidden causes, and score it.",
         .description =
             "Simulates benches as chains of masses over time, independently of the engine's own model. "
             "Each bench has an effect, a wrong parameter, a sensor fault, two effects together, a cause "

@@ -21,7 +21,7 @@ class WithoutSlurm(CapstanTest):
         done = self.run_capstan("study", "submit", "--slurm", *QUICK, "--directory", "d", expect=2, env=self.NO_SLURM)
         self.assertIn("sbatch and squeue are not on PATH", done.stderr)
         self.assertFalse((self.folder / "d").exists())
-        self.assertIn("say --slurm", self.run_capstan("study", "submit", *QUICK, expect=2).stderr)
+        self.assertIn("give --slurm", self.run_capstan("study", "submit", *QUICK, expect=2).stderr)
         self.assertIn("holds no submitted study", self.run_capstan("study", "status", "d", expect=1).stderr)
 
     def test_dry_run_writes_scripts_that_a_shell_can_run(self):
