@@ -65,8 +65,8 @@ async function useTheReport(page) {
   const before = await page.$eval(chart, (svg) => svg.outerHTML);
   await page.click('#filters input[value="Mean"]');
   await page.waitForFunction(([where, old]) => document.querySelector("html").dataset.drawn === "yes" && document.querySelector(where).outerHTML !== old, [chart, before]);
-  await page.fill('#filters input[data-filter="most"]', "2");
-  await page.dispatchEvent('#filters input[data-filter="most"]', "change");
+  await page.fill('#filters input[data-filter="max"]', "2");
+  await page.dispatchEvent('#filters input[data-filter="max"]', "change");
   await page.waitForFunction(() => document.querySelector("html").dataset.drawn === "yes");
   await page.click('#filters input[value="mass"]');
   check(await page.$eval("#figure-error_by_count-mass", (figure) => figure.hidden), "a regime that is not chosen is not shown");
