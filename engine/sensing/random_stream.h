@@ -10,6 +10,14 @@ enum class RandomPurpose : std::uint32_t {
     reading_noise = 1,  ///< drawn anew for each scenario
     sensor_bias = 2,    ///< the same at every scenario: its address leaves the scenario at 0
     member_motion = 3,  ///< of the recursive estimator; `repetition` is its step
+    // Of an uncertain world: `repetition` is the world.
+    world_cable = 4,     ///< `node` is the parameter
+    world_far_end = 5,   ///< `scenario` is the sample
+    world_sensor = 6,    ///< zero and gain; `node` is the sensor
+    world_reading = 7,   ///< `scenario` is the sample, `node` the sensor
+    member_cable = 8,    ///< `scenario` is the member, `node` the parameter
+    member_far_end = 9,  ///< `scenario` is the sample, `node` the member
+    member_sensor = 10,  ///< `scenario` is the member, `node` the sensor
 };
 
 /// Where a random number lives: the same address gives the same number, whoever asks, in whatever order.

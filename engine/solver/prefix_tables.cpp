@@ -61,4 +61,36 @@ PrefixTables::PrefixTables(const Cable& cable, const ModelRules& rules)
     }
 }
 
+// Products in place of exponentials: within rounding of the tables made from a cable.
+void PrefixTables::assign(double compliance_m_per_N, const double* exponents, const double* ratios,
+                          const double* breakaway_ratios, std::size_t stride) {
+    const std::size_t segments = sliding_ratio.size();
+    const double half = 0.5 * compliance_m_per_N;
+    half_compliance_m_per_N = half;
+    for (std::size_t s = 0; s < segments; ++s) {
+        sliding_exponent[s] = exponents[s * stride];
+        sliding_ratio[s] = ratios[s * stride];
+        breakaway_ratio[s] = breakaway_ratios[s * stride];
+    }
+    const auto fill = [&](SideTable& table, bool grows, bool from_proximal) {
+        double ratio = 1.0;
+        double elongation = 0.0;
+        for (std::size_t step = 0; step <= segments; ++step) {
+            const std::size_t node = from_proximal ? step : segments - step;
+            table.tension_ratio[node] = ratio;
+            table.elongation_m_per_N[node] = elongation;
+            table.front_compliance_m_per_N[node] = elongation + half * ratio;
+            if (step == segments) break;
+            const double across = sliding_ratio[from_proximal ? node : node - 1];
+            const double next = grows ? ratio * across : ratio / across;
+            elongation += half * (ratio + next);
+            ratio = next;
+        }
+    };
+    for (const bool forward : {false, true}) {
+        fill(proximal_[forward], forward, true);
+        fill(distal_[forward], !forward, false);
+    }
+}
+
 }  // namespace capstan

@@ -44,6 +44,10 @@ struct SideTable {
 struct PrefixTables {
     PrefixTables(const Cable& cable, const ModelRules& rules);
 
+    /// The same from segments that are already known, under ElongationRule::mean_tension.
+    void assign(double compliance_m_per_N, const double* sliding_exponent, const double* sliding_ratio,
+                const double* breakaway_ratio, std::size_t stride);
+
     const SideTable& proximal(int direction_sign) const { return proximal_[direction_sign > 0]; }
     const SideTable& distal(int direction_sign) const { return distal_[direction_sign > 0]; }
 

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "capstan/cable/invalid_input.h"
+#include "capstan/solver/cable_ensemble.h"
+#include "capstan/solver/quasi_static_step.h"
+
+namespace capstan {
+namespace {
+
+// About normal: twelve uniform numbers.
+double normal(int seed, int step, int which) {
+    std::mt19937_64 bits(static_cast<std::uint64_t>(seed) * 1000003 +
+                         static_cast<std::uint64_t>(step) * 1009 + static_cast<std::uint64_t>(which));
+    double sum = -6.0;
+    for (int k = 0; k < 12; ++k) sum += static_cast<double>(bits() >> 11) * 0x1p-53;
+    return sum;
+}
+
+CableSpecification arm(double friction, double stiffness_N) {
+    return {.curvature = {{0.3, straight}, {0.2, 0.12}, {0.3, straight}, {0.15, 0.08}, {0.25, straight}},
+            .segments = 12,
+            .axial_stiffness_N = stiffness_N,
+            .dynamic_friction = friction,
+            .static_friction = friction * 4.0 / 3.0,
+            .pretension_N = 15.0};
+}
+
+// Members with their own numbers, and the same cables one by one.
+struct SideBySide {
+    static constexpr int members = 16;
+    CableEnsemble ensemble{Cable(arm(0.12, 9000.0)), members};
+    std::vector<QuasiStaticStep> steps;
+    std::vector<CableState> states;
+
+    explicit SideBySide(int seed) {
+        for (int j = 0; j < members; ++j) {
+            const Cable cable(arm(0.12 * std::exp(0.3 * normal(seed, 0, 2 * j)),
+                                  9000.0 * std::exp(0.2 * normal(seed, 0, 2 * j + 1))));
+            steps.emplace_back(cable, ModelRules::consistent());
+            states.push_back(pretensioned(cable));
+            ensemble.compliance_m_per_N()[j] = cable.segment_compliance_m_per_N();
+            for (int s = 0; s < cable.segments(); ++s)
+                ensemble.sliding_exponent(s)[j] = cable.dynamic_friction() * cable.wrap_angle_rad()[s];
+            for (int node = 0; node < cable.nodes(); ++node)
+                ensemble.displacement_m(node)[j] = states.back().displacement_m[node];
+        }
+        ensemble.retune();
+    }
+};
+
+// Random walks of both ends, at rest now and then, which visit every regime and slack.
+void expect_the_same_walk(int seed, double spring_N_per_m) {
+    SideBySide pair(seed);
+    int disagreements = 0;
+    int searched = 0;
+    std::vector<double> distal_m(SideBySide::members, 0.0);
+    std::vector<double> value(SideBySide::members);
+    const int steps = 400;
+    for (int n = 1; n <= steps; ++n) {
+        const double proximal_m = n % 7 < 2 ? 0.0 : 4e-4 * normal(seed, n, 100);
+        for (int j = 0; j < SideBySide::members; ++j) {
+            if (n % 5 > 0) distal_m[j] += 2e-4 * normal(seed, n, j);
+            value[j] = spring_N_per_m > 0.0 ? 15.0 + spring_N_per_m * distal_m[j] : distal_m[j];
+        }
+        for (int j = 0; j < SideBySide::members; ++j) {
+            const EndCondition distal = spring_N_per_m > 0.0 ? EndCondition{spring_N_per_m, 1.0, value[j]}
+                                                             : EndCondition::position_m(value[j]);
+            pair.steps[j].advance(
+                pair.states[j],
+                {EndCondition::position_m(pair.states[j].displacement_m[0] + proximal_m), distal});
+        }
+        const EnsembleReport report = spring_N_per_m > 0.0
+                                          ? pair.ensemble.advance(proximal_m, {spring_N_per_m, 1.0, value})
+                                          : pair.ensemble.advance(proximal_m, {1.0, 0.0, value});
+        searched += report.searched;
+        for (int j = 0; j < SideBySide::members; ++j) {
+            bool same = true;
+            for (int node = 0; node < pair.ensemble.nodes(); ++node)
+                same = same &&
+                       std::abs(pair.ensemble.tension_N(node)[j] - pair.states[j].tension_N[node]) < 1e-6;
+            disagreements += same ? 0 : 1;
+        }
+    }
+    // A step on the edge of two patterns may fall either way by rounding; then the members part for a while.
+    EXPECT_LE(disagreements, steps * SideBySide::members / 200) << "seed " << seed;
+    EXPECT_GT(searched, 0);  // the walk must visit what only the search can solve
+}
+
+TEST(CableEnsemble, EveryMemberTakesTheStepOfItsOwnCable) {
+    for (const int seed : {1, 2, 3, 4, 5}) expect_the_same_walk(seed, 0.0);
+}
+
+TEST(CableEnsemble, EveryMemberTakesTheStepOfItsOwnCableAgainstASpring) {
+    for (const int seed : {6, 7, 8, 9, 10}) expect_the_same_walk(seed, 3000.0);
+}
+
+TEST(CableEnsemble, RefusesANumberOfMembersThatFillsNoLanes) {
+    EXPECT_THROW(CableEnsemble(Cable(arm(0.1, 9000.0)), 12), InvalidInput);
+}
+
+TEST(CableEnsemble, AnInputThatIsNotFiniteChangesNothing) {
+    CableEnsemble ensemble(Cable(arm(0.1, 9000.0)), 8);
+    const CableState before = ensemble.state_of(3);
+    const std::vector<double> value(8, std::nan(""));
+    EXPECT_THROW(ensemble.advance(0.0, {1.0, 0.0, value}), InvalidInput);
+    EXPECT_EQ(ensemble.state_of(3).tension_N, before.tension_N);
+}
+
+}  // namespace
+}  // namespace capstan
