@@ -70,10 +70,12 @@ HWY_INLINE Lanes lanes_of(double value) {
 void make_ratios(const EnsembleView& view) {
     const EnsembleTag d;
     const std::size_t count = view.members * static_cast<std::size_t>(view.nodes - 1);
+    const Lanes one = lanes_of(1.0);
     for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
         const Lanes exponent = hn::Load(d, view.exponent + k);
-        hn::Store(hn::Exp(d, exponent), d, view.sliding_ratio + k);
-        hn::Store(hn::Exp(d, hn::Mul(exponent, lanes_of(view.static_to_dynamic))), d,
+        const bool is_straight = hn::AllTrue(d, hn::Eq(exponent, hn::Zero(d)));
+        hn::Store(is_straight ? one : hn::Exp(d, exponent), d, view.sliding_ratio + k);
+        hn::Store(is_straight ? one : hn::Exp(d, hn::Mul(exponent, lanes_of(view.static_to_dynamic))), d,
                   view.breakaway_ratio + k);
     }
 }

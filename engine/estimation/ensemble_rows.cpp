@@ -1,0 +1,101 @@
+#include "capstan/estimation/ensemble_rows.h"
+
+#include <cmath>
+
+// foreach_target.h comes before highway.h.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "capstan/estimation/ensemble_rows.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include <hwy/contrib/math/math-inl.h>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace capstan::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using RowTag = hn::CappedTag<double, 8>;
+
+template <class Term>
+HWY_INLINE double row_sum(std::size_t members, const Term& term) {
+    const RowTag d;
+    auto sum = hn::Zero(d);
+    for (std::size_t j = 0; j < members; j += hn::Lanes(d)) sum = hn::Add(sum, term(j));
+    return hn::GetLane(hn::SumOfLanes(d, sum));
+}
+
+RowMoments row_moments(const double* HWY_RESTRICT row, std::size_t members) {
+    const RowTag d;
+    const double count = static_cast<double>(members);
+    const double mean =
+        row_sum(members, [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, row + j); }) / count;
+    const auto centre = hn::Set(d, mean);
+    const double squares = row_sum(members, [&](std::size_t j) HWY_ATTR {
+        const auto off = hn::Sub(hn::LoadU(d, row + j), centre);
+        return hn::Mul(off, off);
+    });
+    return {mean, std::sqrt(squares / (count - 1.0))};
+}
+
+void row_corrected(const RowCorrection& correction, double* HWY_RESTRICT row, std::size_t members) {
+    const RowTag d;
+    const double* HWY_RESTRICT sensed = correction.sensed.data();
+    const double* HWY_RESTRICT pull = correction.pull.data();
+    const double count = static_cast<double>(members);
+    const auto load = [&](const double* from, std::size_t j) HWY_ATTR { return hn::LoadU(d, from + j); };
+    const auto centre =
+        hn::Set(d, row_sum(members, [&](std::size_t j) HWY_ATTR { return load(row, j); }) / count);
+    auto own_sums = hn::Zero(d);
+    auto cross_sums = hn::Zero(d);
+    for (std::size_t j = 0; j < members; j += hn::Lanes(d)) {
+        const auto off = hn::Sub(load(row, j), centre);
+        own_sums = hn::Add(own_sums, hn::Mul(off, off));
+        cross_sums = hn::Add(cross_sums, hn::Mul(off, load(sensed, j)));
+    }
+    const double own = hn::GetLane(hn::SumOfLanes(d, own_sums));
+    const double cross = hn::GetLane(hn::SumOfLanes(d, cross_sums));
+    if (!(own > 0.0)) return;
+    const double square = cross * cross / (own * correction.sensed_squares);  // r^2
+    const double screened = 1.0 - correction.chance_variances * (1.0 - square) / ((count - 2.0) * square);
+    if (!(screened > 0.0)) return;
+    const auto gain = hn::Set(d, screened * cross / correction.total_squares);
+    for (std::size_t j = 0; j < members; j += hn::Lanes(d))
+        hn::StoreU(hn::Add(load(row, j), hn::Mul(gain, load(pull, j))), d, row + j);
+}
+
+void row_exponentials(const double* HWY_RESTRICT row, double* HWY_RESTRICT result, std::size_t members) {
+    const RowTag d;
+    for (std::size_t j = 0; j < members; j += hn::Lanes(d))
+        hn::StoreU(hn::Exp(d, hn::LoadU(d, row + j)), d, result + j);
+}
+
+}  // namespace capstan::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "capstan/solver/chosen_target.h"
+
+namespace capstan {
+
+HWY_EXPORT(row_moments);
+HWY_EXPORT(row_corrected);
+HWY_EXPORT(row_exponentials);
+
+RowMoments moments_of_row(std::span<const double> row) {
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(row_moments); });
+    return chosen(row.data(), row.size());
+}
+
+void correct_row(const RowCorrection& correction, std::span<double> row) {
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(row_corrected); });
+    chosen(correction, row.data(), row.size());
+}
+
+void exp_row(std::span<const double> row, std::span<double> result) {
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(row_exponentials); });
+    chosen(row.data(), result.data(), row.size());
+}
+
+}  // namespace capstan
+#endif
