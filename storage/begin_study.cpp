@@ -99,10 +99,19 @@ void write_work_units(Database& database, const std::vector<WorkUnitRecord>& uni
     }
 }
 
+void write_world_candidates(Database& database, const std::vector<WorldCandidateRecord>& candidates,
+                            std::int64_t study_id) {
+    RowWriter<WorldCandidateRecord> rows(database, "world_candidate", "study_id, candidate_index");
+    int candidate_index = 0;
+    for (const WorldCandidateRecord& candidate : candidates)
+        rows.write(candidate, study_id, candidate_index++);
+}
+
 std::int64_t write_description(Database& database, const StudyDescription& description) {
     StudyIds ids;
     ids.study_id = write_study(database, description.study);
     write_plain(database, "cable_segment", description.cable_segments, ids.study_id);
+    write_world_candidates(database, description.world_candidates, ids.study_id);
     write_plain(database, "regime", description.regimes, ids.study_id);
     ids.scenarios = write_indexed(database, "scenario", "scenario_id", "scenario_index",
                                   description.scenarios, ids.study_id);

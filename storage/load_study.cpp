@@ -77,6 +77,8 @@ StudyDescription load_study(Database& database, std::int64_t study_id) {
     description.sensor_sets = read_sensor_sets(database, study_id);
     description.layouts = read_layouts(database, ids);
     description.work_units = read_work_units(database, ids);
+    description.world_candidates = read_plain<WorldCandidateRecord>(
+        database, "world_candidate", "study_id = ?1 ORDER BY candidate_index", study_id);
     return description;
 }
 

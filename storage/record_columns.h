@@ -181,6 +181,41 @@ inline constexpr auto columns<RecommendationAlternativeRecord> = std::tuple{
 };
 
 template <>
+inline constexpr auto columns<WorldCandidateRecord> = std::tuple{
+    Column{"sensors", &WorldCandidateRecord::sensors},
+    Column{"words", &WorldCandidateRecord::words},
+    Column{"families", &WorldCandidateRecord::families},
+    Column{"sensor_count", &WorldCandidateRecord::sensor_count},
+    Column{"price", &WorldCandidateRecord::price},
+};
+
+template <>
+inline constexpr auto columns<WorldErrorRecord> = std::tuple{
+    Column{"candidate_index", &WorldErrorRecord::candidate_index},
+    Column{"condition", &WorldErrorRecord::condition},
+    Column{"world", &WorldErrorRecord::world},
+    Column{"mean_abs_error_N", &WorldErrorRecord::mean_abs_error_N},
+    Column{"load_end_error_N", &WorldErrorRecord::load_end_error_N},
+    Column{"worst_place_error_N", &WorldErrorRecord::worst_place_error_N},
+    Column{"mean_square_error_N2", &WorldErrorRecord::mean_square_error_N2},
+    Column{"covered_fraction", &WorldErrorRecord::covered_fraction},
+};
+
+template <>
+inline constexpr auto columns<WorldRecommendationRecord> = std::tuple{
+    Column{"objective", &WorldRecommendationRecord::objective},
+    Column{"candidate_index", &WorldRecommendationRecord::candidate_index},
+    Column{"estimator", &WorldRecommendationRecord::estimator},
+    Column{"expected_error_N", &WorldRecommendationRecord::expected_error_N},
+    Column{"error_95_N", &WorldRecommendationRecord::error_95_N},
+    Column{"interval_low_N", &WorldRecommendationRecord::interval_low_N},
+    Column{"interval_high_N", &WorldRecommendationRecord::interval_high_N},
+    Column{"no_sensor_error_N", &WorldRecommendationRecord::no_sensor_error_N},
+    Column{"beats_no_sensor", &WorldRecommendationRecord::beats_no_sensor},
+    Column{"sentence", &WorldRecommendationRecord::sentence},
+};
+
+template <>
 inline constexpr auto columns<PaperComparisonRecord> = std::tuple{
     Column{"quantity", &PaperComparisonRecord::quantity},
     Column{"paper_N", &PaperComparisonRecord::paper_N},

@@ -98,6 +98,15 @@ struct WorkUnitRecord {  // its position is its unit_index
     bool operator==(const WorkUnitRecord&) const = default;
 };
 
+struct WorldCandidateRecord {  // its position is its candidate_index
+    std::string sensors;
+    std::string words;
+    std::string families;
+    int sensor_count = 0;
+    double price = 0;
+    bool operator==(const WorldCandidateRecord&) const = default;
+};
+
 // Everything that is known before the first draw.
 struct StudyDescription {
     StudyRecord study;
@@ -109,6 +118,8 @@ struct StudyDescription {
     std::vector<SensorSetRecord> sensor_sets;
     std::vector<LayoutRecord> layouts;
     std::vector<WorkUnitRecord> work_units;
+    std::vector<WorldCandidateRecord>
+        world_candidates{};  // of a study with [uncertainty], which has no units
     bool operator==(const StudyDescription&) const = default;
 };
 
@@ -230,6 +241,32 @@ struct RecommendationRecord {
     std::vector<RecommendationCountRecord> counts;
     std::vector<RecommendationAlternativeRecord> alternatives;
     bool operator==(const RecommendationRecord&) const = default;
+};
+
+struct WorldErrorRecord {
+    int candidate_index = 0;
+    std::string condition;
+    int world = 0;
+    double mean_abs_error_N = 0;
+    double load_end_error_N = 0;
+    double worst_place_error_N = 0;
+    double mean_square_error_N2 = 0;
+    double covered_fraction = 0;
+    bool operator==(const WorldErrorRecord&) const = default;
+};
+
+struct WorldRecommendationRecord {
+    std::string objective;
+    int candidate_index = 0;
+    std::string estimator;
+    double expected_error_N = 0;
+    double error_95_N = 0;
+    double interval_low_N = 0;
+    double interval_high_N = 0;
+    double no_sensor_error_N = 0;
+    int beats_no_sensor = 0;  // 0 or 1
+    std::string sentence;
+    bool operator==(const WorldRecommendationRecord&) const = default;
 };
 
 struct PaperComparisonRecord {  // its position is its row_index

@@ -1,4 +1,4 @@
--- The results database of capstan, version 1. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 2. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a fraction or a ratio has no unit and says so in its
 -- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
@@ -312,6 +312,48 @@ CREATE TABLE paper_comparison (
     PRIMARY KEY (study_id, row_index)
 ) STRICT, WITHOUT ROWID;
 
+-- A study with [uncertainty] compares sets of sensors in worlds. The sets that could be bought; 0 has no sensor.
+CREATE TABLE world_candidate (
+    study_id        INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    candidate_index INTEGER NOT NULL CHECK (candidate_index >= 0),  -- 0, 1, ... by price
+    sensors         TEXT    NOT NULL CHECK (json_valid(sensors)),  -- '[{"kind":"tension","place_m":0.6}]'
+    words           TEXT    NOT NULL,              -- for people: 'tension at 0.6 m'
+    families        TEXT    NOT NULL,              -- the named sets that it is: 'even both'; '': none
+    sensor_count    INTEGER NOT NULL CHECK (sensor_count >= 0),  -- how many sensors
+    price           REAL    NOT NULL,              -- of all of them, in the unit of the configuration
+    PRIMARY KEY (study_id, candidate_index)
+) STRICT, WITHOUT ROWID;
+
+-- The error of one set of sensors in one world, over its entire motion. All numbers of an answer follow from these.
+CREATE TABLE world_error (
+    study_id             INTEGER NOT NULL,         -- as in world_candidate
+    candidate_index      INTEGER NOT NULL,         -- as in world_candidate
+    condition            TEXT    NOT NULL,         -- 'as_stated', 'friction_known', 'half_width', 'finer_grid', ...
+    world                INTEGER NOT NULL,         -- from 0; the same number is the same world for all sets
+    mean_abs_error_N     REAL    NOT NULL,         -- over samples and nodes
+    load_end_error_N     REAL    NOT NULL,         -- at the distal node, over samples
+    worst_place_error_N  REAL    NOT NULL,         -- at the node where it is largest, over samples
+    mean_square_error_N2 REAL    NOT NULL,         -- over samples and nodes [N2]
+    covered_fraction     REAL    NOT NULL,         -- of the true tensions within the estimate's 95% band
+    PRIMARY KEY (study_id, condition, candidate_index, world),
+    FOREIGN KEY (study_id, candidate_index) REFERENCES world_candidate ON DELETE CASCADE
+) STRICT, WITHOUT ROWID;
+
+-- What a study with [uncertainty] recommends, from worlds that had no part in choosing it.
+CREATE TABLE world_recommendation (
+    study_id          INTEGER PRIMARY KEY REFERENCES study ON DELETE CASCADE,  -- its study
+    objective         TEXT    NOT NULL,            -- 'all_nodes', 'load_end', 'worst_node' or 'quantile_95'
+    candidate_index   INTEGER NOT NULL,            -- the set, as in world_candidate
+    estimator         TEXT    NOT NULL,            -- of the tensions
+    expected_error_N  REAL    NOT NULL,            -- the objective
+    error_95_N        REAL    NOT NULL,            -- that 95% of the worlds stay below
+    interval_low_N    REAL    NOT NULL,            -- Monte-Carlo interval of expected_error_N, 95%
+    interval_high_N   REAL    NOT NULL,            -- upper end of that interval
+    no_sensor_error_N REAL    NOT NULL,            -- the same without any sensor
+    beats_no_sensor   INTEGER NOT NULL CHECK (beats_no_sensor IN (0, 1)),  -- 1: better in a paired t test at 5%
+    sentence          TEXT    NOT NULL             -- for a designer to act on
+) STRICT;
+
 -- What `capstan diagnose` found in one recording.
 CREATE TABLE diagnosis (
     diagnosis_id        INTEGER PRIMARY KEY,       -- 1, 2, ... in the order they were stored
@@ -569,3 +611,21 @@ SELECT d.diagnosis_id, d.recording, d.verdict, d.confidence_fraction, d.componen
 FROM diagnosis d LEFT JOIN diagnosis_channel c ON c.diagnosis_id = d.diagnosis_id AND c.channel_index = (
     SELECT channel_index FROM diagnosis_channel j WHERE j.diagnosis_id = d.diagnosis_id
     ORDER BY j.channel <> 'load_torque', j.channel_index LIMIT 1);
+
+-- The error of each set of sensors of the studies with [uncertainty], over the worlds that were run.
+CREATE VIEW v_world_error AS
+-- study_id: its study
+-- study: its name
+-- candidate_index: the set, as in world_candidate
+-- words: the set in words
+-- condition: under what it was tried
+-- worlds: how many; sets that lost early have few
+-- standard_error_N: of mean_abs_error_N
+SELECT e.study_id, t.name AS study, e.candidate_index, c.words, c.sensor_count, c.price, e.condition,
+       count(*) AS worlds, avg(e.mean_abs_error_N) AS mean_abs_error_N,
+       sqrt(max(avg(e.mean_abs_error_N * e.mean_abs_error_N) - avg(e.mean_abs_error_N) * avg(e.mean_abs_error_N), 0.0)
+            / max(count(*) - 1, 1)) AS standard_error_N,
+       avg(e.load_end_error_N) AS load_end_error_N, avg(e.worst_place_error_N) AS worst_place_error_N,
+       avg(e.covered_fraction) AS covered_fraction
+FROM world_error e JOIN world_candidate c USING (study_id, candidate_index) JOIN study t USING (study_id)
+GROUP BY e.study_id, e.candidate_index, e.condition;

@@ -29,6 +29,9 @@ StudyIds load_study_ids(Database& database, std::int64_t study_id);
 std::int64_t id_at(const std::vector<std::int64_t>& ids, int index, std::string_view what);
 int index_of(const std::vector<std::int64_t>& ids, std::int64_t id);
 
+// Makes a running study complete; an Error if it is complete already.
+void mark_complete(Database& database, std::int64_t study_id);
+
 // Readable ids: study 2's cell number 17 is 2'000'000'017.
 std::int64_t numbered_within_study(std::int64_t study_id, std::int64_t number);
 

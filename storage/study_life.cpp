@@ -45,16 +45,6 @@ void keep_averages(Database& database, std::int64_t study_id) {
     }
 }
 
-void mark_complete(Database& database, std::int64_t study_id) {
-    Statement update(database,
-                     "UPDATE study SET status = 'complete' WHERE study_id = ?1 AND status = 'running'");
-    update.bind(1, study_id);
-    update.run("finish the study");
-    if (sqlite3_changes(database.connection()) == 0) {
-        throw Error("Study " + std::to_string(study_id) + " is complete already; its conclusions stay.");
-    }
-}
-
 void write_recommendations(Database& database, const StudyIds& ids,
                            const std::vector<RecommendationRecord>& recommendations) {
     RowWriter<RecommendationRecord> rows(database, "recommendation",
@@ -78,6 +68,16 @@ void write_recommendations(Database& database, const StudyIds& ids,
 }
 
 }  // namespace
+
+void mark_complete(Database& database, std::int64_t study_id) {
+    Statement update(database,
+                     "UPDATE study SET status = 'complete' WHERE study_id = ?1 AND status = 'running'");
+    update.bind(1, study_id);
+    update.run("finish the study");
+    if (sqlite3_changes(database.connection()) == 0) {
+        throw Error("Study " + std::to_string(study_id) + " is complete already; its conclusions stay.");
+    }
+}
 
 std::vector<StudySummary> list_studies(Database& database) {
     Statement select(database,
