@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "capstan/estimate/cycle_trial.h"
-#include "capstan/search/placement_answer.h"
 #include "capstan/reports/answer.h"
+#include "capstan/search/placement_answer.h"
 #include "capstan/sensitivity/advice_sensitivity.h"
 #include "capstan/storage/database.h"
 #include "capstan/storage/records.h"
+#include "capstan/worlds/world_study.h"
 
 namespace capstan::answers {
 
@@ -28,9 +29,18 @@ struct Conclusions {
     std::vector<storage::RecommendationRecord> recommendations;
     std::vector<storage::PaperComparisonRecord> paper_comparison;
 };
-/// Throws storage::Error if the study is not complete.
+/// Throws storage::Error, with the command that completes it, if the study is not complete.
+void require_complete(storage::Database& database, std::int64_t study_id,
+                      const storage::StudyDescription& description);
 Conclusions read_conclusions(storage::Database& database, std::int64_t study_id);
 reports::Answer recommendation_answer(const Conclusions& conclusions);
+
+/// What a study over worlds found; `study_id` 0: it is not stored.
+reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, std::int64_t study_id = 0);
+/// The same from a complete stored study, with the plan that it stored but for `worthwhile_gain_N`.
+reports::Answer stored_world_answer(storage::Database& database, std::int64_t study_id, const StudyPlan& plan);
+/// What a complete study concludes, of either kind. Throws storage::Error if it is not complete.
+reports::Answer conclusions_answer(storage::Database& database, std::int64_t study_id);
 
 /// Whether the advice of a study changes where the true cable differs from the model; `model_id` and
 /// `truth_id` are the two studies, with the same plan but for the true cable.

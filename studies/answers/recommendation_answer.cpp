@@ -178,14 +178,18 @@ bool is_as_good(const RecommendationRecord& best, const RecommendationRecord& gi
 
 }  // namespace
 
+void require_complete(storage::Database& database, std::int64_t study_id,
+                      const StudyDescription& description) {
+    if (description.study.status == "complete") return;
+    throw storage::Error(
+        fmt::format("study {} ({}) is not complete, so it has no recommendation yet. "
+                    "`capstan study resume {} --db {}` completes it.",
+                    study_id, description.study.name, study_id, database.path().string()));
+}
+
 Conclusions read_conclusions(storage::Database& database, std::int64_t study_id) {
     Conclusions conclusions{study_id, storage::load_study(database, study_id), {}, {}};
-    if (conclusions.study.study.status != "complete") {
-        throw storage::Error(
-            fmt::format("study {} ({}) is not complete, so it has no recommendation yet. "
-                        "`capstan study resume {} --db {}` completes it.",
-                        study_id, conclusions.study.study.name, study_id, database.path().string()));
-    }
+    require_complete(database, study_id, conclusions.study);
     conclusions.recommendations = storage::read_recommendations(database, study_id);
     conclusions.paper_comparison = storage::read_paper_comparison(database, study_id);
     return conclusions;

@@ -6,6 +6,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/watched_run.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/config/plan_checks.h"
 #include "capstan/duty/duty_cycle.h"
@@ -41,6 +42,10 @@ ExitCode run(const Invocation& invocation) {
     if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     if (invocation.has("repetitions"))
         config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
+    if (config.plan.uncertainty.is_stated) {
+        config::require_runnable(config);
+        return run_watched_worlds(invocation, nullptr, 0, config.plan);
+    }
     if (invocation.has("duty")) take_duty(invocation, config.plan);
     config::require_runnable(config);
     PlacementOptions options;
@@ -101,6 +106,7 @@ Command place_command() {
              output_option,
              page_option,
              json_option,
+             progress_option,
              stats_option,
              help_option},
         .examples = {"capstan place configs/paper.toml",

@@ -15,9 +15,15 @@ namespace {
 ExitCode run(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+    const StoredStudy stored = load_stored_study(database, id);
+    if (stored.plan.uncertainty.is_stated) {
+        StudyPlan plan = stored.plan;
+        if (invocation.has("worthwhile-gain")) plan.worthwhile_gain_N = invocation.number("worthwhile-gain");
+        deliver_answer(invocation, answers::stored_world_answer(database, id, plan));
+        return ExitCode::success;
+    }
     answers::Conclusions conclusions = answers::read_conclusions(database, id);
     if (invocation.has("worthwhile-gain")) {
-        const StoredStudy stored = load_stored_study(database, id);
         conclusions.recommendations =
             recommend(database, id, {invocation.number("worthwhile-gain")},
                       fresh_errors(database, id, stored.plan, static_cast<int>(invocation.integer("jobs"))));

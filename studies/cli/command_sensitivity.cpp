@@ -4,6 +4,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/watched_run.h"
 #include "capstan/config/plan_checks.h"
 
 namespace capstan::cli {
@@ -16,6 +17,8 @@ ExitCode run(const Invocation& invocation) {
     if (invocation.has("sensors"))
         config.plan.sensitivity.sensors = static_cast<int>(invocation.integer("sensors"));
     config::require_runnable(config);
+    // The answer of a study over worlds says how it fares with other widths.
+    if (config.plan.uncertainty.is_stated) return run_watched_worlds(invocation, nullptr, 0, config.plan);
     sensitivity::SensitivityOptions options;
     options.jobs = static_cast<int>(invocation.integer("jobs"));
     options.noise_index = noise_index_of(config.plan, invocation);
@@ -51,6 +54,7 @@ Command sensitivity_command() {
                         output_option,
                         page_option,
                         json_option,
+                        progress_option,
                         help_option},
             .examples = {"capstan sensitivity configs/paper.toml",
                          "capstan sensitivity my.toml --sensors 2 --html advice.html",

@@ -26,6 +26,7 @@ ExitCode resume_one(const Invocation& invocation, storage::Database& database, s
             "the last bits.",
             id, study.program_version, program_version()));
     }
+    if (stored.plan.uncertainty.is_stated) return run_watched_worlds(invocation, &database, id, stored.plan);
     return run_watched(invocation, database, study.name, [&](const RunOptions& options) {
         return resume_study(database, id, stored.plan, options);
     });

@@ -9,6 +9,7 @@
 #include "capstan/cli/watched_run.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
+#include "capstan/worlds/stored_worlds.h"
 
 namespace capstan::cli {
 
@@ -98,9 +99,24 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
     return code;
 }
 
+ExitCode run_all_worlds(const Invocation& invocation, const std::vector<StudyPlan>& plans) {
+    if (invocation.has("shard") || invocation.has("truth"))
+        throw UsageError(
+            "--shard and --truth are for studies without [uncertainty]; a study over worlds runs as one part");
+    storage::Database database = storage::Database::open_or_create(invocation.text("db"));
+    refuse_shard_file(database);
+    std::vector<std::int64_t> ids;
+    for (const StudyPlan& plan : plans) ids.push_back(begin_worlds(database, plan, program_version()));
+    ExitCode code = ExitCode::success;
+    for (std::size_t k = 0; k < plans.size() && code == ExitCode::success; ++k)
+        code = run_watched_worlds(invocation, &database, ids[k], plans[k]);
+    return code;
+}
+
 ExitCode run(const Invocation& invocation) {
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
+    if (config.plan.uncertainty.is_stated) return run_all_worlds(invocation, plans);
     if (invocation.has("truth") && !invocation.has("shard") && plans.size() == 1)
         return run_both_truths(invocation, plans.front());
     if (invocation.has("shard")) return run_part(invocation, config.plan.name, plans);

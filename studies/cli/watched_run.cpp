@@ -7,7 +7,9 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/stop_request.h"
 #include "capstan/paper/placement_comparison.h"
+#include "capstan/platform/clocks.h"
 #include "capstan/platform/progress.h"
+#include "capstan/worlds/stored_worlds.h"
 
 namespace capstan::cli {
 
@@ -92,8 +94,51 @@ ExitCode run_watched(const Invocation& invocation, storage::Database& database, 
     return code;
 }
 
+ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* database, std::int64_t study_id,
+                            const StudyPlan& plan) {
+    ProgressDisplay display(progress_mode(invocation.text("progress")));
+    WorldRunOptions options;
+    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    options.on_progress = [&](const TableProgress& progress) {
+        display.show(counted_progress(fmt::format("{}, {}", plan.name, progress.activity),
+                                      static_cast<int>(progress.done), static_cast<int>(progress.total),
+                                      "trials"));
+    };
+    const double start_s = wall_time_s();
+    std::optional<WorldAnswer> found;
+    {
+        const StopRequest stoppable;
+        options.stop = StopRequest::flag();
+        try {
+            found = database == nullptr ? run_worlds(plan, options)
+                                        : run_worlds(*database, study_id, plan, options);
+        } catch (const TableStopped&) {
+        }
+    }
+    display.end_line();
+    if (!found) {
+        const std::string words =
+            database == nullptr
+                ? std::string("Stopped.")
+                : fmt::format(
+                      "Stopped; every finished block of worlds is kept. Go on with: capstan study resume {} --db {}",
+                      study_id, database->path().string());
+        say_end(display.mode() == ProgressMode::none ? ProgressMode::automatic : display.mode(), "stopped",
+                words, study_id);
+        return ExitCode::stopped;
+    }
+    if (database != nullptr)
+        say_end(display.mode(), "complete",
+                fmt::format("Study {} ({}) is complete in {}, after {:.2f} s.", study_id, plan.name,
+                            database->path().string(), wall_time_s() - start_s),
+                study_id);
+    if (invocation.has("stats")) say(fmt::format("wall time: {:.2f} s", wall_time_s() - start_s));
+    deliver_answer(invocation, answers::world_answer(plan, *found, study_id));
+    return ExitCode::success;
+}
+
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id) {
-    deliver_answer(invocation, answers::recommendation_answer(answers::read_conclusions(database, study_id)));
+    deliver_answer(invocation, answers::conclusions_answer(database, study_id));
 }
 
 }  // namespace capstan::cli

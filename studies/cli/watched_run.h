@@ -29,6 +29,10 @@ ExitCode watch(const Invocation& invocation, const std::string& name, const Watc
 ExitCode run_watched(const Invocation& invocation, storage::Database& database, const std::string& study_name,
                      const std::function<RunOutcome(const RunOptions&)>& work);
 
+/// The same for a study over worlds; without a database nothing is stored and `study_id` is 0.
+ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* database, std::int64_t study_id,
+                            const StudyPlan& plan);
+
 /// The answer of a study that is complete.
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id);
 

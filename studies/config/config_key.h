@@ -83,6 +83,10 @@ struct ConfigSection {
     int (*rows)(const Plan&) = nullptr;
     void (*set_rows)(Plan&, int count) = nullptr;
     void (*fill_default)(Plan&) = nullptr;
+    /// Called where the section stands in the file.
+    void (*note_present)(Plan&) = nullptr;
+    /// False where the plan has no use for the section; it is then not written out. Empty: always.
+    bool (*is_used)(const Plan&) = nullptr;
 
     bool is_repeated() const { return rows != nullptr; }
 };

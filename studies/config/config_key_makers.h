@@ -46,7 +46,8 @@ ConfigKey<Plan> unbound_key(KeyText about, ValueKind kind, Limits limits, Config
 }
 
 template <class Stored, class Plan, class Field>
-ConfigKey<Plan> field_key(KeyText about, ValueKind kind, Limits limits, ConfigValue default_value, Field field) {
+ConfigKey<Plan> field_key(KeyText about, ValueKind kind, Limits limits, ConfigValue default_value,
+                          Field field) {
     auto key = unbound_key<Plan>(std::move(about), kind, limits, std::move(default_value));
     bind_field<Stored>(key, field);
     return key;
@@ -54,18 +55,20 @@ ConfigKey<Plan> field_key(KeyText about, ValueKind kind, Limits limits, ConfigVa
 
 template <class Plan = StudyPlan, class Field>
 ConfigKey<Plan> string(KeyText about, ConfigValue default_value, Field field) {
-    return field_key<std::string, Plan>(std::move(about), ValueKind::string, {}, std::move(default_value), field);
+    return field_key<std::string, Plan>(std::move(about), ValueKind::string, {}, std::move(default_value),
+                                        field);
 }
 
 template <class Plan = StudyPlan, class Field>
 ConfigKey<Plan> integer(KeyText about, Limits limits, ConfigValue default_value, Field field) {
-    return field_key<std::int64_t, Plan>(std::move(about), ValueKind::integer, limits, std::move(default_value),
-                                         field);
+    return field_key<std::int64_t, Plan>(std::move(about), ValueKind::integer, limits,
+                                         std::move(default_value), field);
 }
 
 template <class Plan = StudyPlan, class Field>
 ConfigKey<Plan> number(KeyText about, Limits limits, ConfigValue default_value, Field field) {
-    return field_key<double, Plan>(std::move(about), ValueKind::number, limits, std::move(default_value), field);
+    return field_key<double, Plan>(std::move(about), ValueKind::number, limits, std::move(default_value),
+                                   field);
 }
 
 template <class Plan = StudyPlan, class Field>

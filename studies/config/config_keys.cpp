@@ -214,6 +214,7 @@ std::vector<StudyKey> all_keys() {
         zero_or_more, default_worthwhile_gain_N,
         [](auto& plan, int) -> auto& { return plan.worthwhile_gain_N; }));
     add_placement_keys(keys);
+    add_uncertainty_keys(keys);
     add_sensitivity_keys(keys);
     add_sweep_keys(keys);
     for (StudyKey& key : truth_keys()) keys.push_back(std::move(key));
@@ -263,6 +264,17 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
          "plan` estimates the cost, `capstan study submit` runs them on a cluster."},
     };
     for (ConfigSection<StudyPlan>& section : truth_sections()) sections.push_back(std::move(section));
+    const auto has_instants = [](const StudyPlan& plan) { return !plan.uncertainty.is_stated; };
+    for (ConfigSection<StudyPlan>& section : sections) {
+        if (section.path == "regime" || section.path == "estimation" || section.path == "sensitivity")
+            section.is_used = has_instants;
+    }
+    // Before [placement], whose keys depend on it.
+    const auto placement = std::find_if(sections.begin(), sections.end(),
+                                        [](const auto& section) { return section.path == "placement"; });
+    auto uncertainty = uncertainty_sections();
+    sections.insert(placement, std::make_move_iterator(uncertainty.begin()),
+                    std::make_move_iterator(uncertainty.end()));
     return sections;
 }
 

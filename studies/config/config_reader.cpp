@@ -50,6 +50,7 @@ class Reading {
             return read_keys(section, nullptr, 0, std::string(section.path));
         }
         note_line(section.path, *node);
+        if (section.note_present != nullptr) section.note_present(config_.plan);
         if (!section.path.empty())
             note_problems(unknown_keys<Plan>(*table, section.path, std::string(section.path)));
         read_keys(section, table, 0, std::string(section.path));
@@ -57,18 +58,23 @@ class Reading {
 
     void read_repeated(const Section& section) {
         const toml::node* node = find(section.path);
-        if (node == nullptr) return section.fill_default(config_.plan);
+        if (node == nullptr) {
+            if (section.fill_default != nullptr) section.fill_default(config_.plan);
+            return;
+        }
         const toml::array* rows = node->as_array();
         if (rows == nullptr ||
             !std::all_of(rows->begin(), rows->end(), [](auto& row) { return row.is_table(); })) {
             problem(*node, section.path,
                     fmt::format("must be a list of tables; write [[{}]] with two brackets before each",
                                 section.path));
-            return section.fill_default(config_.plan);
+            if (section.fill_default != nullptr) section.fill_default(config_.plan);
+            return;
         }
         if (rows->empty()) {
             problem(*node, section.path, "is empty; give at least one, or leave it out for the default");
-            return section.fill_default(config_.plan);
+            if (section.fill_default != nullptr) section.fill_default(config_.plan);
+            return;
         }
         note_line(section.path, *node);
         section.set_rows(config_.plan, static_cast<int>(rows->size()));

@@ -13,6 +13,8 @@ void add_layout_keys(StudyKeys& keys);       ///< [layouts]
 void add_estimation_keys(StudyKeys& keys);   ///< [estimation]: fusion methods and what they assume
 void add_placement_keys(StudyKeys& keys);    ///< [placement], for `capstan place`
 void add_sensitivity_keys(StudyKeys& keys);  ///< [sensitivity], for `capstan sensitivity`
-void add_sweep_keys(StudyKeys& keys);        ///< [sweep], for many studies from one file
+void add_uncertainty_keys(StudyKeys& keys);  ///< [uncertainty], [[sensor]] and what they mean for [placement]
+std::vector<ConfigSection<StudyPlan>> uncertainty_sections();
+void add_sweep_keys(StudyKeys& keys);  ///< [sweep], for many studies from one file
 
 }  // namespace capstan::config

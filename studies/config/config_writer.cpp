@@ -139,6 +139,8 @@ std::string config_text(const Plan& plan, Comments comments) {
     std::string text;
     if (comments == Comments::every_key) text += comment(config_schema<Plan>().introduction);
     for (const ConfigSection<Plan>& section : config_schema<Plan>().sections) {
+        const bool is_used = section.is_used == nullptr || section.is_used(plan);
+        if (!is_used && comments == Comments::none) continue;
         const int rows = section.is_repeated() ? section.rows(plan) : 1;
         for (int row = 0; row < rows; ++row) text += section_text(section, plan, row, comments);
     }

@@ -21,12 +21,25 @@ inline constexpr PlacementObjective all_placement_objectives[] = {
     PlacementObjective::all_nodes, PlacementObjective::load_end, PlacementObjective::worst_node,
     PlacementObjective::quantile_95};
 
+/// Which sets of sensors are compared.
+enum class ComparedSets {
+    named,  ///< those of [layouts], with and without the sensors of other kinds
+    all,    ///< every set that the constraints allow
+};
+
 /// The designer's constraints and objective. Nodes are counted from 0 here.
 struct PlacementPlan {
     PlacementObjective objective = PlacementObjective::all_nodes;
     std::vector<int> forbidden_nodes{};
     std::vector<int> required_nodes{};
-    int minimum_spacing = 1;  ///< segments between neighbouring sensors
+    // Of studies with uncertainty, along the cable from the motor.
+    ComparedSets search = ComparedSets::named;
+    std::vector<double> forbidden_m{};  ///< pairs: from, to
+    std::vector<double> required_m{};
+    double minimum_spacing_m = 0.0;
+    double resolution_N = 0.01;   ///< differences in error below this are not followed up
+    double target_error_N = 0.0;  ///< the cheapest set below it is named; 0: none
+    int minimum_spacing = 1;      ///< segments between neighbouring sensors
     int max_sensors = 64;
     int max_in_distal_half = 64;       ///< sensors beyond the middle of the cable
     std::vector<double> node_costs{};  // nodes; empty: each sensor costs 1

@@ -167,6 +167,45 @@ void check_noise(const StudyPlan& plan, Problems& problems) {
     }
 }
 
+void check_worlds(const StudyPlan& plan, Problems& problems) {
+    if (plan.repetitions < 20)
+        problems.push_back({"repetitions", "is " + std::to_string(plan.repetitions) +
+                                               ", but a study with [uncertainty] needs at least 20 worlds"});
+    if (plan.motion.proximal.kind != EndKind::position)
+        problems.push_back(
+            {"motion.proximal.kind",
+             "must be \"position\" with [uncertainty]: the estimator knows the motor's position"});
+    if (plan.motion.distal.kind == EndKind::tension)
+        problems.push_back(
+            {"motion.distal.kind",
+             "must be \"position\" or \"spring\" with [uncertainty]: a person moves the far end"});
+    if (plan.uncertainty.members % 8 != 0)
+        problems.push_back({"uncertainty.members", "is " + std::to_string(plan.uncertainty.members) +
+                                                       ", but must be a multiple of 8"});
+    double length_m = 0.0;
+    for (const CurvaturePiece& piece : plan.transmission.cable.curvature) length_m += piece.length_m;
+    const auto check_place = [&](double place_m, const std::string& key) {
+        if (place_m > length_m * (1.0 + 1e-9))
+            problems.push_back(
+                {key, number(place_m) + " m is beyond the cable, which is " + number(length_m) + " m long"});
+    };
+    for (std::size_t row = 0; row < plan.sensors.size(); ++row) {
+        for (const double place_m : plan.sensors[row].places_m)
+            check_place(place_m, "sensor[" + std::to_string(row + 1) + "].places_m");
+        const SensorErrors& errors = plan.sensors[row].errors;
+        if (errors.multiplicative_ratio == 0.0 && errors.additive == 0.0)
+            problems.push_back(
+                {"sensor[" + std::to_string(row + 1) + "]",
+                 "has no noise; every sensor has some: give noise_ratio or noise_N (an encoder: noise_m)"});
+    }
+    for (const double place_m : plan.placement.required_m) check_place(place_m, "placement.required_m");
+    if (plan.placement.forbidden_m.size() % 2 != 0)
+        problems.push_back(
+            {"placement.forbidden_m", "has an odd number of places; give from and to of each stretch"});
+    if (plan.truth.is_the_model()) return;
+    problems.push_back({"truth", "has no meaning with [uncertainty], which says how true cables differ"});
+}
+
 // The sum of the regimes' duty fractions may be off by the rounding of the digits given.
 constexpr double duty_rounding = 1e-9;
 
@@ -277,6 +316,15 @@ std::vector<KeyProblem> problems_of_values(const StudyPlan& plan) {
     const CableSpecification& cable = plan.transmission.cable;
     for (const KeyProblem& problem : problems_of(cable))
         problems.push_back({"transmission." + problem.key, problem.message});
+    if (plan.uncertainty.is_stated) {
+        check_motion(plan.motion, problems);
+        check_noise(plan, problems);
+        check_families(plan, cable.segments + 1, problems);
+        check_worlds(plan, problems);
+        for (KeyProblem& problem : problems_of(plan.placement, cable.segments + 1))
+            problems.push_back(std::move(problem));
+        return problems;
+    }
     if (cable.segments > max_estimated_segments) {
         problems.push_back({"transmission.segments", "is " + std::to_string(cable.segments) +
                                                          ", but a study takes at most " +
@@ -296,7 +344,7 @@ std::vector<KeyProblem> problems_of_values(const StudyPlan& plan) {
 
 std::vector<KeyProblem> problems_of(const StudyPlan& plan) {
     Problems problems = problems_of_values(plan);
-    if (problems.empty()) check_instants(plan, problems);
+    if (problems.empty() && !plan.uncertainty.is_stated) check_instants(plan, problems);
     return problems;
 }
 

@@ -10,6 +10,7 @@
 #include "capstan/plan/placement_plan.h"
 #include "capstan/plan/sensitivity_plan.h"
 #include "capstan/plan/true_cable.h"
+#include "capstan/plan/uncertainty.h"
 #include "capstan/sensing/layout.h"
 #include "capstan/sensing/noise.h"
 #include "capstan/solver/model_rules.h"
@@ -103,6 +104,8 @@ struct StudyPlan {
     Transmission transmission;
     TrueMotion motion;
     TrueCable truth;
+    Uncertainty uncertainty;           ///< where it is stated, the study is over worlds drawn from it
+    std::vector<SensorRow> sensors{};  ///< that can be bought; empty: tension sensors at all nodes
     std::vector<RegimeInstants> regimes;
     std::vector<NamedNoise> noise_levels;
 

@@ -26,8 +26,7 @@ Handler of_study(const RouteContext& context, const StudyHandler& answer) {
 
 std::string recommendation_json(storage::Database& database, std::int64_t study_id) {
     try {
-        return reports::answer_json(
-            answers::recommendation_answer(answers::read_conclusions(database, study_id)));
+        return reports::answer_json(answers::conclusions_answer(database, study_id));
     } catch (const storage::Error& error) {  // not complete yet
         throw BadRequest(error.what(), 409);
     }

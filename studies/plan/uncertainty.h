@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/effects/effect_catalogue.h"
+#include "capstan/sensing/sensor.h"
+
+namespace capstan {
+
+/// How a number of a cable is drawn about its nominal value, whose factor is 1.
+enum class FactorDistribution {
+    normal,   ///< of the factor's logarithm; 95% of the cables lie within the stated fraction
+    uniform,  ///< the factor lies evenly within the stated fraction
+};
+
+/// What the far end does in a world.
+enum class FarEndKind {
+    random,      ///< FarEndMotion, drawn anew for every world
+    prescribed,  ///< the motion of [motion.distal]; the estimator still assumes the random one
+};
+
+/// What is not known of the transmission that the sensors will be fitted to. Fractions of the nominal values.
+struct Uncertainty {
+    bool is_stated = false;  ///< the configuration has [uncertainty]
+    FactorDistribution distribution = FactorDistribution::normal;
+    double friction_fraction = 0.2;
+    double wrap_fraction = 0.1;  ///< of every bend on its own
+    double stiffness_fraction = 0.1;
+    double pretension_fraction = 0.15;
+
+    FarEndKind far_end = FarEndKind::random;
+    double far_end_range_m =
+        0.0;  ///< 95% of the time within plus and minus this; 0: as [motion.distal] moves
+    double far_end_bandwidth_Hz = 2.0;
+
+    int members = 48;           ///< of the estimator's ensemble
+    double worlds_ratio = 1.0;  ///< the worlds' widths are this times what the estimator is told
+    /// Effects that the true cable has, with the probability that a world has them.
+    EffectValues effects = absent_effects();
+    double effects_probability = 1.0;
+};
+
+/// One or more sensors of a kind that can be bought, a row of [[sensor]].
+struct SensorRow {
+    SensorKind kind = SensorKind::tension;
+    std::vector<double> places_m;  ///< of a tension sensor; empty: every node
+    SensorErrors errors;
+    double price = 1.0;
+};
+
+}  // namespace capstan

@@ -1,0 +1,175 @@
+#include "capstan/worlds/error_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/platform/parallel_for.h"
+#include "capstan/worlds/sensor_places.h"
+
+namespace capstan {
+
+namespace {
+
+// A task draws its world once; with this many candidates that costs nothing beside the trials.
+constexpr std::size_t candidates_at_once = 32;
+// Tasks whose entries are kept together: progress and stopping come no more often.
+constexpr std::size_t tasks_at_once = 16;
+
+constexpr std::string_view condition_names[] = {
+    "as_stated",     "friction_known", "wrap_known",   "stiffness_known", "pretension_known",
+    "sensors_known", "half_width",     "double_width", "wider_worlds",    "finer_grid",
+    "finest_grid",   "paper_mean",     "paper_mean_r"};
+static_assert(std::size(condition_names) == conditions);
+
+// All of the stated widths times `ratio`.
+void widen(StudyPlan& plan, double ratio) {
+    Uncertainty& unknown = plan.uncertainty;
+    for (double* width : {&unknown.friction_fraction, &unknown.wrap_fraction, &unknown.stiffness_fraction,
+                          &unknown.pretension_fraction, &unknown.far_end_range_m})
+        *width *= ratio;
+}
+
+StudyPlan plan_under(Condition condition, StudyPlan plan) {
+    Uncertainty& unknown = plan.uncertainty;
+    if (unknown.far_end_range_m <= 0.0) unknown.far_end_range_m = std::abs(plan.motion.distal.amplitude);
+    if (condition == Condition::half_width) widen(plan, 0.5);
+    if (condition == Condition::double_width) widen(plan, 2.0);
+    if (condition == Condition::wider_worlds) unknown.worlds_ratio *= 2.0;
+    return plan;
+}
+
+int segments_under(Condition condition, int segments) {
+    if (condition == Condition::finer_grid) return 2 * segments;
+    if (condition == Condition::finest_grid) return 4 * segments;
+    return segments;
+}
+
+// What the estimator believes in a world in which one thing is known.
+CableBelief belief_under(Condition condition, CableBelief belief, const World& world) {
+    const CableFactors& true_factors = world.factors;
+    if (condition == Condition::friction_known) {
+        belief.expected.log_friction = true_factors.log_friction;
+        belief.uncertainty.friction = 0.0;
+    }
+    if (condition == Condition::wrap_known) {
+        belief.expected.log_wrap = true_factors.log_wrap;
+        belief.uncertainty.wrap = 0.0;
+    }
+    if (condition == Condition::stiffness_known) {
+        belief.expected.log_stiffness = true_factors.log_stiffness;
+        belief.uncertainty.stiffness = 0.0;
+    }
+    if (condition == Condition::pretension_known) {
+        belief.expected.log_pretension = true_factors.log_pretension;
+        belief.uncertainty.pretension = 0.0;
+    }
+    return belief;
+}
+
+}  // namespace
+
+std::string_view name_of(Condition condition) {
+    return condition_names[static_cast<std::size_t>(condition)];
+}
+
+std::optional<Condition> find_condition(std::string_view name) {
+    const auto* found = std::find(std::begin(condition_names), std::end(condition_names), name);
+    if (found == std::end(condition_names)) return std::nullopt;
+    return static_cast<Condition>(found - std::begin(condition_names));
+}
+
+ErrorTable::ErrorTable(const StudyPlan& plan, TableOptions options)
+    : plan_(plan), options_(std::move(options)) {
+    questions_.resize(conditions);
+    rows_.resize(conditions);
+    candidates_ = candidates_of(plan_, question_of(Condition::as_stated).offers);
+    for (auto& rows : rows_) rows.resize(candidates_.size());
+}
+
+const WorldQuestion& ErrorTable::question_of(Condition condition) {
+    auto& question = questions_[static_cast<std::size_t>(condition)];
+    if (!question) {
+        StudyPlan plan = plan_under(condition, plan_);
+        if (condition == Condition::sensors_known) plan.sensors = calibrated_sensors(plan);
+        question = std::make_unique<WorldQuestion>(
+            world_question(plan, segments_under(condition, plan.transmission.cable.segments)));
+        // The offers stay where they are, whatever the grid.
+        question->offers = condition == Condition::sensors_known ? sensor_offers(plan) : sensor_offers(plan_);
+    }
+    return *question;
+}
+
+void ErrorTable::take(const TableEntry& entry) {
+    if (entry.candidate < 0 || entry.candidate >= static_cast<int>(candidates_.size()) || entry.world < 0)
+        return;
+    Row& row = rows_[static_cast<std::size_t>(entry.condition)][static_cast<std::size_t>(entry.candidate)];
+    if (static_cast<int>(row.size()) <= entry.world) row.resize(static_cast<std::size_t>(entry.world) + 1);
+    row[static_cast<std::size_t>(entry.world)] = entry.error;
+}
+
+void ErrorTable::fill(Condition condition, std::span<const int> candidates, int first, int last,
+                      std::string_view activity) {
+    std::vector<Task> tasks;
+    std::size_t trials = 0;
+    for (int world = first; world < last; ++world) {
+        Task task{world, {}};
+        for (const int candidate : candidates) {
+            if (has(condition, candidate, world)) continue;
+            task.candidates.push_back(candidate);
+            ++trials;
+            if (task.candidates.size() < candidates_at_once) continue;
+            tasks.push_back(std::move(task));
+            task = {world, {}};
+        }
+        if (!task.candidates.empty()) tasks.push_back(std::move(task));
+    }
+    if (tasks.empty()) return;
+    const WorldQuestion& question = question_of(condition);
+    std::size_t done = 0;
+    for (std::size_t from = 0; from < tasks.size(); from += tasks_at_once) {
+        if (options_.stop != nullptr && *options_.stop) throw TableStopped{};
+        const std::size_t count = std::min(tasks_at_once, tasks.size() - from);
+        std::vector<std::vector<TableEntry>> results(count);
+        parallel_for_each_index(static_cast<int>(count), options_.jobs, [&](int k) {
+            const auto at = static_cast<std::size_t>(k);
+            results[at] = run(condition, question, tasks[from + at]);
+        });
+        std::vector<TableEntry> entries;
+        for (auto& result : results) entries.insert(entries.end(), result.begin(), result.end());
+        for (const TableEntry& entry : entries) take(entry);
+        if (options_.keep) options_.keep(entries);
+        done += entries.size();
+        if (options_.on_progress)
+            options_.on_progress({activity, static_cast<double>(done), static_cast<double>(trials)});
+    }
+}
+
+std::vector<TableEntry> ErrorTable::run(Condition condition, const WorldQuestion& question,
+                                        const Task& task) const {
+    const World world = draw_world(question, static_cast<std::uint32_t>(task.world));
+    const EnsembleDraws draws = ensemble_draws(question, static_cast<std::uint32_t>(task.world));
+    const CableBelief belief = belief_under(condition, question.belief, world);
+    std::vector<TableEntry> entries;
+    for (const int candidate : task.candidates) {
+        const std::vector<int>& sensors = candidates_[static_cast<std::size_t>(candidate)].sensors;
+        const bool is_paper = condition == Condition::paper_mean || condition == Condition::paper_mean_r;
+        entries.push_back({condition, candidate, task.world,
+                           is_paper
+                               ? paper_error(question, world, sensors,
+                                             condition == Condition::paper_mean ? mean_method : mean_r_method)
+                               : filter_error(question, belief, world, draws, sensors)});
+    }
+    return entries;
+}
+
+bool ErrorTable::has(Condition condition, int candidate, int world) const {
+    const Row& row = rows_[static_cast<std::size_t>(condition)][static_cast<std::size_t>(candidate)];
+    return world < static_cast<int>(row.size()) && row[static_cast<std::size_t>(world)].has_value();
+}
+
+const WorldError& ErrorTable::at(Condition condition, int candidate, int world) const {
+    const Row& row = rows_[static_cast<std::size_t>(condition)][static_cast<std::size_t>(candidate)];
+    return row.at(static_cast<std::size_t>(world)).value();
+}
+
+}  // namespace capstan

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "capstan/worlds/candidate.h"
+#include "capstan/worlds/world_trial.h"
+
+namespace capstan {
+
+/// Under what a candidate is tried, beside its sensors.
+enum class Condition {
+    as_stated,       ///< worlds and estimator as the configuration says
+    friction_known,  ///< the estimator is told the world's friction
+    wrap_known,      ///< and so on: what calibrating would tell it
+    stiffness_known,
+    pretension_known,
+    sensors_known,  ///< zeros and gains
+    half_width,     ///< worlds and estimator with half of the stated uncertainty
+    double_width,   ///< with twice of it
+    wider_worlds,   ///< worlds twice as uncertain as the estimator is told
+    finer_grid,     ///< twice the segments
+    finest_grid,    ///< four times the segments
+    paper_mean,     ///< the paper's Mean over time in place of the ensemble filter
+    paper_mean_r,   ///< the paper's Mean-R
+};
+inline constexpr int conditions = static_cast<int>(Condition::paper_mean_r) + 1;
+std::string_view name_of(Condition condition);
+std::optional<Condition> find_condition(std::string_view name);
+
+/// The error of one candidate in one world.
+struct TableEntry {
+    Condition condition = Condition::as_stated;
+    int candidate = 0;
+    int world = 0;
+    WorldError error;
+};
+
+/// How far a study is.
+struct TableProgress {
+    std::string_view activity;
+    double done = 0.0;   ///< trials
+    double total = 0.0;  ///< trials, as far as known
+};
+
+struct TableOptions {
+    int jobs = 0;                                             ///< threads; 0: all processors
+    std::function<void(std::span<const TableEntry>)> keep{};  ///< stores new entries, in order
+    std::function<void(const TableProgress&)> on_progress{};
+    const std::atomic<bool>* stop = nullptr;
+};
+
+/// Thrown where `stop` was set; what was computed has been kept.
+struct TableStopped {};
+
+/// The one table of errors, candidate x condition x world, filled as it is asked. An entry depends on nothing
+/// but its address, so it does not matter which were there before, or who computed them.
+class ErrorTable {
+  public:
+    ErrorTable(const StudyPlan& plan, TableOptions options);
+
+    const std::vector<SensorOffer>& offers() const { return questions_[0]->offers; }
+    const std::vector<Candidate>& candidates() const { return candidates_; }
+    const StudyPlan& plan() const { return plan_; }
+
+    /// Takes over an entry that was computed before; entries of unknown candidates are ignored.
+    void take(const TableEntry& entry);
+
+    /// Computes what is missing of these candidates in worlds `first` to `last` - 1.
+    void fill(Condition condition, std::span<const int> candidates, int first, int last,
+              std::string_view activity);
+
+    bool has(Condition condition, int candidate, int world) const;
+    /// Must be filled.
+    const WorldError& at(Condition condition, int candidate, int world) const;
+
+  private:
+    struct Task {
+        int world = 0;
+        std::vector<int> candidates;
+    };
+    using Row = std::vector<std::optional<WorldError>>;  // worlds
+
+    const WorldQuestion& question_of(Condition condition);
+    std::vector<TableEntry> run(Condition condition, const WorldQuestion& question, const Task& task) const;
+
+    StudyPlan plan_;
+    TableOptions options_;
+    std::vector<Candidate> candidates_;
+    std::vector<std::unique_ptr<WorldQuestion>> questions_;  // conditions
+    std::vector<std::vector<Row>> rows_;                     // conditions x candidates
+};
+
+}  // namespace capstan

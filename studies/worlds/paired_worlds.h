@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "capstan/worlds/world_study.h"
+
+namespace capstan {
+
+/// Mean with Student's t interval at 1 - alpha. At least two values.
+Estimated mean_of(const std::vector<double>& values, double alpha = 0.05);
+
+/// The value that `fraction` of the values stay below, interpolated between order statistics.
+double quantile_of(std::vector<double> values, double fraction);
+
+/// What each world adds to an objective: its error, or of a quantile the pseudo-values of leaving out blocks
+/// of worlds. Their mean is the objective, to first order.
+std::vector<double> contributions(PlacementObjective objective, const std::vector<double>& values);
+
+/// a - b, element by element.
+std::vector<double> differences(std::vector<double> a, const std::vector<double>& b);
+
+}  // namespace capstan

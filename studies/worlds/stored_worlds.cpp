@@ -1,0 +1,180 @@
+#include "capstan/worlds/stored_worlds.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "capstan/config/config_writer.h"
+#include "capstan/storage/study_store.h"
+#include "capstan/storage/world_store.h"
+#include "capstan/worlds/sensor_places.h"
+
+namespace capstan {
+
+namespace {
+
+std::string sensors_json(const Candidate& candidate, const std::vector<SensorOffer>& offers) {
+    std::vector<std::string> sensors;
+    for (const int sensor : candidate.sensors) {
+        const SensorOffer& offer = offers[static_cast<std::size_t>(sensor)];
+        sensors.push_back(fmt::format(R"({{"kind":"{}","place_m":{}}})", name_of(offer.kind), offer.place_m));
+    }
+    return fmt::format("[{}]", fmt::join(sensors, ","));
+}
+
+storage::WorldErrorRecord record_of(const TableEntry& entry) {
+    const WorldError& error = entry.error;
+    return {entry.candidate,      std::string(name_of(entry.condition)),
+            entry.world,          error.mean_abs_N,
+            error.load_end_N,     error.worst_place_N,
+            error.mean_square_N2, error.covered_fraction};
+}
+
+std::optional<TableEntry> entry_of(const storage::WorldErrorRecord& record) {
+    const std::optional<Condition> condition = find_condition(record.condition);
+    if (!condition) return std::nullopt;
+    return TableEntry{*condition,
+                      record.candidate_index,
+                      record.world,
+                      {record.mean_abs_error_N, record.load_end_error_N, record.worst_place_error_N,
+                       record.mean_square_error_N2, record.covered_fraction}};
+}
+
+storage::WorldRecommendationRecord recommendation_record(const StudyPlan& plan, const WorldAnswer& answer) {
+    const Expected& expected = answer.recommended ? answer.best().expected : answer.no_sensor;
+    return {std::string(name_of(plan.placement.objective)),
+            expected.candidate,
+            "ensemble_filter",
+            expected.objective.value_N,
+            expected.error_95_N,
+            expected.objective.low_N,
+            expected.objective.high_N,
+            answer.no_sensor.objective.value_N,
+            answer.recommended ? 1 : 0,
+            sentence_of(plan, answer)};
+}
+
+std::string_view error_words(PlacementObjective objective) {
+    switch (objective) {
+        case PlacementObjective::all_nodes:
+            return "The tension error, averaged over the cable and the motion,";
+        case PlacementObjective::load_end:
+            return "The tension error at the load end, averaged over the motion,";
+        case PlacementObjective::worst_node:
+            return "The tension error at the worst place of the cable, averaged over the motion,";
+        case PlacementObjective::quantile_95:
+            return "The tension error, averaged over the cable and the motion,";
+    }
+    return {};
+}
+
+std::string expectation(PlacementObjective objective, const Expected& expected) {
+    const Estimated& error = expected.objective;
+    const std::string interval =
+        fmt::format("Monte-Carlo interval {:.3f} to {:.3f} N", error.low_N, error.high_N);
+    if (objective == PlacementObjective::quantile_95)
+        return fmt::format("{} is below {:.3f} N in 95% of the worlds ({}).", error_words(objective),
+                           error.value_N, interval);
+    return fmt::format("{} is expected to be {:.3f} N ({}), and below {:.3f} N in 95% of the worlds.",
+                       error_words(objective), error.value_N, interval, expected.error_95_N);
+}
+
+std::string_view thing_known(Condition condition) {
+    switch (condition) {
+        case Condition::friction_known:
+            return "the friction";
+        case Condition::wrap_known:
+            return "the bends";
+        case Condition::stiffness_known:
+            return "the stiffness";
+        case Condition::pretension_known:
+            return "the pretension";
+        case Condition::sensors_known:
+            return "the sensors";
+        default:
+            return name_of(condition);
+    }
+}
+
+}  // namespace
+
+std::string sentence_of(const StudyPlan& plan, const WorldAnswer& answer) {
+    const PlacementObjective objective = plan.placement.objective;
+    if (!answer.recommended) {
+        return fmt::format(
+            "No set of sensors is better than none: {} The cheapest set, {}, changes it by {:.3f} N "
+            "({:.3f} to {:.3f} N).",
+            expectation(objective, answer.no_sensor), answer.words(answer.best().expected.candidate),
+            -answer.gain_over_none.value_N, -answer.gain_over_none.high_N, -answer.gain_over_none.low_N);
+    }
+    std::string text = fmt::format(
+        "Use {}. {} Without any sensor it is {:.3f} N.", answer.words(answer.best().expected.candidate),
+        expectation(objective, answer.best().expected), answer.no_sensor.objective.value_N);
+    if (answer.further)
+        text +=
+            fmt::format(" A further sensor gains {:.3f} N ({:.3f} to {:.3f} N).", answer.further_gain.value_N,
+                        answer.further_gain.low_N, answer.further_gain.high_N);
+    const auto most = std::max_element(
+        answer.knowledge.begin(), answer.knowledge.end(),
+        [](const KnowledgeGain& a, const KnowledgeGain& b) { return a.gain.value_N < b.gain.value_N; });
+    if (most != answer.knowledge.end())
+        text += fmt::format(
+            " Calibrating {} exactly gains {:.3f} N ({:.3f} to {:.3f} N), the most of all calibrations.",
+            thing_known(most->condition), most->gain.value_N, most->gain.low_N, most->gain.high_N);
+    return text;
+}
+
+std::int64_t begin_worlds(storage::Database& database, const StudyPlan& plan,
+                          const std::string& program_version) {
+    if (const auto problems = problems_of(plan); !problems.empty()) throw InvalidInput(problems);
+    storage::StudyDescription description;
+    description.study = {0,
+                         plan.name,
+                         config::config_text(plan, config::Comments::none),
+                         program_version,
+                         plan.seed,
+                         plan.repetitions,
+                         plan.transmission.cable.segments};
+    const Cable cable(plan.transmission.cable);
+    for (int i = 0; i < cable.segments(); ++i) {
+        const double wrap_rad = cable.wrap_angle_rad()[i];
+        storage::CableSegmentRecord record{
+            i + 1, cable.node_position_m(i), cable.segment_length_m(), {}, wrap_rad};
+        if (wrap_rad > 0.0) record.bend_radius_m = cable.segment_length_m() / wrap_rad;
+        description.cable_segments.push_back(record);
+    }
+    const std::vector<SensorOffer> offers = sensor_offers(plan);
+    for (const Candidate& candidate : candidates_of(plan, offers))
+        description.world_candidates.push_back({sensors_json(candidate, offers), words_of(candidate, offers),
+                                                fmt::format("{}", fmt::join(candidate.names, " ")),
+                                                candidate.count(), candidate.price});
+    return storage::begin_study(database, description);
+}
+
+WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                       const WorldRunOptions& options) {
+    const bool is_complete = storage::read_world_recommendation(database, study_id).has_value();
+    TableOptions table_options{options.jobs, {}, options.on_progress, options.stop};
+    if (!is_complete) {
+        table_options.keep = [&](std::span<const TableEntry> entries) {
+            std::vector<storage::WorldErrorRecord> records;
+            for (const TableEntry& entry : entries) records.push_back(record_of(entry));
+            storage::write_world_errors(database, study_id, records);
+        };
+    }
+    ErrorTable table(plan, std::move(table_options));
+    for (const storage::WorldErrorRecord& record : storage::read_world_errors(database, study_id))
+        if (const auto entry = entry_of(record)) table.take(*entry);
+    WorldAnswer answer = choose_sensors(table);
+    if (!is_complete) storage::finish_world_study(database, study_id, recommendation_record(plan, answer));
+    return answer;
+}
+
+WorldAnswer run_worlds(const StudyPlan& plan, const WorldRunOptions& options) {
+    if (const auto problems = problems_of(plan); !problems.empty()) throw InvalidInput(problems);
+    ErrorTable table(plan, {options.jobs, {}, options.on_progress, options.stop});
+    return choose_sensors(table);
+}
+
+}  // namespace capstan

@@ -1,0 +1,153 @@
+#include "capstan/worlds/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "capstan/plan/true_motion.h"
+#include "capstan/sensing/random_stream.h"
+#include "capstan/worlds/sensor_places.h"
+
+namespace capstan {
+
+namespace {
+
+constexpr double normal_95 = 1.959963984540054;
+
+double deviation_of(const Uncertainty& uncertainty, double fraction) {
+    return uncertainty.distribution == FactorDistribution::normal ? std::log1p(fraction) / normal_95
+                                                                  : fraction / std::numbers::sqrt3;
+}
+
+// The logarithm of a factor.
+double log_factor(const Uncertainty& uncertainty, double fraction, double normal) {
+    const double width = fraction * uncertainty.worlds_ratio;
+    if (uncertainty.distribution == FactorDistribution::normal)
+        return deviation_of(uncertainty, fraction) * uncertainty.worlds_ratio * normal;
+    const double evenly = std::erf(normal / std::numbers::sqrt2);  // -1 to 1
+    return std::log(std::max(1.0 + width * evenly, 0.01));
+}
+
+CableFactors draw_factors(const WorldQuestion& question, std::uint32_t index) {
+    const Uncertainty& unknown = question.uncertainty;
+    const auto factor = [&](double fraction, std::uint32_t which) {
+        return log_factor(unknown, fraction,
+                          standard_normals({question.seed, RandomPurpose::world_cable, 0, index, which})[0]);
+    };
+    CableFactors factors{factor(unknown.friction_fraction, 0),
+                         factor(unknown.stiffness_fraction, 1),
+                         factor(unknown.pretension_fraction, 2),
+                         {}};
+    for (int bend = 0; bend < question.cable.bends(); ++bend)
+        factors.log_wrap.push_back(factor(unknown.wrap_fraction, 3 + static_cast<std::uint32_t>(bend)));
+    return factors;
+}
+
+// The far end over time: what it adds to where it rests [m].
+std::vector<double> far_end_of(const WorldQuestion& question, std::uint32_t index) {
+    std::vector<double> displacement_m;
+    if (question.uncertainty.far_end == FarEndKind::prescribed) {
+        const Cable cable(question.cable.nominal());
+        TrueMotion alone = question.motion;
+        alone.distal.kind = EndKind::position;
+        for (int sample = 1; sample <= question.motion.samples; ++sample)
+            displacement_m.push_back(ends_at(cable, alone, sample).distal.value);
+        return displacement_m;
+    }
+    FarEndMotion motion = question.belief.far_end;
+    motion.range_m *= question.uncertainty.worlds_ratio;
+    const FarEndProcess process(motion, question.belief.interval_s);
+    double y = 0.0;
+    double v = 0.0;
+    for (int sample = 1; sample <= question.motion.samples; ++sample) {
+        const auto normals = standard_normals(
+            {question.seed, RandomPurpose::world_far_end, static_cast<std::uint32_t>(sample), index, 0});
+        process.advance(y, v, normals[0], normals[1]);
+        displacement_m.push_back(y);
+    }
+    return displacement_m;
+}
+
+struct SensorFault {
+    double zero = 0.0;
+    double gain = 0.0;
+};
+
+}  // namespace
+
+WorldQuestion world_question(const StudyPlan& plan, int segments) {
+    CableSpecification nominal = plan.transmission.cable;
+    if (segments > 0) nominal.segments = segments;
+    WorldQuestion question{UncertainCable(nominal),
+                           plan.transmission.rules,
+                           plan.motion,
+                           plan.uncertainty,
+                           {},
+                           sensor_offers(plan),
+                           plan.seed};
+    const Uncertainty& unknown = plan.uncertainty;
+    CableBelief& belief = question.belief;
+    belief.uncertainty = {.friction = deviation_of(unknown, unknown.friction_fraction),
+                          .stiffness = deviation_of(unknown, unknown.stiffness_fraction),
+                          .pretension = deviation_of(unknown, unknown.pretension_fraction),
+                          .wrap = deviation_of(unknown, unknown.wrap_fraction)};
+    const EndMotion& distal = plan.motion.distal;
+    const double range_m =
+        unknown.far_end_range_m > 0.0 ? unknown.far_end_range_m : std::abs(distal.amplitude);
+    belief.far_end = {range_m, unknown.far_end_bandwidth_Hz};
+    belief.support = {distal.kind == EndKind::spring ? distal.spring_stiffness_N_per_m : 0.0};
+    belief.interval_s = 1.0 / plan.motion.sample_rate_Hz;
+    return question;
+}
+
+World draw_world(const WorldQuestion& question, std::uint32_t index) {
+    World world;
+    world.factors = draw_factors(question, index);
+    const Cable cable(question.cable.with(world.factors));
+    const Cable nominal(question.cable.nominal());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
+    const std::vector<double> far_end_m = far_end_of(question, index);
+    const double stiffness = question.belief.support.spring_stiffness_N_per_m;
+    world.nodes = cable.nodes();
+
+    std::vector<SensorFault> faults;
+    for (std::size_t s = 0; s < question.offers.size(); ++s) {
+        const auto normals = standard_normals(
+            {question.seed, RandomPurpose::world_sensor, 0, index, static_cast<std::uint32_t>(s)});
+        const SensorErrors& errors = question.offers[s].errors;
+        faults.push_back({errors.zero * normals[0], errors.gain_ratio * normals[1]});
+    }
+
+    CableState state = pretensioned(cable);
+    const double begun_m = state.displacement_m.front();
+    double before_m = ends_at(nominal, question.motion, 0).proximal.value;
+    const double started_m = before_m;
+    for (int sample = 1; sample <= question.motion.samples; ++sample) {
+        const auto at = static_cast<std::size_t>(sample - 1);
+        const double now_m = ends_at(nominal, question.motion, sample).proximal.value;
+        world.proximal_increment_m.push_back(now_m - before_m);
+        before_m = now_m;
+        const EndCondition distal =
+            stiffness > 0.0 ? EndCondition{stiffness, 1.0, cable.pretension_N() + stiffness * far_end_m[at]}
+                            : EndCondition::position_m(far_end_m[at]);
+        const StepReport report =
+            step.advance(state, {EndCondition::position_m(begun_m + (now_m - started_m)), distal});
+        world.unverified_steps += report.verified ? 0 : 1;
+        world.tension_N.insert(world.tension_N.end(), state.tension_N.begin(), state.tension_N.end());
+        for (std::size_t s = 0; s < question.offers.size(); ++s) {
+            const SensorOffer& offer = question.offers[s];
+            const auto normals =
+                standard_normals({question.seed, RandomPurpose::world_reading,
+                                  static_cast<std::uint32_t>(sample), index, static_cast<std::uint32_t>(s)});
+            const double true_value = measures_tension(offer.kind)
+                                          ? tension_at_N(state, spot_at(cable, offer.place_m))
+                                          : state.displacement_m.back();
+            world.reading.push_back(
+                true_value * (1.0 + faults[s].gain + offer.errors.multiplicative_ratio * normals[0]) +
+                faults[s].zero + offer.errors.additive * normals[1]);
+        }
+    }
+    return world;
+}
+
+}  // namespace capstan

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "capstan/estimation/ensemble_filter.h"
+#include "capstan/plan/study_plan.h"
+
+namespace capstan {
+
+/// What all worlds of a plan have in common: the nominal cable, what is believed of it, what can be bought.
+struct WorldQuestion {
+    UncertainCable cable;
+    ModelRules rules;
+    TrueMotion motion;
+    Uncertainty uncertainty;
+    CableBelief belief;               ///< the plan's uncertainty, as the estimator is told
+    std::vector<SensorOffer> offers;  ///< sensors with places, in the order of the configuration
+    std::uint64_t seed = 1;
+};
+
+/// Throws InvalidInput with problems_of(plan). `segments`: 0 for the plan's, else the grid to solve on.
+WorldQuestion world_question(const StudyPlan& plan, int segments = 0);
+
+/// One cable that the sensors could be fitted to, with everything that happened to it.
+struct World {
+    CableFactors factors;
+    std::vector<double> proximal_increment_m;  // samples
+    std::vector<double> tension_N;             // samples x nodes
+    std::vector<double> reading;               // samples x offers: N or m
+    int unverified_steps = 0;
+    int nodes = 0;
+
+    int samples() const { return static_cast<int>(proximal_increment_m.size()); }
+    std::span<const double> tensions_N(int sample) const {  // nodes
+        return std::span(tension_N).subspan(static_cast<std::size_t>(sample) * nodes, nodes);
+    }
+    std::span<const double> readings(int sample) const {  // offers
+        const std::size_t offers = reading.size() / proximal_increment_m.size();
+        return std::span(reading).subspan(static_cast<std::size_t>(sample) * offers, offers);
+    }
+};
+
+/// World number `index` of the question: its draws are addressed by (seed, index), common to all sensors.
+World draw_world(const WorldQuestion& question, std::uint32_t index);
+
+}  // namespace capstan

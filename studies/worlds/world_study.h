@@ -1,0 +1,105 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capstan/worlds/error_table.h"
+
+namespace capstan {
+
+/// A number that worlds were drawn for, with the 95% interval that the draws leave open (Student's t).
+struct Estimated {
+    double value_N = 0.0;
+    double low_N = 0.0;
+    double high_N = 0.0;
+};
+
+/// What to expect of a candidate on a rig, from worlds that had no part in choosing it.
+struct Expected {
+    int candidate = 0;
+    Estimated objective;      ///< the plan's objective, over worlds
+    double error_95_N = 0.0;  ///< that 95% of the worlds stay below, of the same error
+    double rms_N = 0.0;       ///< root of the mean square error over worlds, samples and nodes
+    double load_end_N = 0.0;  ///< mean over worlds
+    double whole_cable_N = 0.0;
+    double worst_place_N = 0.0;
+    double covered_fraction = 0.0;  ///< of the true tensions within the 95% band
+};
+
+/// The best candidate of a price.
+struct PriceBest {
+    double price = 0.0;
+    int candidates = 0;  ///< of this price
+    Expected expected;
+    double selected_N = 0.0;  ///< the objective on the worlds that chose it
+    std::vector<int> ties;    ///< others that the worlds do not tell from it (paired t, Bonferroni, 5%)
+    bool on_front = false;    ///< better than everything cheaper
+};
+
+/// By how much knowing something would lower the recommended set's error.
+struct KnowledgeGain {
+    Condition condition = Condition::friction_known;
+    Estimated gain;  ///< of the objective's error, paired
+};
+
+/// How the advice fares where the stated widths are wrong.
+struct Robustness {
+    Condition condition = Condition::half_width;
+    Estimated error;  ///< of the recommended set
+    int best = 0;     ///< of the sets of that price that were compared
+    Estimated loss;   ///< recommended - best, paired
+    double covered_fraction = 0.0;
+    bool flips = false;  ///< another set of that price is better by more than the resolution (paired t, 5%)
+};
+
+/// The discretisation error of the recommended set's expected error.
+struct GridError {
+    int segments = 0;
+    double coarse_N = 0.0;  ///< the same worlds with these segments, twice and four times as many
+    double finer_N = 0.0;
+    double finest_N = 0.0;
+    double order = 1.0;    ///< measured, within 0.5 and 2
+    double error_N = 0.0;  ///< Richardson's estimate of coarse - exact
+};
+
+struct PaperComparison {
+    Condition condition = Condition::paper_mean;
+    Estimated error;  ///< of the recommended sensors with the paper's estimator
+};
+
+struct WorldAnswer {
+    std::vector<SensorOffer> offers;
+    std::vector<Candidate> candidates;  ///< what `candidate` counts everywhere
+    int worlds = 0;                     ///< for choosing, and as many others for what is expected
+    double resolution_N = 0.0;          ///< differences below this were not followed up
+    std::size_t trials = 0;             ///< candidate x world that were run to choose
+    std::vector<PriceBest> prices;      ///< rising; without the set that has no sensor
+    Expected no_sensor;
+    std::vector<Expected> baselines;  ///< the motor's torque; the motor's torque and an encoder at the load
+    std::optional<std::size_t> recommended;  ///< of `prices`; none: nothing is better than no sensor
+    Estimated gain_over_none;                ///< no sensor - recommended, paired
+    std::optional<int> further;              ///< the best candidate with one more sensor
+    Estimated further_gain;
+    std::vector<KnowledgeGain> knowledge;
+    std::vector<Robustness> robustness;
+    GridError grid;
+    std::vector<PaperComparison> paper;
+    std::optional<std::size_t> cheapest_below_target;  ///< of `prices`
+
+    /// The recommended set, or the cheapest one where none is.
+    const PriceBest& best() const { return prices[recommended.value_or(0)]; }
+    const Candidate& set(int candidate) const { return candidates[static_cast<std::size_t>(candidate)]; }
+    std::string words(int candidate) const { return words_of(set(candidate), offers); }
+};
+
+/// The value of the plan's objective in a world.
+double objective_of(PlacementObjective objective, const WorldError& error);
+
+/// Compares the candidates on common worlds, in rounds: those that are worse than the best of their price in
+/// a paired t test are left out (5% over all looks and candidates), until all worlds are used or every
+/// difference left is below the resolution. What is recommended and what is said of it comes from as many
+/// other worlds. Throws TableStopped.
+WorldAnswer choose_sensors(ErrorTable& table);
+
+}  // namespace capstan

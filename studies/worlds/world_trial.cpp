@@ -1,0 +1,105 @@
+#include "capstan/worlds/world_trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/estimation/recursive_fusion.h"
+
+namespace capstan {
+
+namespace {
+
+constexpr double normal_95 = 1.959963984540054;
+
+// Adds up what one sample says, and divides in the end.
+class ErrorSums {
+  public:
+    explicit ErrorSums(int nodes) : node_abs_N_(static_cast<std::size_t>(nodes), 0.0) {}
+
+    void add(std::span<const double> truth_N, std::span<const double> mean_N,
+             std::span<const double> deviation_N) {
+        for (std::size_t node = 0; node < truth_N.size(); ++node) {
+            const double error_N = std::abs(mean_N[node] - truth_N[node]);
+            node_abs_N_[node] += error_N;
+            squares_N2_ += error_N * error_N;
+            // Rounding of a band without width, where everything is known.
+            covered_ += error_N <= normal_95 * deviation_N[node] + 1e-9 ? 1.0 : 0.0;
+        }
+        ++samples_;
+    }
+
+    WorldError error() && {
+        WorldError error;
+        const double count = samples_ * static_cast<double>(node_abs_N_.size());
+        for (double& each : node_abs_N_) each /= samples_;
+        for (const double each : node_abs_N_)
+            error.mean_abs_N += each / static_cast<double>(node_abs_N_.size());
+        error.load_end_N = node_abs_N_.back();
+        error.worst_place_N = *std::max_element(node_abs_N_.begin(), node_abs_N_.end());
+        error.mean_square_N2 = squares_N2_ / count;
+        error.covered_fraction = covered_ / count;
+        error.node_abs_N = std::move(node_abs_N_);
+        return error;
+    }
+
+  private:
+    std::vector<double> node_abs_N_;  // nodes
+    double squares_N2_ = 0.0;
+    double covered_ = 0.0;
+    double samples_ = 0.0;
+};
+
+}  // namespace
+
+EnsembleDraws ensemble_draws(const WorldQuestion& question, std::uint32_t world) {
+    return {{question.seed, world},
+            question.uncertainty.members,
+            3 + question.cable.bends(),
+            static_cast<int>(question.offers.size()),
+            question.motion.samples};
+}
+
+WorldError filter_error(const WorldQuestion& question, const CableBelief& belief, const World& world,
+                        const EnsembleDraws& draws, std::span<const int> sensors) {
+    EnsembleFilter filter(question.cable, belief, question.offers, sensors, draws);
+    ErrorSums sums(world.nodes);
+    std::vector<double> readings(sensors.size());
+    for (int sample = 0; sample < world.samples(); ++sample) {
+        const auto all = world.readings(sample);
+        for (std::size_t s = 0; s < sensors.size(); ++s)
+            readings[s] = all[static_cast<std::size_t>(sensors[s])];
+        filter.step(world.proximal_increment_m[static_cast<std::size_t>(sample)], readings);
+        sums.add(world.tensions_N(sample), filter.mean_N(), filter.deviation_N());
+    }
+    return std::move(sums).error();
+}
+
+WorldError paper_error(const WorldQuestion& question, const World& world, std::span<const int> sensors,
+                       const FusionMethod& method) {
+    const Cable cable(question.cable.nominal());
+    const QuasiStaticStep step(cable, ModelRules::consistent());
+    const CableState start = pretensioned(cable);
+    RecursiveFusion fusion(step, start, method, DistalSide::admitted);
+    const std::vector<double> band(static_cast<std::size_t>(world.nodes), 0.0);
+    ErrorSums sums(world.nodes);
+    double proximal_m = start.displacement_m.front();
+    std::vector<NodeReading> readings;
+    for (int sample = 0; sample < world.samples(); ++sample) {
+        const auto all = world.readings(sample);
+        proximal_m += world.proximal_increment_m[static_cast<std::size_t>(sample)];
+        readings.clear();
+        for (const int sensor : sensors) {
+            const SensorOffer& offer = question.offers[static_cast<std::size_t>(sensor)];
+            if (!measures_tension(offer.kind)) continue;
+            const int node = static_cast<int>(std::lround(offer.place_m / cable.segment_length_m()));
+            const bool is_new = std::none_of(readings.begin(), readings.end(),
+                                             [&](const NodeReading& other) { return other.node == node; });
+            if (is_new) readings.push_back({node, std::max(all[static_cast<std::size_t>(sensor)], 0.0)});
+        }
+        fusion.step(proximal_m, readings);
+        sums.add(world.tensions_N(sample), fusion.estimate().tension_N, band);
+    }
+    return std::move(sums).error();
+}
+
+}  // namespace capstan

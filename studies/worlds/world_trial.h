@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "capstan/estimation/fusion_method.h"
+#include "capstan/worlds/world.h"
+
+namespace capstan {
+
+/// How far an estimate was from the truth in one world, over all of its samples.
+struct WorldError {
+    double mean_abs_N = 0.0;         ///< over samples and nodes
+    double load_end_N = 0.0;         ///< mean absolute error at the distal node
+    double worst_place_N = 0.0;      ///< of the node where the mean absolute error is largest
+    double mean_square_N2 = 0.0;     ///< over samples and nodes
+    double covered_fraction = 0.0;   ///< of the truth that lies within the estimate's 95% band
+    std::vector<double> node_abs_N;  // nodes: mean absolute error over samples
+
+    bool operator==(const WorldError&) const = default;
+};
+
+/// The ensemble filter with these sensors (indices of the question's offers) over a world.
+WorldError filter_error(const WorldQuestion& question, const CableBelief& belief, const World& world,
+                        const EnsembleDraws& draws, std::span<const int> sensors);
+
+/// The paper's estimator (mean_method or mean_r_method) over a world, from its own last estimate and with the
+/// nominal cable. It needs a tension sensor, and takes each to be at the nearest node.
+WorldError paper_error(const WorldQuestion& question, const World& world, std::span<const int> sensors,
+                       const FusionMethod& method);
+
+/// The members' draws of a world.
+EnsembleDraws ensemble_draws(const WorldQuestion& question, std::uint32_t world);
+
+}  // namespace capstan
