@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/platform/statistics.h"
 
 namespace capstan::answers {
 
@@ -19,8 +20,7 @@ using reports::Data;
 using reports::Table;
 
 // Of all curves together, so that the page stays below 3 MB.
-constexpr std::size_t drawn_samples = 15000;
-constexpr double two_sided_95 = 1.959964;
+constexpr std::size_t drawn_estimate_samples = 15000;
 
 Table estimate_table() {
     return {"estimate",
@@ -98,7 +98,7 @@ reports::Answer left_out_answer(const Recording& recording, const std::vector<Le
             const std::size_t one[] = {result.channel};
             if (figures == Figures::drawn)
                 draw(drawn, *cable.cable, all_but(*cable.cable, one), {result.channel}, result.trust,
-                     result.widening, options, drawn_samples / std::max<std::size_t>(1, curves));
+                     result.widening, options, drawn_estimate_samples / std::max<std::size_t>(1, curves));
             min_coverage = std::min(min_coverage, result.coverage);
             all_widened = all_widened && result.widening_known;
             answer.values["channels"].push_back(channel_data(*cable.cable, result));
@@ -152,7 +152,7 @@ reports::Answer estimate_answer(const Recording& recording, const std::vector<Se
         const ChannelSet all = all_but(cables[c], {});
         if (figures == Figures::drawn)
             draw(drawn, cables[c], all, all, estimates[c].trust, estimates[c].widening, options,
-                 drawn_samples / std::max<std::size_t>(1, curves));
+                 drawn_estimate_samples / std::max<std::size_t>(1, curves));
         Data channels = Data::list();
         for (const auto& channel : cables[c].channels) channels.push_back(channel.name);
         answer.values["cables"].push_back(

@@ -13,7 +13,7 @@ using reports::Table;
 
 using Settings = std::vector<std::vector<RampRun>>;
 
-constexpr std::size_t drawn_samples = 600;  // of a run: every 50 ms, so that ramps keep their corners
+constexpr std::size_t drawn_ramp_samples = 600;  // of a run: every 50 ms, so that ramps keep their corners
 
 // The paper's four levels belong to a setting of as many pretensions.
 const PaperRamp* papers_level(const std::vector<RampRun>& setting, std::size_t level) {
@@ -53,7 +53,7 @@ Table ramp_table(const Settings& runs) {
         {}};
     for (const auto& setting : runs) {
         for (const RampRun& run : setting) {
-            const std::size_t every = reports::drawn_every(run.samples.size(), drawn_samples);
+            const std::size_t every = reports::drawn_every(run.samples.size(), drawn_ramp_samples);
             for (std::size_t k = 0; k < run.samples.size(); k += every) {
                 const paper::RampSample& now = run.samples[k];
                 table.rows.push_back({run.setting, run.pretension_N, now.time_s, now.motor_torque_Nm,

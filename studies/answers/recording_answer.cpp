@@ -14,7 +14,7 @@ using reports::Data;
 using reports::Table;
 
 // Of all curves together: each takes about 60 bytes a sample, and the page stays below 3 MB.
-constexpr std::size_t drawn_samples = 15000;
+constexpr std::size_t drawn_recording_samples = 15000;
 
 std::size_t modelled_channels(const std::vector<TwinRun>& modelled) {
     std::size_t count = 0;
@@ -68,7 +68,7 @@ void add_channel(Overlay& overlay, const RecordedRun& run, const Channel& channe
 
 Overlay overlay_of(const Recording& recording, const std::vector<TwinRun>& modelled) {
     Overlay overlay;
-    const std::size_t limit = drawn_samples / std::max<std::size_t>(1, modelled_channels(modelled));
+    const std::size_t limit = drawn_recording_samples / std::max<std::size_t>(1, modelled_channels(modelled));
     for (std::size_t r = 0; r < recording.runs.size(); ++r) {
         const RecordedRun& run = recording.runs[r];
         overlay.run.rows.push_back({std::int64_t{run.number}, run.protocol, std::int64_t{run.samples()},

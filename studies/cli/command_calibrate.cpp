@@ -22,7 +22,7 @@ std::vector<std::string> split_at_commas(const std::string& text) {
     return parts;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_calibrate(const Invocation& invocation) {
     const Recording recording = read_recording(invocation.argument("LOG"));
     gap::CalibrationOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
@@ -63,7 +63,7 @@ Command calibrate_command() {
              jobs_option, output_option, json_option, help_option},
         .examples = {"capstan calibrate bench.csv",
                      "capstan calibrate bench.csv --fit dynamic_friction,pretension --json"},
-        .run = run};
+        .run = run_calibrate};
 }
 
 }  // namespace capstan::cli

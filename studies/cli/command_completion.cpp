@@ -8,7 +8,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_completion(const Invocation& invocation) {
     const std::string& shell = invocation.argument("SHELL");
     if (shell != "bash" && shell != "zsh")
         throw UsageError("capstan completion: SHELL is '" + shell + "', but must be bash or zsh");
@@ -27,7 +27,7 @@ Command completion_command() {
             .arguments = {{"SHELL", "bash or zsh."}},
             .options = {output_option, help_option},
             .examples = {"source <(capstan completion bash)", "capstan completion zsh -o ~/.zfunc/_capstan"},
-            .run = run};
+            .run = run_completion};
 }
 
 }  // namespace capstan::cli

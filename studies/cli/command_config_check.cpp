@@ -124,7 +124,7 @@ Data problems_data(const config::ConfigError& error) {
     return json;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_config_check(const Invocation& invocation) {
     const std::string& file = invocation.argument("CONFIG");
     try {
         if (config::content_of_config(file) == config::ConfigContent::bench) {
@@ -155,7 +155,7 @@ Command config_check_command() {
             .arguments = {config_argument},
             .options = {output_option, json_option, help_option},
             .examples = {"capstan config check my.toml"},
-            .run = run};
+            .run = run_config_check};
 }
 
 }  // namespace capstan::cli

@@ -7,7 +7,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_config_default(const Invocation& invocation) {
     deliver(invocation, invocation.has("bench")
                             ? config::config_text(config::default_bench(), config::Comments::every_key)
                             : config::config_text(config::default_plan(), config::Comments::every_key));
@@ -30,7 +30,7 @@ Command config_default_command() {
                     output_option,
                     help_option},
         .examples = {"capstan config default -o my.toml", "capstan config default --bench -o bench.toml"},
-        .run = run};
+        .run = run_config_default};
 }
 
 }  // namespace capstan::cli

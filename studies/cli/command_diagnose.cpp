@@ -109,7 +109,7 @@ void store(const Invocation& invocation, const Recording& recording, const Diagn
         say(fmt::format("Stored as diagnosis {} in {}.", id, invocation.text("db")));
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_diagnose(const Invocation& invocation) {
     const Recording recording = recorded_bench(invocation);
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
@@ -175,7 +175,7 @@ Command diagnose_command() {
                          "capstan diagnose bench.csv --html bench.html",
                          "capstan diagnose bench.csv --db bench.db",
                          "capstan diagnose bench.csv --corrected corrected.toml"},
-            .run = run};
+            .run = run_diagnose};
 }
 
 }  // namespace capstan::cli

@@ -88,7 +88,7 @@ ExitCode score_layouts(const Invocation& invocation) {
     return ExitCode::success;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_estimate(const Invocation& invocation) {
     if (!names_a_recording(invocation.argument("LOG"))) return score_layouts(invocation);
     const Recording recording = read_recording(invocation.argument("LOG"));
     std::vector<SensedCable> cables =
@@ -168,7 +168,7 @@ Command estimate_command() {
                      "capstan estimate bench.csv --leave-out each",
                      "capstan estimate bench.csv --leave-out tension_2 --json",
                      "capstan estimate configs/paper.toml"},
-        .run = run};
+        .run = run_estimate};
 }
 
 }  // namespace capstan::cli

@@ -124,7 +124,7 @@ std::size_t export_table(storage::Database& database, const DocumentedTable& tab
     return count;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_export(const Invocation& invocation) {
     const std::vector<DocumentedTable> tables = chosen_tables(invocation);
     const std::filesystem::path folder = invocation.argument("FOLDER");
     const std::string& format = invocation.text("format");
@@ -164,7 +164,7 @@ Command export_command() {
                         help_option},
             .examples = {"capstan export tables",
                          "capstan export tables --format parquet --tables v_error_by_layout"},
-            .run = run};
+            .run = run_export};
 }
 
 }  // namespace capstan::cli

@@ -23,7 +23,7 @@ using gap_trial::TrialOptions;
 // Relative error of nominal friction, stiffness and pretension with --nominal-error.
 constexpr double nominal_error = 0.01;
 
-TrialOptions options_of(const Invocation& invocation) {
+TrialOptions trial_options_of(const Invocation& invocation) {
     TrialOptions options;
     options.cases = static_cast<int>(invocation.integer("cases"));
     options.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
@@ -72,12 +72,12 @@ ExitCode score_again(const Invocation& invocation) {
     return ExitCode::success;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_gap_trial(const Invocation& invocation) {
     if (invocation.has("unseal")) return score_again(invocation);
     const bool only_recordings = invocation.has("generate-only");
     if (only_recordings && !invocation.has("keep"))
         throw UsageError("--generate-only needs --keep DIR, the folder for the recordings");
-    const TrialOptions options = options_of(invocation);
+    const TrialOptions options = trial_options_of(invocation);
     const BlindTrialHooks hooks = hooks_of(invocation);
     const int jobs = static_cast<int>(invocation.integer("jobs"));
     const TrialFolder folder = invocation.has("keep") ? TrialFolder::kept(invocation.text("keep"), options)
@@ -185,7 +185,7 @@ Command gap_trial_command() {
                      "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
                      "capstan gap-trial --cases 400 --only none --length short",
                      "capstan gap-trial --unseal trial/labels.json"},
-        .run = run};
+        .run = run_gap_trial};
 }
 
 }  // namespace capstan::cli

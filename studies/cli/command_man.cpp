@@ -16,7 +16,7 @@ void write_all(const std::filesystem::path& folder) {
     for (const Command& command : commands()) write_file(folder / man_page_name(command), man_page(command));
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_man(const Invocation& invocation) {
     if (invocation.has("directory")) {
         write_all(invocation.text("directory"));
         return ExitCode::success;
@@ -51,7 +51,7 @@ Command man_command() {
                     output_option,
                     help_option},
         .examples = {"capstan man | man -l -", "capstan man \"study run\" -o capstan-study-run.1"},
-        .run = run};
+        .run = run_man};
 }
 
 }  // namespace capstan::cli

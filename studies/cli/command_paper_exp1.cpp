@@ -22,7 +22,7 @@ std::string trajectories_csv(const std::vector<std::vector<paper::RampRun>>& run
     return text;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_paper_exp1(const Invocation& invocation) {
     const auto runs = run_every_setting([](const paper::CableSetting& setting, double pretension_N) {
         return paper::run_pretension_ramps(setting, pretension_N, {});
     });
@@ -45,7 +45,7 @@ Command paper_exp1_command() {
             .options = {trajectories_option, page_option, json_option, help_option},
             .examples = {"capstan paper exp1", "capstan paper exp1 --html exp1.html",
                          "capstan paper exp1 --json -o ramps.csv"},
-            .run = run};
+            .run = run_paper_exp1};
 }
 
 }  // namespace capstan::cli

@@ -83,7 +83,7 @@ std::string trajectories_csv(const std::vector<std::vector<paper::TunnelRun>>& r
     return text;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_paper_exp2(const Invocation& invocation) {
     const auto runs = run_every_setting([](const paper::CableSetting& setting, double pretension_N) {
         return paper::run_error_reduction_tunnel(setting, pretension_N, {});
     });
@@ -148,7 +148,7 @@ Command paper_exp2_command() {
                     json_option, help_option},
         .examples = {"capstan paper exp2", "capstan paper exp2 --html exp2.html",
                      "capstan paper exp2 --json -o tunnel.csv", "capstan paper exp2 --recording fig6.csv"},
-        .run = run};
+        .run = run_paper_exp2};
 }
 
 }  // namespace capstan::cli

@@ -7,7 +7,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_paper_solver(const Invocation& invocation) {
     std::vector<answers::RatesOfCable> rates;
     for (const int segments : {1, 2, 3, 5, 10, 20, 40, 60}) {
         rates.push_back(
@@ -41,7 +41,7 @@ Command paper_solver_command() {
                         help_option},
             .examples = {"capstan paper solver", "capstan paper solver --html solver.html",
                          "capstan paper solver --json -o solver.json"},
-            .run = run};
+            .run = run_paper_solver};
 }
 
 }  // namespace capstan::cli

@@ -36,7 +36,7 @@ void take_duty(const Invocation& invocation, StudyPlan& plan) {
     say(message);
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_place(const Invocation& invocation) {
     config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     if (invocation.has("repetitions"))
@@ -107,7 +107,7 @@ Command place_command() {
                      "capstan place configs/paper.toml --html place.html -o place.txt",
                      "capstan place my.toml --until-resolved 0.005",
                      "capstan place my.toml --json | jq .scopes[0].counts"},
-        .run = run};
+        .run = run_place};
 }
 
 }  // namespace capstan::cli

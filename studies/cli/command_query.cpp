@@ -30,7 +30,7 @@ std::string formatted(const storage::QueryResult& result, const std::string& for
     return format == "json" ? answers::rows_json(result) : answers::rows_text(result);
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_query(const Invocation& invocation) {
     if (invocation.has("schema")) {
         const bool markdown = invocation.text("format") == "md";
         deliver(invocation, markdown ? storage::schema_markdown() : storage::schema_text());
@@ -77,7 +77,7 @@ Command query_command() {
                         help_option},
             .examples = {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
                          "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
-            .run = run};
+            .run = run_query};
 }
 
 }  // namespace capstan::cli

@@ -12,7 +12,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_recommend(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     answers::Conclusions conclusions = answers::read_conclusions(database, id);
@@ -54,7 +54,7 @@ Command recommend_command() {
                  help_option},
             .examples = {"capstan recommend", "capstan recommend paper --worthwhile-gain 0.05",
                          "capstan recommend --json -o recommendation.json"},
-            .run = run};
+            .run = run_recommend};
 }
 
 }  // namespace capstan::cli

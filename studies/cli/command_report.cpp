@@ -64,7 +64,7 @@ std::string chosen_report(const Invocation& invocation, storage::Database& datab
     return answer_in(reports::study_comparison(database, {other, id}), format);
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_report(const Invocation& invocation) {
     const AnswerFormat format = answer_format(invocation, AnswerFormat::html);
     const std::string& file = invocation.text("output");
     if (invocation.has("diagnosis") && invocation.has("compare"))
@@ -116,7 +116,7 @@ Command report_command() {
         .examples = {"capstan report -o report.html", "capstan report paper --format md",
                      "capstan report -o errors.csv", "capstan report --compare 1 2 -o comparison.html",
                      "capstan report --diagnosis latest -o diagnosis.html"},
-        .run = run};
+        .run = run_report};
 }
 
 }  // namespace capstan::cli

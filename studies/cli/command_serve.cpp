@@ -41,7 +41,7 @@ std::string token_in(const std::string& file) {
     return token;
 }
 
-service::ServiceOptions options_of(const Invocation& invocation) {
+service::ServiceOptions service_options_of(const Invocation& invocation) {
     service::ServiceOptions options;
     options.access.host = invocation.text("host");
     options.access.port = static_cast<int>(invocation.integer("port"));
@@ -63,9 +63,9 @@ service::ServiceOptions options_of(const Invocation& invocation) {
     return options;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_serve(const Invocation& invocation) {
     { storage::Database::open_or_create(invocation.text("db")); }  // creates or checks the file
-    const service::ServiceOptions options = options_of(invocation);
+    const service::ServiceOptions options = service_options_of(invocation);
     service::Service service(options);
     const bool anywhere = options.access.host == "0.0.0.0" || options.access.host == "::";
     const std::string host = anywhere ? "127.0.0.1" : options.access.host;
@@ -136,7 +136,7 @@ Command serve_command() {
              help_option},
         .examples = {"capstan serve --db results/capstan.db --configs configs", "capstan serve --port 0",
                      "capstan serve --host 0.0.0.0 --token-file token.txt"},
-        .run = run};
+        .run = run_serve};
 }
 
 }  // namespace capstan::cli

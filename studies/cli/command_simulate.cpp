@@ -138,7 +138,7 @@ void append_line(std::string& text, const TrueSample& sample, double sample_rate
     text += "\n";
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_simulate(const Invocation& invocation) {
     if (names_a_recording(invocation.argument("CONFIG"))) return simulate_recording(invocation);
     if (config::content_of_config(invocation.argument("CONFIG")) == config::ConfigContent::bench)
         return simulate_bench_file(invocation);
@@ -196,7 +196,7 @@ Command simulate_command() {
                      "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'",
                      "capstan simulate configs/bench-slack.toml --html slack.html -o slack.csv",
                      "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html"},
-        .run = run};
+        .run = run_simulate};
 }
 
 }  // namespace capstan::cli

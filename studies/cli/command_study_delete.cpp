@@ -9,7 +9,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_delete(const Invocation& invocation) {
     storage::Database database = storage::Database::open_existing(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     const std::string name = storage::load_study(database, id).study.name;
@@ -29,7 +29,7 @@ Command study_delete_command() {
             .arguments = {{"STUDY", "Its number, its name (the newest study of that name), or latest."}},
             .options = {database_option, help_option},
             .examples = {"capstan study delete 3"},
-            .run = run};
+            .run = run_study_delete};
 }
 
 }  // namespace capstan::cli

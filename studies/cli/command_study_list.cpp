@@ -11,7 +11,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_list(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const bool json = invocation.has("json");
     storage::QueryResult table{{json ? "study_id" : "study", "name", "status", "units_done", "units"}, {}};
@@ -35,7 +35,7 @@ Command study_list_command() {
             .description = "Lists the studies of a database, oldest first, with the progress of each.",
             .options = {database_option, output_option, json_option, help_option},
             .examples = {"capstan study list"},
-            .run = run};
+            .run = run_study_list};
 }
 
 }  // namespace capstan::cli

@@ -9,7 +9,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_merge(const Invocation& invocation) {
     const std::string& file = invocation.text("db");
     const auto& names = invocation.repeated_argument();
     const std::vector<std::filesystem::path> shards(names.begin(), names.end());
@@ -45,7 +45,7 @@ Command study_merge_command() {
                         progress_option,
                         help_option},
             .examples = {"capstan study merge --db atlas.db shard-*.db"},
-            .run = run,
+            .run = run_study_merge,
             .can_be_stopped = true};
 }
 

@@ -25,7 +25,7 @@ int position(const Invocation& invocation, std::string_view option, std::size_t 
     return static_cast<int>(given - 1);
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_replay(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     const StoredStudy stored = load_stored_study(database, id);
@@ -79,7 +79,7 @@ Command study_replay_command() {
                         json_option,
                         help_option},
             .examples = {"capstan study replay --scenario 2 --repetition 17"},
-            .run = run};
+            .run = run_study_replay};
 }
 
 }  // namespace capstan::cli

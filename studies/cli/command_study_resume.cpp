@@ -44,7 +44,7 @@ ExitCode resume_all(const Invocation& invocation, storage::Database& database) {
     return ExitCode::success;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_resume(const Invocation& invocation) {
     storage::Database database = storage::Database::open_existing(invocation.text("db"));
     refuse_shard_file(database);
     const std::string& named = invocation.argument("STUDY");
@@ -64,7 +64,7 @@ Command study_resume_command() {
                            ArgumentNeed::optional, "latest"}},
             .options = watched_run_options(),
             .examples = {"capstan study resume", "capstan study resume paper --db paper.db"},
-            .run = run,
+            .run = run_study_resume,
             .can_be_stopped = true};
 }
 

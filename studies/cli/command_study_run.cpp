@@ -98,7 +98,7 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
     return code;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_run(const Invocation& invocation) {
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
     if (invocation.has("truth") && !invocation.has("shard") && plans.size() == 1)
@@ -138,7 +138,7 @@ Command study_run_command() {
                          "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
                          "capstan study run my.toml --truth corrected.toml",
                          "capstan study run my.toml --shard 2/8 --db part-2.db"},
-            .run = run,
+            .run = run_study_run,
             .can_be_stopped = true};
 }
 

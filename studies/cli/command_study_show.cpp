@@ -8,7 +8,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_show(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     if (invocation.has("config")) {
@@ -36,7 +36,7 @@ Command study_show_command() {
                         json_option,
                         help_option},
             .examples = {"capstan study show", "capstan study show 3 --config -o again.toml"},
-            .run = run};
+            .run = run_study_show};
 }
 
 }  // namespace capstan::cli

@@ -124,7 +124,7 @@ reports::Answer answer_of(const StudyStatus& status) {
     return answer;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_status(const Invocation& invocation) {
     const StudyStatus status = status_of(invocation.argument("DIR"));
     deliver_answer(invocation, answer_of(status));
     return ExitCode::success;
@@ -144,7 +144,7 @@ Command study_status_command() {
         .arguments = {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
         .options = {output_option, json_option, help_option},
         .examples = {"capstan study status atlas", "capstan study status atlas --json | jq -r .merge.state"},
-        .run = run};
+        .run = run_study_status};
 }
 
 }  // namespace capstan::cli

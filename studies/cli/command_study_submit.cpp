@@ -87,7 +87,7 @@ void submit(const StudyDirectory& directory) {
         text + fmt::format("capstan study status {} shows the progress.\n", directory.path.string()));
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_submit(const Invocation& invocation) {
     if (!invocation.has("slurm")) {
         throw UsageError(
             "capstan study submit: give --slurm; Slurm is the only supported scheduler. Elsewhere run "
@@ -166,7 +166,7 @@ Command study_submit_command() {
                         help_option},
             .examples = {"capstan study submit --slurm configs/atlas.toml --shards 100 --directory atlas",
                          "SBATCH_PARTITION=long capstan study submit --slurm my.toml"},
-            .run = run};
+            .run = run_study_submit};
 }
 
 }  // namespace capstan::cli

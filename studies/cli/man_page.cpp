@@ -44,25 +44,25 @@ std::string head(const std::string& title, std::string_view summary) {
                        roff(program_version()), roff(title), roff(bare));
 }
 
-std::string entry(const std::string& term, const std::string& meaning) {
+std::string paragraph(const std::string& term, const std::string& meaning) {
     return fmt::format(".TP\n{}\n{}\n", term, roff(meaning));
 }
 
 std::string exit_status(std::span<const ExitCodeMeaning> meanings = exit_code_meanings) {
     std::string text = ".SH EXIT STATUS\n";
     for (const ExitCodeMeaning& each : meanings)
-        text += entry(fmt::format("\\fB{}\\fR", static_cast<int>(each.code)), std::string(each.meaning));
+        text += paragraph(fmt::format("\\fB{}\\fR", static_cast<int>(each.code)), std::string(each.meaning));
     return text;
 }
 
-std::string option_entry(const Option& option) {
+std::string option_paragraph(const Option& option) {
     std::string term = option.letter == '\0' ? "" : fmt::format("\\fB\\-{}\\fR, ", option.letter);
     term += fmt::format("\\fB\\-\\-{}\\fR", roff(option.name));
     if (!option.value.empty()) term += fmt::format(" \\fI{}\\fR", roff(option.value));
     std::string meaning(option.meaning);
     if (!option.default_value.empty() && option.default_value != "-")
         meaning += fmt::format(" Default: {}.", option.default_value);
-    return entry(term, meaning);
+    return paragraph(term, meaning);
 }
 
 std::string synopsis(const Command& command) {
@@ -88,10 +88,10 @@ std::string man_page(const Command& command) {
     for (const Argument& argument : command.arguments) {
         std::string meaning(argument.meaning);
         if (!argument.default_value.empty()) meaning += fmt::format(" Default: {}.", argument.default_value);
-        text += entry(fmt::format("\\fI{}\\fR", roff(argument.name)), meaning);
+        text += paragraph(fmt::format("\\fI{}\\fR", roff(argument.name)), meaning);
     }
     text += ".SH OPTIONS\n";
-    for (const Option& option : command.options) text += option_entry(option);
+    for (const Option& option : command.options) text += option_paragraph(option);
     if (!command.examples.empty()) text += ".SH EXAMPLES\n.nf\n";
     for (const auto example : command.examples) text += roff(example) + "\n";
     if (!command.examples.empty()) text += ".fi\n";
@@ -108,7 +108,7 @@ std::string program_man_page() {
         "diagnoses recordings. Answers go to standard output, progress and messages to standard error.\n"
         ".SH COMMANDS\n";
     for (const Command& command : commands())
-        text += entry(fmt::format("\\fB{}\\fR", roff(command.name)), std::string(command.summary));
+        text += paragraph(fmt::format("\\fB{}\\fR", roff(command.name)), std::string(command.summary));
     text += exit_status() + ".SH SEE ALSO\n";
     for (const Command& command : commands()) {
         const bool last = &command == &commands().back();

@@ -6,12 +6,11 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimate/tracking.h"
 #include "capstan/platform/parallel_for.h"
+#include "capstan/platform/statistics.h"
 
 namespace capstan::estimate {
 
 namespace {
-
-constexpr double two_sided_95 = 1.959964;
 
 // The squared model error, in parts of the tension, that one reading asks for so as to be just within the
 // band.

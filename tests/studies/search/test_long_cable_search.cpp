@@ -14,11 +14,7 @@ const ScopeAnswer& duty_cycle(const PlacementAnswer& answer) {
                          [](const ScopeAnswer& scope) { return scope.scope == "duty_cycle"; });
 }
 
-PlacementOptions alone() {
-    PlacementOptions options;
-    options.jobs = 1;
-    return options;
-}
+using test::alone;
 
 // On a cable short enough for both; they share their draws, so equal layouts have equal errors up to
 // rounding.
