@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "capstan/answers/study_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/platform/files.h"

@@ -4,7 +4,6 @@
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"

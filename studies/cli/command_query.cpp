@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "capstan/answers/study_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "capstan/answers/recording_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"

@@ -6,10 +6,9 @@
 #include <future>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/stop_request.h"
+#include "capstan/cli/watched_run.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/service/service.h"
 #include "capstan/storage/database.h"

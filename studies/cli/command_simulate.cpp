@@ -6,7 +6,6 @@
 #include "capstan/answers/recording_answers.h"
 #include "capstan/bench/bench_run.h"
 #include "capstan/cable/motion_name.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"

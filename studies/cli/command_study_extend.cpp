@@ -2,11 +2,9 @@
 
 #include <cstdio>
 
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/program.h"
-#include "capstan/cli/shard_option.h"
 #include "capstan/cli/watched_run.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/placement/stored_study.h"

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"

@@ -1,13 +1,17 @@
 #include "capstan/cli/watched_run.h"
 
 #include <fmt/format.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX's own names are in no <csignal>
+
+#include <charconv>
 
 #include "capstan/answers/placement_answers.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/stop_request.h"
 #include "capstan/paper/placement_comparison.h"
 #include "capstan/platform/progress.h"
+#include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
 
@@ -94,6 +98,72 @@ ExitCode run_watched(const Invocation& invocation, storage::Database& database, 
 
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id) {
     deliver_answer(invocation, answers::recommendation_answer(answers::read_conclusions(database, study_id)));
+}
+
+namespace {
+
+std::atomic<bool> stop_asked{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may set it
+
+void ask_to_stop(int) {
+    stop_asked.store(true);
+}
+
+void handle(void (*handler)(int), int flags) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = flags;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+StopRequest::StopRequest() {
+    stop_asked.store(false);
+    handle(ask_to_stop, static_cast<int>(SA_RESETHAND | SA_RESTART));
+}
+
+StopRequest::~StopRequest() {
+    handle(SIG_DFL, 0);
+}
+
+const std::atomic<bool>* StopRequest::flag() {
+    return &stop_asked;
+}
+
+const Option shard_option{
+    .name = "shard",
+    .kind = OptionKind::string,
+    .value = "I/N",
+    .meaning =
+        "Run only part I of N (I from 1) into a file of its own. `capstan study merge` joins all N, "
+        "with the same bits as one run. Running the command again continues the part."};
+
+Shard parse_shard(const std::string& text) {
+    Shard shard;
+    const char* const end = text.data() + text.size();
+    const auto [slash, problem] = std::from_chars(text.data(), end, shard.number);
+    if (problem == std::errc{} && slash != end && *slash == '/') {
+        const auto [last, other] = std::from_chars(slash + 1, end, shard.count);
+        const bool in_range = shard.number >= 1 && shard.number <= shard.count;
+        if (other == std::errc{} && last == end && in_range) return shard;
+    }
+    throw UsageError(fmt::format(
+        "--shard is '{}', but must be I/N with I from 1 to N, for example --shard 2/8 for the second "
+        "of eight",
+        text));
+}
+
+void refuse_shard_file(storage::Database& database) {
+    const auto mark = storage::read_shard(database);
+    if (!mark) return;
+    const std::string file = database.path().string();
+    throw UsageError(
+        fmt::format("{0} is the file of {1}. To continue it: capstan study run CONFIG --shard "
+                    "{2}/{3} --db {0}\nFor a whole study name another file with --db.",
+                    file, words_of({mark->shard, mark->shards}), mark->shard, mark->shards));
 }
 
 }  // namespace capstan::cli

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 
 #include "capstan/cli/command.h"
 #include "capstan/placement/study_run.h"
+#include "capstan/placement/study_shard.h"
 #include "capstan/storage/database.h"
 
 namespace capstan::cli {
@@ -31,5 +33,26 @@ ExitCode run_watched(const Invocation& invocation, storage::Database& database, 
 
 /// The answer of a study that is complete.
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id);
+
+/// While it lives, the first Ctrl-C or request to terminate only sets a flag; a second one ends the program
+/// at once, which loses no more than the unit under way.
+class StopRequest {
+  public:
+    StopRequest();
+    ~StopRequest();
+    StopRequest(const StopRequest&) = delete;
+    StopRequest& operator=(const StopRequest&) = delete;
+
+    static const std::atomic<bool>* flag();
+};
+
+extern const Option shard_option;
+
+/// "2/8". Throws UsageError for anything else.
+Shard parse_shard(const std::string& text);
+
+/// Whole studies do not go into a shard's file, nor are they resumed in it. Throws UsageError that says what
+/// to do instead.
+void refuse_shard_file(storage::Database& database);
 
 }  // namespace capstan::cli

@@ -1,15 +1,77 @@
 #include <fmt/format.h>
 
 #include "capstan/answers/study_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/placement/replay.h"
 #include "capstan/placement/stored_study.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
+
+namespace {
+
+ExitCode run_study_list(const Invocation& invocation) {
+    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
+    const bool json = invocation.has("json");
+    storage::QueryResult table{{json ? "study_id" : "study", "name", "status", "units_done", "units"}, {}};
+    for (const storage::StudySummary& study : storage::list_studies(database)) {
+        table.rows.push_back({study.study_id, study.name, study.status, std::int64_t{study.units_done},
+                              std::int64_t{study.units}});
+    }
+    if (table.rows.empty() && !json) {
+        say(fmt::format("{} has no study yet; `capstan study run CONFIG` creates one.",
+                        invocation.text("db")));
+    }
+    deliver(invocation, json ? answers::rows_json(table) : answers::rows_text(table));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command study_list_command() {
+    return {.name = "study list",
+            .summary = "List the studies of a database.",
+            .description = "Lists the studies of a database, oldest first, with the progress of each.",
+            .options = {database_option, output_option, json_option, help_option},
+            .examples = {"capstan study list"},
+            .run = run_study_list};
+}
+
+namespace {
+
+ExitCode run_study_show(const Invocation& invocation) {
+    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
+    const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+    if (invocation.has("config")) {
+        deliver(invocation, storage::load_study(database, id).study.config_toml);
+    } else {
+        deliver_answer(invocation, answers::study_answer(database, id));
+    }
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command study_show_command() {
+    return {.name = "study show",
+            .summary = "Show a study and its progress.",
+            .description =
+                "Shows a study's cable, instants, noise levels, layouts, methods and progress; --config "
+                "prints the complete configuration, from which the study can be run again.",
+            .arguments = {study_argument},
+            .options = {database_option,
+                        {.name = "config",
+                         .kind = OptionKind::flag,
+                         .meaning = "Print the stored configuration (TOML) with every key."},
+                        output_option,
+                        json_option,
+                        help_option},
+            .examples = {"capstan study show", "capstan study show 3 --config -o again.toml"},
+            .run = run_study_show};
+}
 
 namespace {
 
@@ -80,6 +142,31 @@ Command study_replay_command() {
                         help_option},
             .examples = {"capstan study replay --scenario 2 --repetition 17"},
             .run = run_study_replay};
+}
+
+namespace {
+
+ExitCode run_study_delete(const Invocation& invocation) {
+    storage::Database database = storage::Database::open_existing(invocation.text("db"));
+    const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+    const std::string name = storage::load_study(database, id).study.name;
+    storage::delete_study(database, id);
+    say(fmt::format("Deleted study {} ({}).", id, name));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command study_delete_command() {
+    return {.name = "study delete",
+            .summary = "Delete a study and everything that belongs to it.",
+            .description =
+                "Deletes a study and everything that belongs to it. This cannot be undone. The study must be "
+                "named.",
+            .arguments = {{"STUDY", "Its number, its name (the newest study of that name), or latest."}},
+            .options = {database_option, help_option},
+            .examples = {"capstan study delete 3"},
+            .run = run_study_delete};
 }
 
 }  // namespace capstan::cli
