@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "capstan/storage/diagnosis_columns.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/transaction.h"

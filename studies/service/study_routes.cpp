@@ -5,7 +5,7 @@
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/error.h"
-#include "capstan/storage/live_queries.h"
+#include "capstan/storage/report_queries.h"
 
 namespace capstan::service {
 
