@@ -140,7 +140,7 @@ reports::Answer left_out_answer(const Recording& recording, const std::vector<Le
 }
 
 reports::Answer estimate_answer(const Recording& recording, const std::vector<SensedCable>& cables,
-                                const std::vector<estimate::WholeEstimate>& estimates,
+                                const std::vector<estimate::EstimatorTuning>& estimates,
                                 const estimate::TrackingOptions& options, Figures figures) {
     reports::Answer answer = answer_about(recording);
     answer.headline = "the tension from all channels together, drawn where a sensor can be compared with it.";

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "capstan/estimate/cycle_trial.h"
-#include "capstan/search/placement_answer.h"
 #include "capstan/reports/answer.h"
+#include "capstan/search/placement_answer.h"
 #include "capstan/sensitivity/advice_sensitivity.h"
 #include "capstan/storage/database.h"
 #include "capstan/storage/records.h"

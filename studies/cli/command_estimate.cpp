@@ -56,7 +56,7 @@ std::string head_line(const std::vector<SensedCable>& cables) {
     return line + "\n";
 }
 
-void append_cable(std::string& text, const SensedCable& cable, const estimate::WholeEstimate& tuned,
+void append_cable(std::string& text, const SensedCable& cable, const estimate::EstimatorTuning& tuned,
                   const estimate::TrackingOptions& options) {
     auto out = std::back_inserter(text);
     track(cable, all_but(cable, {}), tuned.trust, options, [&](const TrackedSample& at) {
@@ -102,8 +102,8 @@ ExitCode run_estimate(const Invocation& invocation) {
         deliver_answer(invocation, answers::left_out_answer(recording, results, options, figures));
         return ExitCode::success;
     }
-    std::vector<estimate::WholeEstimate> tuned;
-    for (const SensedCable& cable : cables) tuned.push_back(prepare_whole(cable, options));
+    std::vector<estimate::EstimatorTuning> tuned;
+    for (const SensedCable& cable : cables) tuned.push_back(tune_estimator(cable, options));
     const reports::Answer answer = answers::estimate_answer(recording, cables, tuned, options, figures);
     deliver_page(invocation, answer);
     if (invocation.has("json")) {

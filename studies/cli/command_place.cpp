@@ -53,7 +53,7 @@ ExitCode run_place(const Invocation& invocation) {
     if (invocation.has("stats")) {
         say(fmt::format(
             "wall time: {:.2f} s to score {} candidates, {:.2f} s on independent draws, {:.2f} s in all",
-            answer.times.score_s, answer.candidates, answer.times.fresh_s, answer.times.wall_s));
+            answer.times.score_s, answer.candidates, answer.times.independent_s, answer.times.wall_s));
     }
     deliver_answer(invocation, answers::place_answer(config.plan, answer));
     return ExitCode::success;

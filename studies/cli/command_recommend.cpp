@@ -18,9 +18,9 @@ ExitCode run_recommend(const Invocation& invocation) {
     answers::Conclusions conclusions = answers::read_conclusions(database, id);
     if (invocation.has("worthwhile-gain")) {
         const StoredStudy stored = load_stored_study(database, id);
-        conclusions.recommendations =
-            recommend(database, id, {invocation.number("worthwhile-gain")},
-                      fresh_errors(database, id, stored.plan, static_cast<int>(invocation.integer("jobs"))));
+        conclusions.recommendations = recommend(
+            database, id, {invocation.number("worthwhile-gain")},
+            independent_errors(database, id, stored.plan, static_cast<int>(invocation.integer("jobs"))));
     }
     deliver_answer(invocation, answers::recommendation_answer(conclusions));
     return ExitCode::success;

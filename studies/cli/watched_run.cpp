@@ -162,7 +162,7 @@ void refuse_shard_file(storage::Database& database) {
     const std::string file = database.path().string();
     throw UsageError(
         fmt::format("{0} is the file of {1}. To continue it: capstan study run CONFIG --shard "
-                    "{2}/{3} --db {0}\nFor a whole study name another file with --db.",
+                    "{2}/{3} --db {0}\nFor a complete study, name another file with --db.",
                     file, words_of({mark->shard, mark->shards}), mark->shard, mark->shards));
 }
 

@@ -52,7 +52,7 @@ std::string_view kind_words(ValueKind kind) {
         case ValueKind::string:
             return "text";
         case ValueKind::integer:
-            return "whole number";
+            return "integer";
         case ValueKind::number:
             return "number";
         case ValueKind::boolean:
@@ -60,7 +60,7 @@ std::string_view kind_words(ValueKind kind) {
         case ValueKind::choice:
             return "";
         case ValueKind::integers:
-            return "list of whole numbers";
+            return "list of integers";
         case ValueKind::numbers:
             return "list of numbers";
         case ValueKind::names:

@@ -84,7 +84,7 @@ TEST_F(Coverage, IntervalsCoverTheTruth93To97Percent) {
         const auto look = [&](const JudgedLayout& layout) {
             Tally& tally = tallies[layout.how == "optimum" ? "optimum" : "others"];
             const double error_N = true_error_N(scope, layout.nodes, layout.method);
-            tally.covered += layout.fresh.low_N <= error_N && error_N <= layout.fresh.high_N;
+            tally.covered += layout.independent.low_N <= error_N && error_N <= layout.independent.high_N;
             ++tally.all;
         };
         look(count.optimum);

@@ -152,7 +152,7 @@ TEST(SensorPlacement, AnswersEveryObjective) {
         for (const ScopeAnswer& scope : answer.scopes) {
             for (const CountAnswer& count : scope.counts) {
                 EXPECT_GE(count.optimum.searched_N, 0.0);
-                EXPECT_LE(count.optimum.fresh.low_N, count.optimum.fresh.value_N);
+                EXPECT_LE(count.optimum.independent.low_N, count.optimum.independent.value_N);
             }
         }
     }
