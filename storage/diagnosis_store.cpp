@@ -84,13 +84,6 @@ std::vector<DiagnosisSummary> list_diagnoses(Database& database) {
     return diagnoses;
 }
 
-std::vector<DiagnosisRecord> load_diagnoses(Database& database) {
-    Statement select(database, "SELECT diagnosis_id FROM diagnosis ORDER BY diagnosis_id");
-    std::vector<DiagnosisRecord> diagnoses;
-    while (select.step()) diagnoses.push_back(load_diagnosis(database, select.get<std::int64_t>(0)));
-    return diagnoses;
-}
-
 DiagnosisRecord load_diagnosis(Database& database, std::int64_t diagnosis_id) {
     auto found = read_numbered<DiagnosisRecord>(database, "diagnosis", "diagnosis_id", diagnosis_id);
     if (found.empty()) {

@@ -131,11 +131,8 @@ std::string BenchAnswer::headline() const {
 }
 
 reports::Answer BenchAnswer::finished() const {
-    reports::Answer answer;
-    answer.id = "bench";
-    answer.kind = "A simulated bench";
-    answer.title = plan_.name;
-    answer.headline = headline();
+    reports::Answer answer{
+        .id = "bench", .kind = "A simulated bench", .title = plan_.name, .headline = headline()};
     Data rows = Data::list();
     const auto add = [&](const char* quantity, Data value, const char* unit) {
         rows.push_back({{"quantity", quantity}, {"value", std::move(value)}, {"unit", unit}});

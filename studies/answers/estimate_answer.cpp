@@ -75,10 +75,8 @@ Data channel_data(const SensedCable& cable, const LeftOutChannel& result) {
 }
 
 reports::Answer answer_about(const Recording& recording) {
-    reports::Answer answer;
-    answer.id = "estimate";
-    answer.kind = "Tension estimated from a recording";
-    answer.title = recording.name;
+    reports::Answer answer{
+        .id = "estimate", .kind = "Tension estimated from a recording", .title = recording.name};
     return answer;
 }
 

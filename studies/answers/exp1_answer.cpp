@@ -102,15 +102,15 @@ std::string what_the_settings_are() {
 
 reports::Answer exp1_answer(const Settings& runs) {
     const std::vector<RampRun>& reproducing = runs.back();
-    reports::Answer answer;
-    answer.id = "exp1";
-    answer.kind = "The paper's Exp. 1";
-    answer.title = "Torque ramps against a locked load";
-    answer.headline = fmt::format(
-        "more pretension means more friction: from {:.1f} to {:.1f} N of pretension the peak load torque falls from "
-        "{:.0f} to {:.0f} mN m, while an ideal transmission gives 650 mN m.",
-        reproducing.front().pretension_N, reproducing.back().pretension_N,
-        1e3 * reproducing.front().peak_load_torque_Nm, 1e3 * reproducing.back().peak_load_torque_Nm);
+    reports::Answer answer{
+        .id = "exp1",
+        .kind = "The paper's Exp. 1",
+        .title = "Torque ramps against a locked load",
+        .headline = fmt::format(
+            "more pretension means more friction: from {:.1f} to {:.1f} N of pretension the peak load torque falls from "
+            "{:.0f} to {:.0f} mN m, while an ideal transmission gives 650 mN m.",
+            reproducing.front().pretension_N, reproducing.back().pretension_N,
+            1e3 * reproducing.front().peak_load_torque_Nm, 1e3 * reproducing.back().peak_load_torque_Nm)};
     answer.values = {{"experiment", "exp1"}, {"runs", runs_data(runs)}};
     answer.sections = {
         {.id = "ramps", .heading = "Torque that reaches the load", .prose = what_the_settings_are()},

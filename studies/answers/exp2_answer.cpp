@@ -211,15 +211,15 @@ reports::AnswerSection viscous_section(const ViscousComparison& viscous) {
 
 reports::Answer exp2_answer(const std::vector<std::vector<TunnelRun>>& runs,
                             const ViscousComparison& viscous) {
-    reports::Answer answer;
-    answer.id = "exp2";
-    answer.kind = "The paper's Exp. 2";
-    answer.title = "An error-reduction tunnel under a moving hand";
-    answer.headline = fmt::format(
-        "friction along the cables turns the tunnel that the motor renders into a loop: the load torque reaches {:.2f} "
-        "N m where an ideal transmission gives {:.2f} N m (paper's bench: about {:.1f} N m).",
-        runs.back().back().peak_load_torque_Nm, runs.back().back().ideal_peak_load_torque_Nm,
-        papers_tunnel.implied_peak_Nm());
+    reports::Answer answer{
+        .id = "exp2",
+        .kind = "The paper's Exp. 2",
+        .title = "An error-reduction tunnel under a moving hand",
+        .headline = fmt::format(
+            "friction along the cables turns the tunnel that the motor renders into a loop: the load torque reaches {:.2f} "
+            "N m where an ideal transmission gives {:.2f} N m (paper's bench: about {:.1f} N m).",
+            runs.back().back().peak_load_torque_Nm, runs.back().back().ideal_peak_load_torque_Nm,
+            papers_tunnel.implied_peak_Nm())};
     answer.values = {{"experiment", "exp2"},
                      {"paper",
                       {{"implied_peak_load_torque_Nm", papers_tunnel.implied_peak_Nm()},

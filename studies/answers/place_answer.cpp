@@ -225,11 +225,11 @@ Table node_table(const PlacementAnswer& found) {
 
 reports::Answer place_answer(const StudyPlan& plan, const PlacementAnswer& found) {
     const bool exhaustive = found.search == SearchKind::exhaustive;
-    reports::Answer answer;
-    answer.id = "place";
-    answer.kind = exhaustive ? "Exhaustive search of all layouts" : "Greedy search on a long cable";
-    answer.title = plan.name;
-    answer.headline = headline_of(found);
+    reports::Answer answer{
+        .id = "place",
+        .kind = exhaustive ? "Exhaustive search of all layouts" : "Greedy search on a long cable",
+        .title = plan.name,
+        .headline = headline_of(found)};
     answer.values = {{"name", plan.name},
                      {"seed", plan.seed},
                      {"search", exhaustive ? "exhaustive" : "greedy"},

@@ -85,14 +85,14 @@ Overlay overlay_of(const Recording& recording, const std::vector<TwinRun>& model
 
 reports::Answer recording_answer(const Recording& recording, const std::vector<TwinRun>& modelled) {
     Overlay overlay = overlay_of(recording, modelled);
-    reports::Answer answer;
-    answer.id = "recording";
-    answer.kind = "A recording and its model";
-    answer.title = recording.name;
-    answer.headline = fmt::format(
-        "{} {}, {} samples at {:.4g} Hz: measured channels and the model driven by the same inputs.",
-        recording.runs.size(), recording.runs.size() == 1 ? "run" : "runs", recording.samples(),
-        recording.sample_rate_Hz);
+    reports::Answer answer{
+        .id = "recording",
+        .kind = "A recording and its model",
+        .title = recording.name,
+        .headline = fmt::format(
+            "{} {}, {} samples at {:.4g} Hz: measured channels and the model driven by the same inputs.",
+            recording.runs.size(), recording.runs.size() == 1 ? "run" : "runs", recording.samples(),
+            recording.sample_rate_Hz)};
     answer.values = {{"case", recording.name}, {"channels", overlay.rows}};
     answer.sections = {
         {.id = "runs",

@@ -51,12 +51,10 @@ Command calibrate_command() {
         .arguments = {log_argument},
         .options =
             {Option{.name = "fit",
-                    .kind = OptionKind::string,
                     .value = "NAMES",
                     .meaning = "Fit only these parameters, separated by commas; the others stay nominal."},
              segments_option,
              Option{.name = "save",
-                    .kind = OptionKind::string,
                     .value = "FILE",
                     .meaning =
                         "Also write the parameters to FILE, for `capstan simulate LOG --parameters FILE`."},

@@ -131,20 +131,16 @@ ExitCode run_diagnose(const Invocation& invocation) {
 
 }  // namespace
 
-const Option runs_option{.name = "runs",
-                         .kind = OptionKind::string,
-                         .value = "LIST",
-                         .meaning = "Diagnose only these runs, for example 4,5,6."};
+const Option runs_option{
+    .name = "runs", .value = "LIST", .meaning = "Diagnose only these runs, for example 4,5,6."};
 const Option calibrate_on_option{
     .name = "calibrate-on",
-    .kind = OptionKind::string,
     .value = "LIST",
     .meaning =
         "Runs to which a drive or band of unknown geometry is calibrated. Default: the diagnosed "
         "runs."};
 const Option keep_option{
     .name = "db",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
         "Also store the diagnosis in this results database; `capstan query \"SELECT * FROM "
@@ -152,7 +148,6 @@ const Option keep_option{
 
 const Option corrected_option{
     .name = "corrected",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning = "Write the corrected model of the cable to FILE, for `capstan study run --truth FILE`."};
 

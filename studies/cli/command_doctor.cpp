@@ -80,12 +80,12 @@ reports::Answer answer_of(const std::string& file, const DatabaseState& state) {
         rows.push_back(
             {{"program", tool.program}, {"found", is_on_path(tool.program)}, {"purpose", tool.what_for}});
     }
-    reports::Answer answer;
-    answer.id = "doctor";
-    answer.kind = "Installation";
-    answer.title = "capstan " + program_version();
-    answer.headline = fmt::format("database schema {}, {} threads, SIMD {}.", storage::schema_version,
-                                  std::thread::hardware_concurrency(), simd_in_use());
+    reports::Answer answer{
+        .id = "doctor",
+        .kind = "Installation",
+        .title = "capstan " + program_version(),
+        .headline = fmt::format("database schema {}, {} threads, SIMD {}.", storage::schema_version,
+                                std::thread::hardware_concurrency(), simd_in_use())};
     answer.values = {{"program_version", program_version()},
                      {"schema_version", storage::schema_version},
                      {"simd", simd_in_use()},

@@ -42,7 +42,6 @@ Command duty_command() {
                   .low = 0,
                   .high = 1e6},
                  {.name = "parameters",
-                  .kind = OptionKind::string,
                   .value = "FILE",
                   .meaning =
                       "Friction, stiffness and pretension, in a file written by `capstan calibrate --save`."},

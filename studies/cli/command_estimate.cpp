@@ -118,7 +118,6 @@ ExitCode run_estimate(const Invocation& invocation) {
 
 const Option leave_out_option{
     .name = "leave-out",
-    .kind = OptionKind::string,
     .value = "CHANNEL",
     .meaning =
         "Predict this channel from all others and compare the prediction with its readings; `each` "

@@ -130,7 +130,6 @@ Command gap_trial_command() {
                     .high = 9e15},
              Option{
                  .name = "severity",
-                 .kind = OptionKind::string,
                  .value = "mild|strong|both",
                  .meaning =
                      "How far the effects exceed noise and model floor: mild is 1.5 to 3 times, strong is 4 to 10 "
@@ -145,14 +144,12 @@ Command gap_trial_command() {
                     .low = 0.01,
                     .high = 100},
              Option{.name = "length",
-                    .kind = OptionKind::string,
                     .value = "standard|short",
                     .meaning = "standard has all protocols of a bench, short has one or two.",
                     .default_value = "standard",
                     .choices = {"standard", "short"}},
              Option{
                  .name = "only",
-                 .kind = OptionKind::string,
                  .value = "GROUP",
                  .meaning =
                      "Generate recordings of one kind only: 'none' (no gap, to measure the false-alarm rate), "
@@ -165,7 +162,6 @@ Command gap_trial_command() {
                     .meaning = "Nominal friction, stiffness and pretension are each wrong by about 1%."},
              Option{
                  .name = "keep",
-                 .kind = OptionKind::string,
                  .value = "DIR",
                  .meaning =
                      "Keep recordings, labels and answers in DIR, and continue a trial that is already there."},
@@ -174,7 +170,6 @@ Command gap_trial_command() {
                     .meaning = "Stop when the recordings and the sealed labels are in DIR."},
              Option{
                  .name = "unseal",
-                 .kind = OptionKind::string,
                  .value = "FILE",
                  .meaning =
                      "Check FILE (a kept labels.json) against its hash and score the stored answers beside it "

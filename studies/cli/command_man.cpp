@@ -152,7 +152,6 @@ Command man_command() {
         .arguments = {{"COMMAND", "The command, for example \"study run\"; a name of two words needs quotes.",
                        ArgumentNeed::optional}},
         .options = {{.name = "directory",
-                     .kind = OptionKind::string,
                      .value = "FOLDER",
                      .meaning = "Write every page into FOLDER instead."},
                     output_option,

@@ -19,7 +19,6 @@ using reports::Data;
 const Option trajectories_option = {
     .name = "output",
     .letter = 'o',
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
         "Also write the trajectories to FILE as CSV; - writes them to standard output instead of the "
@@ -241,7 +240,6 @@ const Option remainder_option{
 
 const Option recording_option{
     .name = "recording",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
         "Also write the simulated bench of Fig. 6 to FILE (CSV) as a recording with its sidecar, for "

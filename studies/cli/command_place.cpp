@@ -83,7 +83,6 @@ Command place_command() {
               .low = 0,
               .high = 1000},
              {.name = "duty",
-              .kind = OptionKind::string,
               .value = "LOG",
               .meaning =
                   "Take the duty cycle from this recording instead of the configuration's duty_fraction."},

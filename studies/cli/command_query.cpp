@@ -61,7 +61,6 @@ Command query_command() {
                 "anything and is stopped after ten seconds.",
             .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
             .options = {{.name = "format",
-                         .kind = OptionKind::string,
                          .value = "table|csv|json|md",
                          .meaning =
                              "Format of the rows; csv and json have full precision. md is only for --schema.",

@@ -108,20 +108,17 @@ Command serve_command() {
               .low = 0,
               .high = 65535},
              {.name = "host",
-              .kind = OptionKind::string,
               .value = "ADDRESS",
               .meaning =
                   "Address to listen on. Any address other than this machine's own requires a token, which is "
                   "printed.",
               .default_value = "127.0.0.1"},
              {.name = "token-file",
-              .kind = OptionKind::string,
               .value = "FILE",
               .meaning =
                   "Require the token in the first line of FILE with every request; it has at least 16 letters "
                   "and digits."},
              {.name = "configs",
-              .kind = OptionKind::string,
               .value = "FOLDER",
               .meaning = "Folder of configurations that users can start by name."},
              {.name = "query-limit",

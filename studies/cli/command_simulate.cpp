@@ -160,7 +160,6 @@ ExitCode run_simulate(const Invocation& invocation) {
 
 const Option parameters_option{
     .name = "parameters",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning = "Recordings only: the model's parameters, in a file written by `capstan calibrate --save`."};
 

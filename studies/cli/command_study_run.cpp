@@ -113,7 +113,6 @@ ExitCode run_study_run(const Invocation& invocation) {
 
 const Option truth_option{
     .name = "truth",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
         "The true cable differs from the model as the [truth] in FILE says; `capstan diagnose "
@@ -233,7 +232,6 @@ Command study_merge_command() {
                 "missing, repeated, foreign or unfinished shard is named.",
             .arguments = {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
             .options = {{.name = "db",
-                         .kind = OptionKind::string,
                          .value = "FILE",
                          .meaning = "The new database; it is written completely or not at all.",
                          .default_value = "capstan.db"},

@@ -98,12 +98,11 @@ reports::Answer answer_of(const StudyStatus& status) {
     Data merge = {{"shard", "merge"}};
     merge.update(task_data(status.merge));
     rows.push_back(std::move(merge));
-    reports::Answer answer;
-    answer.id = "status";
-    answer.kind = "A submitted study";
-    answer.title = status.directory.name;
-    answer.headline =
-        fmt::format("{} of {} shards are done. {}", done, status.directory.shards, advice(status));
+    reports::Answer answer{.id = "status",
+                           .kind = "A submitted study",
+                           .title = status.directory.name,
+                           .headline = fmt::format("{} of {} shards are done. {}", done,
+                                                   status.directory.shards, advice(status))};
     answer.values = {{"name", status.directory.name},
                      {"directory", status.directory.path.string()},
                      {"slurm", status.slurm},

@@ -146,7 +146,6 @@ Command study_submit_command() {
                          .low = 1,
                          .high = 1e6},
                         {.name = "directory",
-                         .kind = OptionKind::string,
                          .value = "DIR",
                          .meaning = "The study's folder: scripts, shards, logs, and the result study.db.",
                          .default_value = "capstan-study"},

@@ -135,7 +135,6 @@ const std::atomic<bool>* StopRequest::flag() {
 
 const Option shard_option{
     .name = "shard",
-    .kind = OptionKind::string,
     .value = "I/N",
     .meaning =
         "Run only part I of N (I from 1) into a file of its own. `capstan study merge` joins all N, "

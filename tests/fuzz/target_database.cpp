@@ -78,7 +78,10 @@ void read_study(Database& database, std::int64_t id) {
 void read_all(const std::filesystem::path& path) {
     Database database = Database::open_read_only(path);
     let_refuse([&] { storage::examine(database); });
-    let_refuse([&] { storage::load_diagnoses(database); });
+    let_refuse([&] {
+        for (const storage::DiagnosisSummary& each : storage::list_diagnoses(database))
+            storage::load_diagnosis(database, each.diagnosis_id);
+    });
     let_refuse([&] { storage::read_shard(database); });
     let_refuse([&] { storage::run_read_only(database, storage::studies_query); });
     let_refuse([&] {
