@@ -36,11 +36,11 @@ struct AnswerSection {
 };
 
 struct Answer {
-    std::string id;        ///< whose figures: `page` of their specifications
-    std::string kind;      ///< "Why a bench disagrees with its model"
-    std::string title;     ///< what it is about: the name of a study or a recording
-    std::string headline;  ///< the answer in one sentence
-    Data values;           ///< all of it, for programs
+    std::string id;          ///< whose figures: `page` of their specifications
+    std::string kind;        ///< "Why a bench disagrees with its model"
+    std::string title;       ///< what it is about: the name of a study or a recording
+    std::string headline{};  ///< the answer in one sentence
+    Data values{};           ///< all of it, for programs
     std::vector<AnswerSection> sections{};
     std::string csv_table{};     ///< the drawn table that is the CSV of this answer; empty: the long form
     std::vector<Table> drawn{};  ///< what the figures draw; a table "run" draws figures for each run

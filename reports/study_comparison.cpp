@@ -168,11 +168,10 @@ Data largest_rows(const Comparison& comparison) {
 
 Answer study_comparison(storage::Database& database, const ComparedStudies& studies) {
     const Comparison comparison = compare(database, studies);
-    Answer answer;
-    answer.id = "comparison";
-    answer.kind = "Comparison of two studies";
-    answer.title = title_of(comparison.first) + " and " + title_of(comparison.second);
-    answer.headline = verdict(comparison);
+    Answer answer{.id = "comparison",
+                  .kind = "Comparison of two studies",
+                  .title = title_of(comparison.first) + " and " + title_of(comparison.second),
+                  .headline = verdict(comparison)};
     answer.values = Data::record();
     for (const Table& table : comparison.tables) answer.values[table.name] = data_of(table);
     answer.sections = {{.id = "settings",

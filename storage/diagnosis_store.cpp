@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "capstan/storage/diagnosis_columns.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/transaction.h"
@@ -82,13 +81,6 @@ std::vector<DiagnosisSummary> list_diagnoses(Database& database) {
         diagnoses.push_back({select.get<std::int64_t>(0), select.get<std::string>(1),
                              select.get<std::string>(2), select.get<std::string>(3), select.get<double>(4)});
     }
-    return diagnoses;
-}
-
-std::vector<DiagnosisRecord> load_diagnoses(Database& database) {
-    Statement select(database, "SELECT diagnosis_id FROM diagnosis ORDER BY diagnosis_id");
-    std::vector<DiagnosisRecord> diagnoses;
-    while (select.step()) diagnoses.push_back(load_diagnosis(database, select.get<std::int64_t>(0)));
     return diagnoses;
 }
 

@@ -25,9 +25,6 @@ struct DiagnosisSummary {
 
 std::vector<DiagnosisSummary> list_diagnoses(Database& database);  // oldest first
 
-// All of them with everything that belongs to them, oldest first.
-std::vector<DiagnosisRecord> load_diagnoses(Database& database);
-
 // One diagnosis. An Error if its number does not exist.
 DiagnosisRecord load_diagnosis(Database& database, std::int64_t diagnosis_id);
 

@@ -10,9 +10,6 @@ namespace capstan {
 
 namespace {
 
-// As in RecursiveEstimator: a correlation counts by how far it is beyond two standard errors of chance.
-constexpr double chance_variances = 4.0;
-
 std::vector<double> spread(double centre, double deviation, std::span<const double> normals) {
     std::vector<double> row(normals.begin(), normals.end());
     for (double& each : row) each = centre + deviation * each;

@@ -4,6 +4,9 @@
 
 namespace capstan {
 
+/// 95% of a normal distribution lie within this many standard deviations.
+inline constexpr double deviations_of_95 = 1.959963984540054;
+
 /// What a person does with the far end, as far as it is known: a stationary Gaussian process that begins at
 /// rest. Its acceleration is a = -2 r v - r^2 y + white noise, the smoothest process with two states (Matern
 /// 3/2).
@@ -18,10 +21,9 @@ class FarEndProcess {
     FarEndProcess(const FarEndMotion& motion, double interval_s) {
         // The power below w is (2 / pi) (atan x + x / (1 + x^2)) of all, x = w / r: 0.95 at x = 1.8385.
         constexpr double power_95 = 1.8385;
-        constexpr double normal_95 = 1.959963984540054;
         const double rate = 2.0 * 3.141592653589793 * motion.bandwidth_Hz / power_95;
         const double decay = std::exp(-rate * interval_s);
-        const double variance = motion.range_m * motion.range_m / (normal_95 * normal_95);
+        const double variance = motion.range_m * motion.range_m / (deviations_of_95 * deviations_of_95);
         yy_ = decay * (1.0 + rate * interval_s);
         yv_ = decay * interval_s;
         vy_ = -decay * rate * rate * interval_s;

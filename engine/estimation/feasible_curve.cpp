@@ -7,13 +7,11 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimation/curve_peak.h"
+#include "capstan/estimation/tension_reading.h"
 
 namespace capstan {
 
 namespace {
-
-// A slack node's multiplicative noise has no width; a tenth of a millinewton keeps its likelihood finite.
-constexpr double smallest_deviation_N = 1e-4;
 
 // Where a saturated reading is next to impossible its likelihood is still no zero.
 constexpr double smallest_probability = 1e-300;

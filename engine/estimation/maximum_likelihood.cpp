@@ -4,7 +4,7 @@ namespace capstan {
 
 namespace {
 
-void fuse(const FusionInput& input, std::span<double> tension_N) {
+void fuse_maximum_likelihood(const FusionInput& input, std::span<double> tension_N) {
     maximum_likelihood(*input.curve, input.log_likelihood, tension_N);
 }
 
@@ -16,7 +16,7 @@ const FusionMethod maximum_likelihood_method = {
     .knowledge = Knowledge::feasible_curve,
     .meaning = "the feasible state under which the readings are most likely",
     .source = "capstan (E10, E11)",
-    .fuse = fuse,
+    .fuse = fuse_maximum_likelihood,
 };
 
 }  // namespace capstan

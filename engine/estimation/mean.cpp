@@ -4,7 +4,7 @@ namespace capstan {
 
 namespace {
 
-void fuse(const FusionInput& input, std::span<double> tension_N) {
+void fuse_mean(const FusionInput& input, std::span<double> tension_N) {
     average_profiles(input.unknown, input.vote->sensors(), {}, tension_N);
 }
 
@@ -16,7 +16,7 @@ const FusionMethod mean_method = {
     .knowledge = Knowledge::direction_unknown,
     .meaning = "average of the single-sensor estimates",
     .source = "paper Sec. II.C.2",
-    .fuse = fuse,
+    .fuse = fuse_mean,
     .averaging = Averaging{},
 };
 

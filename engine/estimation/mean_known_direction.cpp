@@ -7,7 +7,7 @@ namespace capstan {
 namespace {
 
 // A sensor at rest tells nothing; if all rest, each "estimate" is the previous state, and so is the mean.
-void fuse(const FusionInput& input, std::span<double> tension_N) {
+void fuse_known_direction(const FusionInput& input, std::span<double> tension_N) {
     std::array<int, max_estimated_nodes> moving;
     std::size_t count = 0;
     for (const int sensor : input.sensors) {
@@ -25,7 +25,7 @@ const FusionMethod mean_known_direction = {
     .knowledge = Knowledge::direction_known,
     .meaning = "average of the single-sensor estimates under the true direction of every segment",
     .source = "paper Sec. II.C.1",
-    .fuse = fuse,
+    .fuse = fuse_known_direction,
 };
 
 }  // namespace capstan

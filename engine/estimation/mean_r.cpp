@@ -5,7 +5,7 @@ namespace capstan {
 namespace {
 
 // Where no estimate agrees with the consensus the plain mean stands in (the paper does not say).
-void fuse(const FusionInput& input, std::span<double> tension_N) {
+void fuse_mean_r(const FusionInput& input, std::span<double> tension_N) {
     if (input.vote->unanimous) return average_profiles(input.unknown, input.vote->sensors(), {}, tension_N);
     const EstimateSums sums = sum_estimates(input, {});
     for (std::size_t node = 0; node < tension_N.size(); ++node) {
@@ -23,7 +23,7 @@ const FusionMethod mean_r_method = {
     .knowledge = Knowledge::direction_unknown,
     .meaning = "average, at each node, of the estimates that agree there with the median direction",
     .source = "paper Sec. II.C.2",
-    .fuse = fuse,
+    .fuse = fuse_mean_r,
     .averaging = Averaging{.disagreeing = Averaging::Disagreeing::left_out},
 };
 

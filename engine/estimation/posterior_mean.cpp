@@ -4,7 +4,7 @@ namespace capstan {
 
 namespace {
 
-void fuse(const FusionInput& input, std::span<double> tension_N) {
+void fuse_posterior_mean(const FusionInput& input, std::span<double> tension_N) {
     posterior_mean(*input.curve, input.log_likelihood, tension_N);
 }
 
@@ -16,7 +16,7 @@ const FusionMethod posterior_mean_method = {
     .knowledge = Knowledge::feasible_curve,
     .meaning = "the mean of all feasible states, each weighted by how likely it makes the readings",
     .source = "capstan (E10-E12)",
-    .fuse = fuse,
+    .fuse = fuse_posterior_mean,
 };
 
 }  // namespace capstan

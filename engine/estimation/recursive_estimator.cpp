@@ -8,6 +8,7 @@
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/estimation/ensemble_rows.h"
 #include "capstan/estimation/recursive_sums.h"
 #include "capstan/estimation/stratified_scores.h"
 #include "capstan/sensing/random_stream.h"
@@ -15,11 +16,6 @@
 namespace capstan {
 
 namespace {
-
-// A correlation between few members counts by how far it is beyond this many variances of chance: 4 is two
-// standard deviations. Without, chance correlations shrink the spread of what rests a little in every step,
-// until the band there is far too narrow.
-constexpr double chance_variances = 4.0;
 
 std::array<double, 2> uniforms(std::uint64_t seed, std::uint32_t step, std::uint32_t which) {
     const auto normals = standard_normals({seed, RandomPurpose::member_motion, 0, step, which});

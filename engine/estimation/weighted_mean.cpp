@@ -4,7 +4,7 @@ namespace capstan {
 
 namespace {
 
-void fuse(const FusionInput& input, std::span<double> tension_N) {
+void fuse_weighted_mean(const FusionInput& input, std::span<double> tension_N) {
     average_profiles(input.unknown, input.vote->sensors(), input.weight, tension_N);
 }
 
@@ -16,7 +16,7 @@ const FusionMethod weighted_mean_method = {
     .knowledge = Knowledge::direction_unknown,
     .meaning = "average of the single-sensor estimates, each weighted by 1 / its sensor's mean error",
     .source = "paper Sec. II.C.2",
-    .fuse = fuse,
+    .fuse = fuse_weighted_mean,
     .uses_weights = true,
     .averaging = Averaging{.weights = Averaging::Weights::by_error},
 };

@@ -6,7 +6,7 @@ namespace {
 
 // The weights of excluded estimates are not shared out among the others: the sum is too small by their share.
 // That is what the paper's numbers show (W Mean-R worse than W Mean), so it stays.
-void fuse(const FusionInput& input, std::span<double> tension_N) {
+void fuse_weighted_mean_r(const FusionInput& input, std::span<double> tension_N) {
     if (input.vote->unanimous)
         return average_profiles(input.unknown, input.vote->sensors(), input.weight, tension_N);
     const EstimateSums sums = sum_estimates(input, input.weight);
@@ -27,7 +27,7 @@ const FusionMethod weighted_mean_r_method = {
         "disagree with the median direction, without sharing "
         "out their weight",
     .source = "paper Sec. II.C.2",
-    .fuse = fuse,
+    .fuse = fuse_weighted_mean_r,
     .uses_weights = true,
     .averaging = Averaging{.weights = Averaging::Weights::by_error,
                            .disagreeing = Averaging::Disagreeing::left_out_unshared},

@@ -8,8 +8,6 @@ namespace capstan::reference {
 
 namespace {
 
-// Rounding of displacements of up to a metre, with three digits to spare (E5).
-constexpr double displacement_rounding_m = 1e-12;
 // Relative rounding of a tension against the friction cone (E4).
 constexpr double tension_rounding = 1e-10;
 

@@ -15,8 +15,6 @@ namespace {
 // A node that moves less than this is at rest: above the residual's fraction of a displacement, far below a
 // step.
 constexpr double rest_m = 1e-13;
-// Rounding of displacements of up to a metre, with three digits to spare (E5).
-constexpr double displacement_rounding_m = 1e-12;
 // Per solve; a hard case takes some tens.
 constexpr int max_iterations = 200;
 

@@ -8,6 +8,9 @@
 
 namespace capstan::reference {
 
+/// Rounding of displacements of up to a metre, with three digits to spare (E5).
+inline constexpr double displacement_rounding_m = 1e-12;
+
 /// What does not change from step to step, worked out here anew: the reference solvers share the equations
 /// with the closed-form step (engine/README.md, consistent rules) and none of its code.
 struct CableConstants {

@@ -22,10 +22,10 @@ ReadingDraws draw_readings(const DrawAddress& address, int nodes, const NoiseLev
     for (int node = 0; node < nodes; ++node) {
         const auto number = static_cast<std::uint32_t>(node);
         if (for_noise.multiplicative_ratio != 0.0 || for_noise.additive_N != 0.0) {
-            const auto fresh = standard_normals(
+            const auto normals = standard_normals(
                 {address.seed, RandomPurpose::reading_noise, address.scenario, address.repetition, number});
-            draws.multiplicative[node] = fresh[0];
-            draws.additive[node] = fresh[1];
+            draws.multiplicative[node] = normals[0];
+            draws.additive[node] = normals[1];
         }
         if (for_noise.bias_N != 0.0) {
             draws.bias[node] = standard_normals(

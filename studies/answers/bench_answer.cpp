@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "capstan/answers/paper_answers.h"
 #include "capstan/config/config_writer.h"
@@ -19,10 +18,6 @@ constexpr std::size_t drawn_profiles = 110;  // columns of the tension maps
 constexpr std::size_t drawn_snapshots = 5;   // instants drawn as curves
 constexpr int drawn_positions = 25;          // rows of the tension maps
 constexpr double slack_N = 1e-9;             // tension of a slack cable is zero but for rounding
-
-double degrees(double angle_rad) {
-    return angle_rad * 180.0 / std::numbers::pi;
-}
 
 std::vector<int> spread_nodes(int nodes) {
     const int drawn = std::min(nodes, drawn_positions);
@@ -136,11 +131,8 @@ std::string BenchAnswer::headline() const {
 }
 
 reports::Answer BenchAnswer::finished() const {
-    reports::Answer answer;
-    answer.id = "bench";
-    answer.kind = "A simulated bench";
-    answer.title = plan_.name;
-    answer.headline = headline();
+    reports::Answer answer{
+        .id = "bench", .kind = "A simulated bench", .title = plan_.name, .headline = headline()};
     Data rows = Data::list();
     const auto add = [&](const char* quantity, Data value, const char* unit) {
         rows.push_back({{"quantity", quantity}, {"value", std::move(value)}, {"unit", unit}});

@@ -55,11 +55,10 @@ std::string headline_of(const Recording& recording, const Calibration& calibrati
 }  // namespace
 
 reports::Answer calibration_answer(const Recording& recording, const Calibration& calibration) {
-    reports::Answer answer;
-    answer.id = "calibration";
-    answer.kind = "Parameters fitted to a recording";
-    answer.title = recording.name;
-    answer.headline = headline_of(recording, calibration);
+    reports::Answer answer{.id = "calibration",
+                           .kind = "Parameters fitted to a recording",
+                           .title = recording.name,
+                           .headline = headline_of(recording, calibration)};
     answer.values = {{"case", recording.name},
                      {"converged", calibration.converged},
                      {"unsolved_steps", calibration.unsolved_steps},

@@ -9,14 +9,14 @@ using reports::Data;
 
 reports::Answer cycle_answer(const StudyPlan& plan, const std::vector<estimate::CycleScore>& scores,
                              int repetitions) {
-    reports::Answer answer;
-    answer.id = "cycle";
-    answer.kind = "Layouts scored over the complete motion";
-    answer.title = plan.name;
-    answer.headline = fmt::format(
-        "{} scored over {} samples at {:g} Hz, {}, noise {}.", counted(scores.size(), "layout"),
-        plan.motion.samples, plan.motion.sample_rate_Hz,
-        counted(static_cast<std::size_t>(repetitions), "repetition"), plan.noise_levels.front().label);
+    reports::Answer answer{
+        .id = "cycle",
+        .kind = "Layouts scored over the complete motion",
+        .title = plan.name,
+        .headline = fmt::format(
+            "{} scored over {} samples at {:g} Hz, {}, noise {}.", counted(scores.size(), "layout"),
+            plan.motion.samples, plan.motion.sample_rate_Hz,
+            counted(static_cast<std::size_t>(repetitions), "repetition"), plan.noise_levels.front().label)};
     answer.values = {{"study", plan.name},
                      {"repetitions", repetitions},
                      {"noise", plan.noise_levels.front().label},

@@ -252,11 +252,10 @@ reports::AnswerSection next_section(const gap::NonIdentifiable& open, const Data
 }  // namespace
 
 Answer stored_diagnosis_answer(const DiagnosisRecord& diagnosis) {
-    Answer answer;
-    answer.id = "diagnosis";
-    answer.kind = "Why a bench disagrees with its model";
-    answer.title = diagnosis.recording;
-    answer.headline = diagnosis.sentence;
+    Answer answer{.id = "diagnosis",
+                  .kind = "Why a bench disagrees with its model",
+                  .title = diagnosis.recording,
+                  .headline = diagnosis.sentence};
     answer.values = values_of(diagnosis);
     answer.sections = {verdict_section(diagnosis, answer.values),
                        {.id = "where", .heading = "Where the gap is", .prose = where_sentence(diagnosis)}};

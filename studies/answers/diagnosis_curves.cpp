@@ -13,7 +13,7 @@ using gap::Diagnosis;
 using reports::Table;
 
 // Of all curves together: each takes about 60 bytes a sample, and the page stays below 3 MB.
-constexpr std::size_t drawn_samples = 6000;
+constexpr std::size_t drawn_diagnosis_samples = 6000;
 
 constexpr const char* measured_name = "measured";
 constexpr const char* nominal_name = "model without the cause";
@@ -79,7 +79,7 @@ Curves curves_of(const Recording& recording, const Diagnosis& diagnosis) {
         modelled += static_cast<std::size_t>(std::count_if(
             run.values.begin(), run.values.end(), [](const auto& values) { return !values.empty(); }));
     }
-    const std::size_t limit = drawn_samples / std::max<std::size_t>(1, modelled);
+    const std::size_t limit = drawn_diagnosis_samples / std::max<std::size_t>(1, modelled);
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
             if (!diagnosis.gap.nominal[run].values[channel].empty())

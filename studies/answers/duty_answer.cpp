@@ -38,10 +38,7 @@ std::vector<reports::Column> time_columns() {
 }  // namespace
 
 reports::Answer duty_answer(const Recording& recording, const duty::DutyCycle& duty) {
-    reports::Answer answer;
-    answer.id = "duty";
-    answer.kind = "Duty cycle of a recording";
-    answer.title = recording.name;
+    reports::Answer answer{.id = "duty", .kind = "Duty cycle of a recording", .title = recording.name};
     Data& values = answer.values;
     values = {{"case", recording.name}, {"unsolved_steps", duty.unsolved_steps}};
     Data fractions = Data::list();

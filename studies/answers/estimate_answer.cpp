@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/platform/statistics.h"
 
 namespace capstan::answers {
 
@@ -19,8 +20,7 @@ using reports::Data;
 using reports::Table;
 
 // Of all curves together, so that the page stays below 3 MB.
-constexpr std::size_t drawn_samples = 15000;
-constexpr double two_sided_95 = 1.959964;
+constexpr std::size_t drawn_estimate_samples = 15000;
 
 Table estimate_table() {
     return {"estimate",
@@ -75,10 +75,8 @@ Data channel_data(const SensedCable& cable, const LeftOutChannel& result) {
 }
 
 reports::Answer answer_about(const Recording& recording) {
-    reports::Answer answer;
-    answer.id = "estimate";
-    answer.kind = "Tension estimated from a recording";
-    answer.title = recording.name;
+    reports::Answer answer{
+        .id = "estimate", .kind = "Tension estimated from a recording", .title = recording.name};
     return answer;
 }
 
@@ -98,7 +96,7 @@ reports::Answer left_out_answer(const Recording& recording, const std::vector<Le
             const std::size_t one[] = {result.channel};
             if (figures == Figures::drawn)
                 draw(drawn, *cable.cable, all_but(*cable.cable, one), {result.channel}, result.trust,
-                     result.widening, options, drawn_samples / std::max<std::size_t>(1, curves));
+                     result.widening, options, drawn_estimate_samples / std::max<std::size_t>(1, curves));
             min_coverage = std::min(min_coverage, result.coverage);
             all_widened = all_widened && result.widening_known;
             answer.values["channels"].push_back(channel_data(*cable.cable, result));
@@ -140,7 +138,7 @@ reports::Answer left_out_answer(const Recording& recording, const std::vector<Le
 }
 
 reports::Answer estimate_answer(const Recording& recording, const std::vector<SensedCable>& cables,
-                                const std::vector<estimate::WholeEstimate>& estimates,
+                                const std::vector<estimate::EstimatorTuning>& estimates,
                                 const estimate::TrackingOptions& options, Figures figures) {
     reports::Answer answer = answer_about(recording);
     answer.headline = "the tension from all channels together, drawn where a sensor can be compared with it.";
@@ -152,7 +150,7 @@ reports::Answer estimate_answer(const Recording& recording, const std::vector<Se
         const ChannelSet all = all_but(cables[c], {});
         if (figures == Figures::drawn)
             draw(drawn, cables[c], all, all, estimates[c].trust, estimates[c].widening, options,
-                 drawn_samples / std::max<std::size_t>(1, curves));
+                 drawn_estimate_samples / std::max<std::size_t>(1, curves));
         Data channels = Data::list();
         for (const auto& channel : cables[c].channels) channels.push_back(channel.name);
         answer.values["cables"].push_back(

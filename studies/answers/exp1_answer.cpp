@@ -13,7 +13,7 @@ using reports::Table;
 
 using Settings = std::vector<std::vector<RampRun>>;
 
-constexpr std::size_t drawn_samples = 600;  // of a run: every 50 ms, so that ramps keep their corners
+constexpr std::size_t drawn_ramp_samples = 600;  // of a run: every 50 ms, so that ramps keep their corners
 
 // The paper's four levels belong to a setting of as many pretensions.
 const PaperRamp* papers_level(const std::vector<RampRun>& setting, std::size_t level) {
@@ -53,7 +53,7 @@ Table ramp_table(const Settings& runs) {
         {}};
     for (const auto& setting : runs) {
         for (const RampRun& run : setting) {
-            const std::size_t every = reports::drawn_every(run.samples.size(), drawn_samples);
+            const std::size_t every = reports::drawn_every(run.samples.size(), drawn_ramp_samples);
             for (std::size_t k = 0; k < run.samples.size(); k += every) {
                 const paper::RampSample& now = run.samples[k];
                 table.rows.push_back({run.setting, run.pretension_N, now.time_s, now.motor_torque_Nm,
@@ -102,15 +102,15 @@ std::string what_the_settings_are() {
 
 reports::Answer exp1_answer(const Settings& runs) {
     const std::vector<RampRun>& reproducing = runs.back();
-    reports::Answer answer;
-    answer.id = "exp1";
-    answer.kind = "The paper's Exp. 1";
-    answer.title = "Torque ramps against a locked load";
-    answer.headline = fmt::format(
-        "more pretension means more friction: from {:.1f} to {:.1f} N of pretension the peak load torque falls from "
-        "{:.0f} to {:.0f} mN m, while an ideal transmission gives 650 mN m.",
-        reproducing.front().pretension_N, reproducing.back().pretension_N,
-        1e3 * reproducing.front().peak_load_torque_Nm, 1e3 * reproducing.back().peak_load_torque_Nm);
+    reports::Answer answer{
+        .id = "exp1",
+        .kind = "The paper's Exp. 1",
+        .title = "Torque ramps against a locked load",
+        .headline = fmt::format(
+            "more pretension means more friction: from {:.1f} to {:.1f} N of pretension the peak load torque falls from "
+            "{:.0f} to {:.0f} mN m, while an ideal transmission gives 650 mN m.",
+            reproducing.front().pretension_N, reproducing.back().pretension_N,
+            1e3 * reproducing.front().peak_load_torque_Nm, 1e3 * reproducing.back().peak_load_torque_Nm)};
     answer.values = {{"experiment", "exp1"}, {"runs", runs_data(runs)}};
     answer.sections = {
         {.id = "ramps", .heading = "Torque that reaches the load", .prose = what_the_settings_are()},

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "capstan/answers/paper_answers.h"
 
@@ -16,11 +15,7 @@ using reports::Table;
 
 constexpr paper::PaperTunnel papers_tunnel;
 constexpr paper::PaperViscous papers_viscous;
-constexpr std::size_t drawn_samples = 500;  // of a run: more than a panel has pixels for
-
-double degrees(double angle_rad) {
-    return angle_rad * 180.0 / std::numbers::pi;
-}
+constexpr std::size_t drawn_tunnel_samples = 500;  // of a run: more than a panel has pixels for
 
 // The second period of each run: the first begins at rest.
 Table loop_table(const std::vector<std::vector<TunnelRun>>& runs) {
@@ -32,7 +27,7 @@ Table loop_table(const std::vector<std::vector<TunnelRun>>& runs) {
     for (const auto& setting : runs) {
         for (const TunnelRun& run : setting) {
             const std::size_t period = run.samples.size() / 2;
-            const std::size_t every = reports::drawn_every(period, drawn_samples);
+            const std::size_t every = reports::drawn_every(period, drawn_tunnel_samples);
             for (std::size_t k = period; k < run.samples.size(); k += every) {
                 const paper::TunnelSample& now = run.samples[k];
                 table.rows.push_back({run.setting, run.pretension_N, now.time_s, degrees(now.load_angle_rad),
@@ -57,7 +52,7 @@ Table viscous_loop_table(const ViscousComparison& viscous) {
                 {"series", "time_s", "load_angle_deg", "motor_torque_Nm", "load_torque_Nm"},
                 {}};
     const std::size_t period = viscous.samples.size() / 2;
-    const std::size_t every = reports::drawn_every(period, drawn_samples);
+    const std::size_t every = reports::drawn_every(period, drawn_tunnel_samples);
     for (const Series& series : {bench, without_term, with_term}) {
         for (std::size_t k = period; k < viscous.samples.size(); k += every) {
             const paper::ViscousSample& now = viscous.samples[k];
@@ -73,7 +68,7 @@ Table residual_table(const ViscousComparison& viscous) {
                 "Residual of the load torque over the handle's velocity, both periods",
                 {"series", "load_speed_rad_per_s", "residual_Nm"},
                 {}};
-    const std::size_t every = reports::drawn_every(viscous.samples.size(), 2 * drawn_samples);
+    const std::size_t every = reports::drawn_every(viscous.samples.size(), 2 * drawn_tunnel_samples);
     for (const Series& series : {without_term, with_term}) {
         for (std::size_t k = 0; k < viscous.samples.size(); k += every) {
             const paper::ViscousSample& now = viscous.samples[k];
@@ -216,15 +211,15 @@ reports::AnswerSection viscous_section(const ViscousComparison& viscous) {
 
 reports::Answer exp2_answer(const std::vector<std::vector<TunnelRun>>& runs,
                             const ViscousComparison& viscous) {
-    reports::Answer answer;
-    answer.id = "exp2";
-    answer.kind = "The paper's Exp. 2";
-    answer.title = "An error-reduction tunnel under a moving hand";
-    answer.headline = fmt::format(
-        "friction along the cables turns the tunnel that the motor renders into a loop: the load torque reaches {:.2f} "
-        "N m where an ideal transmission gives {:.2f} N m (paper's bench: about {:.1f} N m).",
-        runs.back().back().peak_load_torque_Nm, runs.back().back().ideal_peak_load_torque_Nm,
-        papers_tunnel.implied_peak_Nm());
+    reports::Answer answer{
+        .id = "exp2",
+        .kind = "The paper's Exp. 2",
+        .title = "An error-reduction tunnel under a moving hand",
+        .headline = fmt::format(
+            "friction along the cables turns the tunnel that the motor renders into a loop: the load torque reaches {:.2f} "
+            "N m where an ideal transmission gives {:.2f} N m (paper's bench: about {:.1f} N m).",
+            runs.back().back().peak_load_torque_Nm, runs.back().back().ideal_peak_load_torque_Nm,
+            papers_tunnel.implied_peak_Nm())};
     answer.values = {{"experiment", "exp2"},
                      {"paper",
                       {{"implied_peak_load_torque_Nm", papers_tunnel.implied_peak_Nm()},

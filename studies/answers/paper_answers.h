@@ -1,6 +1,7 @@
 #pragma once
 // The paper's experiments beside its own numbers, and a simulated bench.
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,10 @@
 #include "capstan/reports/answer.h"
 
 namespace capstan::answers {
+
+inline double degrees(double angle_rad) {
+    return angle_rad * 180.0 / std::numbers::pi;
+}
 
 /// Exp. 1; `runs`: settings x pretensions, settings as in paper::cable_settings().
 reports::Answer exp1_answer(const std::vector<std::vector<paper::RampRun>>& runs);

@@ -62,8 +62,8 @@ Data layout_data(const JudgedLayout& layout) {
         {"nodes", from_one(layout.nodes)},
         {"method", layout.method},
         {"method_title", title_of_method(layout.method)},
-        {"error_N", layout.fresh.value_N},
-        {"interval_95_N", interval_of(layout.fresh)},
+        {"error_N", layout.independent.value_N},
+        {"interval_95_N", interval_of(layout.independent)},
         {"error_on_search_draws_N", layout.searched_N},
         {"difference_to_optimum", estimate_data(layout.difference)},
         {"error_after_worst_loss_N", std::isfinite(layout.after_loss_N) ? Data(layout.after_loss_N) : Data()},
@@ -175,7 +175,8 @@ std::string headline_of(const PlacementAnswer& found) {
             "(95% interval {:.3f} to {:.3f} N).",
             counted(static_cast<std::size_t>(count.sensors), "sensor"), count.sensors == 1 ? "node" : "nodes",
             nodes_as_people_count(count.optimum.nodes), title_of_method(count.optimum.method),
-            count.optimum.fresh.value_N, count.optimum.fresh.low_N, count.optimum.fresh.high_N);
+            count.optimum.independent.value_N, count.optimum.independent.low_N,
+            count.optimum.independent.high_N);
     }
     return "no count of sensors satisfies the constraints.";
 }
@@ -189,7 +190,8 @@ Table error_table(const PlacementAnswer& found) {
     const auto add = [&](const ScopeAnswer& scope, const CountAnswer& count, const JudgedLayout& layout) {
         table.rows.push_back({title_of(scope), title_of_choice(layout.how), std::int64_t{count.sensors},
                               nodes_as_people_count(layout.nodes), title_of_method(layout.method),
-                              layout.fresh.value_N, layout.fresh.low_N, layout.fresh.high_N});
+                              layout.independent.value_N, layout.independent.low_N,
+                              layout.independent.high_N});
     };
     for (const ScopeAnswer& scope : found.scopes) {
         for (const CountAnswer& count : scope.counts) {
@@ -212,7 +214,7 @@ Table node_table(const PlacementAnswer& found) {
         for (const CountAnswer& count : scope.counts) {
             for (const int node : count.optimum.nodes) {
                 table.rows.push_back({title_of(scope), std::int64_t{count.sensors}, std::int64_t{node + 1},
-                                      count.optimum.fresh.value_N});
+                                      count.optimum.independent.value_N});
             }
         }
     }
@@ -223,11 +225,11 @@ Table node_table(const PlacementAnswer& found) {
 
 reports::Answer place_answer(const StudyPlan& plan, const PlacementAnswer& found) {
     const bool exhaustive = found.search == SearchKind::exhaustive;
-    reports::Answer answer;
-    answer.id = "place";
-    answer.kind = exhaustive ? "Exhaustive search of all layouts" : "Greedy search on a long cable";
-    answer.title = plan.name;
-    answer.headline = headline_of(found);
+    reports::Answer answer{
+        .id = "place",
+        .kind = exhaustive ? "Exhaustive search of all layouts" : "Greedy search on a long cable",
+        .title = plan.name,
+        .headline = headline_of(found)};
     answer.values = {{"name", plan.name},
                      {"seed", plan.seed},
                      {"search", exhaustive ? "exhaustive" : "greedy"},

@@ -37,8 +37,14 @@ reports::Answer recommendation_answer(const Conclusions& conclusions);
 
 /// What a study over worlds found; `study_id` 0: it is not stored.
 reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, std::int64_t study_id = 0);
-/// The same from a complete stored study, with the plan that it stored but for `worthwhile_gain_N`.
-reports::Answer stored_world_answer(storage::Database& database, std::int64_t study_id, const StudyPlan& plan);
+/// Whether the advice changes where the worlds lie about `told.truth` instead of the nominal cable. Both
+/// answers compare the same sets.
+reports::Answer world_truth_answer(const StudyPlan& told, const WorldAnswer& nominal,
+                                   const WorldAnswer& about_truth);
+/// The same as world_answer() from a complete stored study, with the plan that it stored but for
+/// `worthwhile_gain_N`.
+reports::Answer stored_world_answer(storage::Database& database, std::int64_t study_id,
+                                    const StudyPlan& plan);
 /// What a complete study concludes, of either kind. Throws storage::Error if it is not complete.
 reports::Answer conclusions_answer(storage::Database& database, std::int64_t study_id);
 

@@ -97,14 +97,4 @@ std::string rows_json(const QueryResult& result) {
     return text + "\n]\n";
 }
 
-reports::Data rows_data(const QueryResult& result) {
-    Data rows = Data::list();
-    for (const auto& row : result.rows) {
-        Data record = Data::record();
-        for (std::size_t c = 0; c < row.size(); ++c) record[result.columns[c]] = cell_data(row[c]);
-        rows.push_back(std::move(record));
-    }
-    return rows;
-}
-
 }  // namespace capstan::answers

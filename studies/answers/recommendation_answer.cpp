@@ -197,11 +197,10 @@ Conclusions read_conclusions(storage::Database& database, std::int64_t study_id)
 
 reports::Answer recommendation_answer(const Conclusions& conclusions) {
     const auto& study = conclusions.study.study;
-    reports::Answer answer;
-    answer.id = "recommendation";
-    answer.kind = "Sensor placement";
-    answer.title = fmt::format("Study {} ({})", conclusions.study_id, study.name);
-    answer.headline = headline_of(conclusions);
+    reports::Answer answer{.id = "recommendation",
+                           .kind = "Sensor placement",
+                           .title = fmt::format("Study {} ({})", conclusions.study_id, study.name),
+                           .headline = headline_of(conclusions)};
     answer.values = {{"study_id", conclusions.study_id},
                      {"name", study.name},
                      {"status", study.status},
@@ -259,10 +258,9 @@ reports::Answer truth_answer(storage::Database& database, std::int64_t model_id,
                {"error_on_independent_draws_N", best->error_N},
                {"interval_95_N", Data::list({best->interval_low_N, best->interval_high_N})}}}});
     }
-    reports::Answer answer;
-    answer.id = "truth";
-    answer.kind = "Advice where the true cable is not the model";
-    answer.title = model.study.study.name;
+    reports::Answer answer{.id = "truth",
+                           .kind = "Advice where the true cable is not the model",
+                           .title = model.study.study.name};
     answer.headline =
         changes == 0 ? "the advice stays; no other choice is significantly better with the true cable."
                      : fmt::format("the advice changes in {} of {} cases.", changes, rows.items().size());

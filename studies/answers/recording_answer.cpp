@@ -14,7 +14,7 @@ using reports::Data;
 using reports::Table;
 
 // Of all curves together: each takes about 60 bytes a sample, and the page stays below 3 MB.
-constexpr std::size_t drawn_samples = 15000;
+constexpr std::size_t drawn_recording_samples = 15000;
 
 std::size_t modelled_channels(const std::vector<TwinRun>& modelled) {
     std::size_t count = 0;
@@ -68,7 +68,7 @@ void add_channel(Overlay& overlay, const RecordedRun& run, const Channel& channe
 
 Overlay overlay_of(const Recording& recording, const std::vector<TwinRun>& modelled) {
     Overlay overlay;
-    const std::size_t limit = drawn_samples / std::max<std::size_t>(1, modelled_channels(modelled));
+    const std::size_t limit = drawn_recording_samples / std::max<std::size_t>(1, modelled_channels(modelled));
     for (std::size_t r = 0; r < recording.runs.size(); ++r) {
         const RecordedRun& run = recording.runs[r];
         overlay.run.rows.push_back({std::int64_t{run.number}, run.protocol, std::int64_t{run.samples()},
@@ -85,14 +85,14 @@ Overlay overlay_of(const Recording& recording, const std::vector<TwinRun>& model
 
 reports::Answer recording_answer(const Recording& recording, const std::vector<TwinRun>& modelled) {
     Overlay overlay = overlay_of(recording, modelled);
-    reports::Answer answer;
-    answer.id = "recording";
-    answer.kind = "A recording and its model";
-    answer.title = recording.name;
-    answer.headline = fmt::format(
-        "{} {}, {} samples at {:.4g} Hz: measured channels and the model driven by the same inputs.",
-        recording.runs.size(), recording.runs.size() == 1 ? "run" : "runs", recording.samples(),
-        recording.sample_rate_Hz);
+    reports::Answer answer{
+        .id = "recording",
+        .kind = "A recording and its model",
+        .title = recording.name,
+        .headline = fmt::format(
+            "{} {}, {} samples at {:.4g} Hz: measured channels and the model driven by the same inputs.",
+            recording.runs.size(), recording.runs.size() == 1 ? "run" : "runs", recording.samples(),
+            recording.sample_rate_Hz)};
     answer.values = {{"case", recording.name}, {"channels", overlay.rows}};
     answer.sections = {
         {.id = "runs",

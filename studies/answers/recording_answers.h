@@ -51,7 +51,7 @@ reports::Answer left_out_answer(const Recording& recording, const std::vector<Le
 
 /// The tension estimated from all channels together, one estimate for each cable.
 reports::Answer estimate_answer(const Recording& recording, const std::vector<estimate::SensedCable>& cables,
-                                const std::vector<estimate::WholeEstimate>& estimates,
+                                const std::vector<estimate::EstimatorTuning>& estimates,
                                 const estimate::TrackingOptions& options, Figures figures);
 
 /// A recording beside its model; `modelled`: one for each run.

@@ -128,11 +128,10 @@ reports::Table scan_table(const sensitivity::SensitivityAnswer& found) {
 }  // namespace
 
 reports::Answer sensitivity_answer(const StudyPlan& plan, const sensitivity::SensitivityAnswer& found) {
-    reports::Answer answer;
-    answer.id = "sensitivity";
-    answer.kind = "Sensitivity of the advice";
-    answer.title = plan.name;
-    answer.headline = headline_of(plan, found);
+    reports::Answer answer{.id = "sensitivity",
+                           .kind = "Sensitivity of the advice",
+                           .title = plan.name,
+                           .headline = headline_of(plan, found)};
     answer.values = {{"name", plan.name},
                      {"seed", plan.seed},
                      {"noise", found.noise},

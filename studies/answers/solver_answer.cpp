@@ -70,13 +70,13 @@ double largest_difference_N(const std::vector<Agreement>& agreements) {
 
 reports::Answer solver_answer(const std::vector<Agreement>& agreements,
                               const std::vector<RatesOfCable>& rates) {
-    reports::Answer answer;
-    answer.id = "solver";
-    answer.kind = "The paper's Sec. III.B";
-    answer.title = "The closed-form step and other solvers";
-    answer.headline =
-        fmt::format("the closed form agrees with a generic root finder to {:.0e} N (paper: below 1e-9 N).",
-                    largest_difference_N(agreements));
+    reports::Answer answer{
+        .id = "solver",
+        .kind = "The paper's Sec. III.B",
+        .title = "The closed-form step and other solvers",
+        .headline = fmt::format(
+            "the closed form agrees with a generic root finder to {:.0e} N (paper: below 1e-9 N).",
+            largest_difference_N(agreements))};
     answer.values = {{"agreement", Data::list()}, {"rates", Data::list()}};
     for (const Agreement& row : agreements) {
         answer.values["agreement"].push_back(

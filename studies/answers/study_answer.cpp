@@ -67,11 +67,10 @@ reports::Answer study_answer(storage::Database& database, std::int64_t study_id)
     const auto& head = study.study;
     Data methods = Data::list();
     for (const auto& method : study.fusion_methods) methods.push_back(method.method);
-    reports::Answer answer;
-    answer.id = "study_description";
-    answer.kind = "A stored study";
-    answer.title = fmt::format("Study {} ({})", study_id, head.name);
-    answer.headline = fmt::format("{}, {} of {} units.", head.status, done, units);
+    reports::Answer answer{.id = "study_description",
+                           .kind = "A stored study",
+                           .title = fmt::format("Study {} ({})", study_id, head.name),
+                           .headline = fmt::format("{}, {} of {} units.", head.status, done, units)};
     answer.values = {{"study_id", study_id},
                      {"name", head.name},
                      {"status", head.status},
@@ -115,12 +114,11 @@ reports::Answer cost_answer(const std::string& name, const StudyCost& cost,
                             const std::vector<StudyPlan>& plans, int shards) {
     const double sharded_s = cost.processor_s_with(plans, shards);
     constexpr double hour_s = 3600.0;
-    reports::Answer answer;
-    answer.id = "cost";
-    answer.kind = "Estimated cost of a study";
-    answer.title = name;
-    answer.headline =
-        fmt::format("one run takes {:.3g} core-hours on this machine.", cost.processor_s / hour_s);
+    reports::Answer answer{.id = "cost",
+                           .kind = "Estimated cost of a study",
+                           .title = name,
+                           .headline = fmt::format("one run takes {:.3g} core-hours on this machine.",
+                                                   cost.processor_s / hour_s)};
     answer.values = {{"name", name},
                      {"studies", cost.studies},
                      {"parts", cost.parts},
@@ -167,11 +165,11 @@ reports::Answer cost_answer(const std::string& name, const StudyCost& cost,
 
 reports::Answer replay_answer(const Replay& replayed, const storage::ScenarioRecord& scenario,
                               const std::string& noise, std::int64_t repetition) {
-    reports::Answer answer;
-    answer.id = "replay";
-    answer.kind = "One repetition of a study";
-    answer.title = fmt::format("Repetition {}", repetition);
-    answer.headline = fmt::format("sample {} ({}), noise {}.", scenario.sample, scenario.regime, noise);
+    reports::Answer answer{
+        .id = "replay",
+        .kind = "One repetition of a study",
+        .title = fmt::format("Repetition {}", repetition),
+        .headline = fmt::format("sample {} ({}), noise {}.", scenario.sample, scenario.regime, noise)};
     answer.values = {
         {"true_tension_N", replayed.true_tension_N}, {"sensors", Data::list()}, {"estimates", Data::list()}};
     for (const ReplayedSensor& sensor : replayed.sensors) {

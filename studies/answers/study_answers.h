@@ -24,9 +24,6 @@ reports::Answer cost_answer(const std::string& name, const StudyCost& cost,
 /// One repetition: what each sensor read, and what each method made of it. `repetition` from 1.
 reports::Answer replay_answer(const Replay& replayed, const storage::ScenarioRecord& scenario,
                               const std::string& noise, std::int64_t repetition);
-
-/// The rows of a query as a list of records.
-reports::Data rows_data(const storage::QueryResult& result);
 /// The rows as columns side by side, numbers to the right in six digits.
 std::string rows_text(const storage::QueryResult& result);
 /// The rows as a JSON array of objects, one object after the other.

@@ -79,10 +79,7 @@ reports::AnswerTable fractions_table(const char* id, Data rows) {
 
 reports::Answer trial_score_answer(const gap_trial::TrialOptions& options, const std::string& seal,
                                    const TrialScore& score) {
-    reports::Answer answer;
-    answer.id = "trial";
-    answer.kind = "Blind trial of the diagnosis";
-    answer.title = "Blind trial";
+    reports::Answer answer{.id = "trial", .kind = "Blind trial of the diagnosis", .title = "Blind trial"};
     const Fraction& first = score.groups.front().top1;
     answer.headline =
         fmt::format("the cause is named first in {} of {} cases ({:.1f}%, 95% interval {:.0f} to {:.0f}%).",

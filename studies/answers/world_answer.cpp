@@ -82,7 +82,7 @@ std::string title_of(Condition condition) {
     return std::string(name_of(condition));
 }
 
-std::string words_of(PlacementObjective objective) {
+std::string objective_words(PlacementObjective objective) {
     switch (objective) {
         case PlacementObjective::all_nodes:
             return "mean over worlds of the tension error, averaged over the cable and the motion";
@@ -263,8 +263,8 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
         .id = "prices",
         .heading = "Error against price",
         .prose = fmt::format("{} sets of sensors, compared on {} common worlds, judged by the {}.{}",
-                             found.candidates.size() - 1, found.worlds, words_of(plan.placement.objective),
-                             target_words(plan, found)),
+                             found.candidates.size() - 1, found.worlds,
+                             objective_words(plan.placement.objective), target_words(plan, found)),
         .tables = {{"prices",
                     "",
                     {{"price", "price"},
@@ -282,7 +282,7 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
             "All numbers are from {} worlds that had no part in choosing. Error: {}. 95% of worlds: the error stays below this in "
             "95% of them. In band: true tensions within the estimator's 95% band; 95% if it is honest. As good: other sets of "
             "the price that a paired t test does not tell from the best (5% over all sets and looks). {}",
-            found.worlds, words_of(plan.placement.objective), grid_words(found))};
+            found.worlds, objective_words(plan.placement.objective), grid_words(found))};
     reports::AnswerSection gains{
         .id = "gains",
         .heading = "What else would help",
@@ -308,7 +308,10 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
                                                    {"loss_N", "recommended is worse by", "N", ".3f"},
                                                    {"advice_flips", "advice changes"}},
                                                   answer.values["robustness"]}}};
-    answer.sections = {std::move(prices), std::move(gains), std::move(robustness)};
+    answer.sections = {std::move(prices),
+                       {.id = "places", .heading = "Where the sensors go"},
+                       std::move(gains),
+                       std::move(robustness)};
     if (!found.paper.empty())
         answer.sections.push_back(
             {.id = "paper_estimators",
@@ -322,6 +325,59 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
              .note = "Over time, each from its own last estimate, with the nominal cable."});
     answer.drawn = {front_table(found), place_table(found)};
     answer.config_text = config::config_text(plan, config::Comments::none);
+    return answer;
+}
+
+reports::Answer world_truth_answer(const StudyPlan& told, const WorldAnswer& nominal,
+                                   const WorldAnswer& about_truth) {
+    const auto row_of = [&](const std::string& worlds, const WorldAnswer& found) {
+        Data row = recommendation_data(told, found);
+        row["worlds"] = worlds;
+        return row;
+    };
+    const auto advised = [](const WorldAnswer& found) {
+        return found.recommended ? found.set(found.best().expected.candidate).sensors : std::vector<int>{};
+    };
+    const std::vector<std::string> effects = effects_there(told.truth.effects);
+    const bool changes = advised(nominal) != advised(about_truth);
+    const bool is_tie = changes && nominal.recommended && about_truth.recommended &&
+                        std::find(about_truth.best().ties.begin(), about_truth.best().ties.end(),
+                                  nominal.best().expected.candidate) != about_truth.best().ties.end();
+    reports::Answer answer;
+    answer.id = "world_truth";
+    answer.kind = "Sensor placement with and without what was found";
+    answer.title = told.name;
+    answer.headline = !changes ? "the advice does not change."
+                      : is_tie ? "the advice changes only among sets that the worlds do not tell apart."
+                               : "the advice changes.";
+    answer.values = {{"name", told.name},
+                     {"effects", effects},
+                     {"friction_ratio", told.truth.friction_ratio},
+                     {"stiffness_ratio", told.truth.stiffness_ratio},
+                     {"pretension_ratio", told.truth.pretension_ratio},
+                     {"probability", told.uncertainty.truth_probability},
+                     {"advice_changes", changes && !is_tie},
+                     {"recommendations", Data::list({row_of("as configured", nominal),
+                                                     row_of("with what was found", about_truth)})}};
+    answer.sections = {
+        {.id = "advice",
+         .heading = "Advice with and without",
+         .prose = fmt::format(
+             "Found: {}friction {:.2f}, stiffness {:.2f}, pretension {:.2f} times the nominal value; in {:.0f}% of "
+             "the worlds. The estimator knows of none of it.",
+             effects.empty() ? std::string() : fmt::format("{}; ", fmt::join(effects, ", ")),
+             told.truth.friction_ratio, told.truth.stiffness_ratio, told.truth.pretension_ratio,
+             100.0 * told.uncertainty.truth_probability),
+         .tables = {{"advice",
+                     "",
+                     {{"worlds", "worlds"},
+                      {"set", "sensors"},
+                      {"expected_error_N", "error", "N", ".3f"},
+                      {"monte_carlo_interval_N", "Monte-Carlo interval", "N", ".3f"},
+                      {"error_95_N", "95% of worlds", "N", ".3f"},
+                      {"no_sensor_error_N", "no sensor", "N", ".3f"},
+                      {"covered_fraction", "in band", "", ".1%"}},
+                     answer.values["recommendations"]}}}};
     return answer;
 }
 

@@ -5,14 +5,34 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "capstan/cli/exit_code.h"
-
 namespace capstan::cli {
+
+enum class ExitCode : int {
+    success = 0,
+    failure = 1,
+    wrong_input = 2,
+    database_problem = 3,
+    stopped = 130,
+};
+
+struct ExitCodeMeaning {
+    ExitCode code;
+    std::string_view meaning;
+};
+
+inline constexpr ExitCodeMeaning exit_code_meanings[] = {
+    {ExitCode::success, "done"},
+    {ExitCode::failure, "failed while running, for example because an output file cannot be written"},
+    {ExitCode::wrong_input, "wrong usage, configuration or query; nothing was done"},
+    {ExitCode::database_problem, "the results database cannot be used, or has no such study"},
+    {ExitCode::stopped, "stopped by Ctrl-C or a request to terminate; capstan study resume continues"},
+};
 
 enum class OptionKind { flag, string, integer, number };
 
@@ -94,6 +114,9 @@ class Invocation {
     Values arguments_;
     std::vector<std::string> repeated_argument_;
 };
+
+/// What follows a command's name, checked against the command. Throws UsageError.
+Invocation parse_command_line(const Command& command, const std::vector<std::string>& arguments);
 
 /// A command line, a configuration or a query that cannot be followed; says what to try.
 class UsageError : public std::runtime_error {

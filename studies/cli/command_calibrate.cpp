@@ -22,7 +22,7 @@ std::vector<std::string> split_at_commas(const std::string& text) {
     return parts;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_calibrate(const Invocation& invocation) {
     const Recording recording = read_recording(invocation.argument("LOG"));
     gap::CalibrationOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
@@ -51,19 +51,17 @@ Command calibrate_command() {
         .arguments = {log_argument},
         .options =
             {Option{.name = "fit",
-                    .kind = OptionKind::string,
                     .value = "NAMES",
                     .meaning = "Fit only these parameters, separated by commas; the others stay nominal."},
              segments_option,
              Option{.name = "save",
-                    .kind = OptionKind::string,
                     .value = "FILE",
                     .meaning =
                         "Also write the parameters to FILE, for `capstan simulate LOG --parameters FILE`."},
              jobs_option, output_option, json_option, help_option},
         .examples = {"capstan calibrate bench.csv",
                      "capstan calibrate bench.csv --fit dynamic_friction,pretension --json"},
-        .run = run};
+        .run = run_calibrate};
 }
 
 }  // namespace capstan::cli

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "capstan/answers/recording_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -109,7 +108,7 @@ void store(const Invocation& invocation, const Recording& recording, const Diagn
         say(fmt::format("Stored as diagnosis {} in {}.", id, invocation.text("db")));
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_diagnose(const Invocation& invocation) {
     const Recording recording = recorded_bench(invocation);
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
@@ -132,20 +131,16 @@ ExitCode run(const Invocation& invocation) {
 
 }  // namespace
 
-const Option runs_option{.name = "runs",
-                         .kind = OptionKind::string,
-                         .value = "LIST",
-                         .meaning = "Diagnose only these runs, for example 4,5,6."};
+const Option runs_option{
+    .name = "runs", .value = "LIST", .meaning = "Diagnose only these runs, for example 4,5,6."};
 const Option calibrate_on_option{
     .name = "calibrate-on",
-    .kind = OptionKind::string,
     .value = "LIST",
     .meaning =
         "Runs to which a drive or band of unknown geometry is calibrated. Default: the diagnosed "
         "runs."};
 const Option keep_option{
     .name = "db",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
         "Also store the diagnosis in this results database; `capstan query \"SELECT * FROM "
@@ -153,7 +148,6 @@ const Option keep_option{
 
 const Option corrected_option{
     .name = "corrected",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning = "Write the corrected model of the cable to FILE, for `capstan study run --truth FILE`."};
 
@@ -175,7 +169,7 @@ Command diagnose_command() {
                          "capstan diagnose bench.csv --html bench.html",
                          "capstan diagnose bench.csv --db bench.db",
                          "capstan diagnose bench.csv --corrected corrected.toml"},
-            .run = run};
+            .run = run_diagnose};
 }
 
 }  // namespace capstan::cli

@@ -80,12 +80,12 @@ reports::Answer answer_of(const std::string& file, const DatabaseState& state) {
         rows.push_back(
             {{"program", tool.program}, {"found", is_on_path(tool.program)}, {"purpose", tool.what_for}});
     }
-    reports::Answer answer;
-    answer.id = "doctor";
-    answer.kind = "Installation";
-    answer.title = "capstan " + program_version();
-    answer.headline = fmt::format("database schema {}, {} threads, SIMD {}.", storage::schema_version,
-                                  std::thread::hardware_concurrency(), simd_in_use());
+    reports::Answer answer{
+        .id = "doctor",
+        .kind = "Installation",
+        .title = "capstan " + program_version(),
+        .headline = fmt::format("database schema {}, {} threads, SIMD {}.", storage::schema_version,
+                                std::thread::hardware_concurrency(), simd_in_use())};
     answer.values = {{"program_version", program_version()},
                      {"schema_version", storage::schema_version},
                      {"simd", simd_in_use()},
@@ -111,7 +111,7 @@ reports::Answer answer_of(const std::string& file, const DatabaseState& state) {
     return answer;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_doctor(const Invocation& invocation) {
     const std::string& file = invocation.text("db");
     const DatabaseState state = state_of(file);
     deliver_answer(invocation, answer_of(file, state));
@@ -128,7 +128,7 @@ Command doctor_command() {
                 "database, and checks every reference in it. Changes nothing.",
             .options = {database_option, output_option, json_option, help_option},
             .examples = {"capstan doctor", "capstan doctor --db results/capstan.db --json"},
-            .run = run};
+            .run = run_doctor};
 }
 
 }  // namespace capstan::cli

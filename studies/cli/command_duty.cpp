@@ -11,7 +11,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_duty(const Invocation& invocation) {
     const Recording recording = read_recording(invocation.argument("LOG"));
     duty::DutyOptions options;
     options.jobs = static_cast<int>(invocation.integer("jobs"));
@@ -42,7 +42,6 @@ Command duty_command() {
                   .low = 0,
                   .high = 1e6},
                  {.name = "parameters",
-                  .kind = OptionKind::string,
                   .value = "FILE",
                   .meaning =
                       "Friction, stiffness and pretension, in a file written by `capstan calibrate --save`."},
@@ -53,7 +52,7 @@ Command duty_command() {
                  help_option},
             .examples = {"capstan duty bench.csv",
                          "capstan duty bench.csv --parameters fitted.json --json -o duty.json"},
-            .run = run};
+            .run = run_duty};
 }
 
 }  // namespace capstan::cli

@@ -5,7 +5,6 @@
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
 #include "capstan/cable/invalid_input.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -57,7 +56,7 @@ std::string head_line(const std::vector<SensedCable>& cables) {
     return line + "\n";
 }
 
-void append_cable(std::string& text, const SensedCable& cable, const estimate::WholeEstimate& tuned,
+void append_cable(std::string& text, const SensedCable& cable, const estimate::EstimatorTuning& tuned,
                   const estimate::TrackingOptions& options) {
     auto out = std::back_inserter(text);
     track(cable, all_but(cable, {}), tuned.trust, options, [&](const TrackedSample& at) {
@@ -88,7 +87,7 @@ ExitCode score_layouts(const Invocation& invocation) {
     return ExitCode::success;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_estimate(const Invocation& invocation) {
     if (!names_a_recording(invocation.argument("LOG"))) return score_layouts(invocation);
     const Recording recording = read_recording(invocation.argument("LOG"));
     std::vector<SensedCable> cables =
@@ -103,8 +102,8 @@ ExitCode run(const Invocation& invocation) {
         deliver_answer(invocation, answers::left_out_answer(recording, results, options, figures));
         return ExitCode::success;
     }
-    std::vector<estimate::WholeEstimate> tuned;
-    for (const SensedCable& cable : cables) tuned.push_back(prepare_whole(cable, options));
+    std::vector<estimate::EstimatorTuning> tuned;
+    for (const SensedCable& cable : cables) tuned.push_back(tune_estimator(cable, options));
     const reports::Answer answer = answers::estimate_answer(recording, cables, tuned, options, figures);
     deliver_page(invocation, answer);
     if (invocation.has("json")) {
@@ -119,7 +118,6 @@ ExitCode run(const Invocation& invocation) {
 
 const Option leave_out_option{
     .name = "leave-out",
-    .kind = OptionKind::string,
     .value = "CHANNEL",
     .meaning =
         "Predict this channel from all others and compare the prediction with its readings; `each` "
@@ -168,7 +166,7 @@ Command estimate_command() {
                      "capstan estimate bench.csv --leave-out each",
                      "capstan estimate bench.csv --leave-out tension_2 --json",
                      "capstan estimate configs/paper.toml"},
-        .run = run};
+        .run = run_estimate};
 }
 
 }  // namespace capstan::cli

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "capstan/answers/study_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/platform/files.h"
@@ -124,7 +123,7 @@ std::size_t export_table(storage::Database& database, const DocumentedTable& tab
     return count;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_export(const Invocation& invocation) {
     const std::vector<DocumentedTable> tables = chosen_tables(invocation);
     const std::filesystem::path folder = invocation.argument("FOLDER");
     const std::string& format = invocation.text("format");
@@ -151,20 +150,18 @@ Command export_command() {
                 "spreadsheets, Parquet for pandas, R or DuckDB, JSON for programs.",
             .arguments = {{"FOLDER", "Folder for the files; it is created if it does not exist."}},
             .options = {{.name = "format",
-                         .kind = OptionKind::string,
                          .value = "csv|parquet|json",
                          .meaning = "Format of the files.",
                          .default_value = "csv",
                          .choices = {"csv", "parquet", "json"}},
                         {.name = "tables",
-                         .kind = OptionKind::string,
                          .value = "LIST",
                          .meaning = "Export only these tables and views, for example cell,v_best_method."},
                         database_option,
                         help_option},
             .examples = {"capstan export tables",
                          "capstan export tables --format parquet --tables v_error_by_layout"},
-            .run = run};
+            .run = run_export};
 }
 
 }  // namespace capstan::cli

@@ -4,7 +4,6 @@
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -23,7 +22,7 @@ using gap_trial::TrialOptions;
 // Relative error of nominal friction, stiffness and pretension with --nominal-error.
 constexpr double nominal_error = 0.01;
 
-TrialOptions options_of(const Invocation& invocation) {
+TrialOptions trial_options_of(const Invocation& invocation) {
     TrialOptions options;
     options.cases = static_cast<int>(invocation.integer("cases"));
     options.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
@@ -72,12 +71,12 @@ ExitCode score_again(const Invocation& invocation) {
     return ExitCode::success;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_gap_trial(const Invocation& invocation) {
     if (invocation.has("unseal")) return score_again(invocation);
     const bool only_recordings = invocation.has("generate-only");
     if (only_recordings && !invocation.has("keep"))
         throw UsageError("--generate-only needs --keep DIR, the folder for the recordings");
-    const TrialOptions options = options_of(invocation);
+    const TrialOptions options = trial_options_of(invocation);
     const BlindTrialHooks hooks = hooks_of(invocation);
     const int jobs = static_cast<int>(invocation.integer("jobs"));
     const TrialFolder folder = invocation.has("keep") ? TrialFolder::kept(invocation.text("keep"), options)
@@ -131,7 +130,6 @@ Command gap_trial_command() {
                     .high = 9e15},
              Option{
                  .name = "severity",
-                 .kind = OptionKind::string,
                  .value = "mild|strong|both",
                  .meaning =
                      "How far the effects exceed noise and model floor: mild is 1.5 to 3 times, strong is 4 to 10 "
@@ -146,14 +144,12 @@ Command gap_trial_command() {
                     .low = 0.01,
                     .high = 100},
              Option{.name = "length",
-                    .kind = OptionKind::string,
                     .value = "standard|short",
                     .meaning = "standard has all protocols of a bench, short has one or two.",
                     .default_value = "standard",
                     .choices = {"standard", "short"}},
              Option{
                  .name = "only",
-                 .kind = OptionKind::string,
                  .value = "GROUP",
                  .meaning =
                      "Generate recordings of one kind only: 'none' (no gap, to measure the false-alarm rate), "
@@ -166,7 +162,6 @@ Command gap_trial_command() {
                     .meaning = "Nominal friction, stiffness and pretension are each wrong by about 1%."},
              Option{
                  .name = "keep",
-                 .kind = OptionKind::string,
                  .value = "DIR",
                  .meaning =
                      "Keep recordings, labels and answers in DIR, and continue a trial that is already there."},
@@ -175,7 +170,6 @@ Command gap_trial_command() {
                     .meaning = "Stop when the recordings and the sealed labels are in DIR."},
              Option{
                  .name = "unseal",
-                 .kind = OptionKind::string,
                  .value = "FILE",
                  .meaning =
                      "Check FILE (a kept labels.json) against its hash and score the stored answers beside it "
@@ -185,7 +179,7 @@ Command gap_trial_command() {
                      "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
                      "capstan gap-trial --cases 400 --only none --length short",
                      "capstan gap-trial --unseal trial/labels.json"},
-        .run = run};
+        .run = run_gap_trial};
 }
 
 }  // namespace capstan::cli

@@ -1,5 +1,3 @@
-#include "capstan/cli/command_line.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

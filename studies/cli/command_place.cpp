@@ -37,12 +37,28 @@ void take_duty(const Invocation& invocation, StudyPlan& plan) {
     say(message);
 }
 
-ExitCode run(const Invocation& invocation) {
+// The advice about the nominal cable, and about what a diagnosis found.
+ExitCode place_with_diagnosis(const Invocation& invocation, config::ReadConfig& config) {
+    config.plan.truth = {};
+    config::require_runnable(config);
+    const StudyPlan nominal = config.plan;
+    take_diagnosis(invocation, config.plan);
+    config::require_runnable(config);
+    const auto about_nominal = watch_worlds(invocation, nullptr, 0, nominal);
+    if (!about_nominal) return ExitCode::stopped;
+    const auto about_found = watch_worlds(invocation, nullptr, 0, config.plan);
+    if (!about_found) return ExitCode::stopped;
+    deliver_answer(invocation, answers::world_truth_answer(config.plan, *about_nominal, *about_found));
+    return ExitCode::success;
+}
+
+ExitCode run_place(const Invocation& invocation) {
     config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     if (invocation.has("repetitions"))
         config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
     if (config.plan.uncertainty.is_stated) {
+        if (invocation.has("from-diagnosis")) return place_with_diagnosis(invocation, config);
         config::require_runnable(config);
         return run_watched_worlds(invocation, nullptr, 0, config.plan);
     }
@@ -58,7 +74,7 @@ ExitCode run(const Invocation& invocation) {
     if (invocation.has("stats")) {
         say(fmt::format(
             "wall time: {:.2f} s to score {} candidates, {:.2f} s on independent draws, {:.2f} s in all",
-            answer.times.score_s, answer.candidates, answer.times.fresh_s, answer.times.wall_s));
+            answer.times.score_s, answer.candidates, answer.times.independent_s, answer.times.wall_s));
     }
     deliver_answer(invocation, answers::place_answer(config.plan, answer));
     return ExitCode::success;
@@ -88,7 +104,6 @@ Command place_command() {
               .low = 0,
               .high = 1000},
              {.name = "duty",
-              .kind = OptionKind::string,
               .value = "LOG",
               .meaning =
                   "Take the duty cycle from this recording instead of the configuration's duty_fraction."},
@@ -106,6 +121,8 @@ Command place_command() {
              output_option,
              page_option,
              json_option,
+             from_diagnosis_option,
+             database_option,
              progress_option,
              stats_option,
              help_option},
@@ -113,7 +130,7 @@ Command place_command() {
                      "capstan place configs/paper.toml --html place.html -o place.txt",
                      "capstan place my.toml --until-resolved 0.005",
                      "capstan place my.toml --json | jq .scopes[0].counts"},
-        .run = run};
+        .run = run_place};
 }
 
 }  // namespace capstan::cli

@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "capstan/answers/study_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -30,7 +29,7 @@ std::string formatted(const storage::QueryResult& result, const std::string& for
     return format == "json" ? answers::rows_json(result) : answers::rows_text(result);
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_query(const Invocation& invocation) {
     if (invocation.has("schema")) {
         const bool markdown = invocation.text("format") == "md";
         deliver(invocation, markdown ? storage::schema_markdown() : storage::schema_text());
@@ -62,7 +61,6 @@ Command query_command() {
                 "anything and is stopped after ten seconds.",
             .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
             .options = {{.name = "format",
-                         .kind = OptionKind::string,
                          .value = "table|csv|json|md",
                          .meaning =
                              "Format of the rows; csv and json have full precision. md is only for --schema.",
@@ -77,7 +75,7 @@ Command query_command() {
                         help_option},
             .examples = {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
                          "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
-            .run = run};
+            .run = run_query};
 }
 
 }  // namespace capstan::cli

@@ -12,7 +12,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_recommend(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     const StoredStudy stored = load_stored_study(database, id);
@@ -24,9 +24,9 @@ ExitCode run(const Invocation& invocation) {
     }
     answers::Conclusions conclusions = answers::read_conclusions(database, id);
     if (invocation.has("worthwhile-gain")) {
-        conclusions.recommendations =
-            recommend(database, id, {invocation.number("worthwhile-gain")},
-                      fresh_errors(database, id, stored.plan, static_cast<int>(invocation.integer("jobs"))));
+        conclusions.recommendations = recommend(
+            database, id, {invocation.number("worthwhile-gain")},
+            independent_errors(database, id, stored.plan, static_cast<int>(invocation.integer("jobs"))));
     }
     deliver_answer(invocation, answers::recommendation_answer(conclusions));
     return ExitCode::success;
@@ -60,7 +60,7 @@ Command recommend_command() {
                  help_option},
             .examples = {"capstan recommend", "capstan recommend paper --worthwhile-gain 0.05",
                          "capstan recommend --json -o recommendation.json"},
-            .run = run};
+            .run = run_recommend};
 }
 
 }  // namespace capstan::cli

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "capstan/answers/recording_answers.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -64,7 +63,7 @@ std::string chosen_report(const Invocation& invocation, storage::Database& datab
     return answer_in(reports::study_comparison(database, {other, id}), format);
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_report(const Invocation& invocation) {
     const AnswerFormat format = answer_format(invocation, AnswerFormat::html);
     const std::string& file = invocation.text("output");
     if (invocation.has("diagnosis") && invocation.has("compare"))
@@ -96,16 +95,13 @@ Command report_command() {
             "of `capstan diagnose --json`.",
         .arguments = {study_argument},
         .options = {{.name = "format",
-                     .kind = OptionKind::string,
                      .value = "html|md|csv|json",
                      .meaning = "Default: by the extension of FILE, otherwise html.",
                      .choices = {"html", "md", "csv", "json"}},
                     {.name = "compare",
-                     .kind = OptionKind::string,
                      .value = "OTHER",
                      .meaning = "Compare OTHER and STUDY: settings, recommendations, errors."},
                     {.name = "diagnosis",
-                     .kind = OptionKind::string,
                      .value = "NUMBER",
                      .meaning =
                          "Report on a diagnosis stored by `capstan diagnose --db`: its number, or latest."},
@@ -116,7 +112,7 @@ Command report_command() {
         .examples = {"capstan report -o report.html", "capstan report paper --format md",
                      "capstan report -o errors.csv", "capstan report --compare 1 2 -o comparison.html",
                      "capstan report --diagnosis latest -o diagnosis.html"},
-        .run = run};
+        .run = run_report};
 }
 
 }  // namespace capstan::cli

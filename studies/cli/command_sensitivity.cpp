@@ -11,7 +11,7 @@ namespace capstan::cli {
 
 namespace {
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_sensitivity(const Invocation& invocation) {
     config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     if (invocation.has("sensors"))
@@ -59,7 +59,7 @@ Command sensitivity_command() {
             .examples = {"capstan sensitivity configs/paper.toml",
                          "capstan sensitivity my.toml --sensors 2 --html advice.html",
                          "capstan sensitivity my.toml --json | jq '.parameters[] | {name, flips_above}'"},
-            .run = run};
+            .run = run_sensitivity};
 }
 
 }  // namespace capstan::cli

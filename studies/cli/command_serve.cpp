@@ -6,10 +6,9 @@
 #include <future>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
-#include "capstan/cli/stop_request.h"
+#include "capstan/cli/watched_run.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/service/service.h"
 #include "capstan/storage/database.h"
@@ -41,7 +40,7 @@ std::string token_in(const std::string& file) {
     return token;
 }
 
-service::ServiceOptions options_of(const Invocation& invocation) {
+service::ServiceOptions service_options_of(const Invocation& invocation) {
     service::ServiceOptions options;
     options.access.host = invocation.text("host");
     options.access.port = static_cast<int>(invocation.integer("port"));
@@ -63,9 +62,9 @@ service::ServiceOptions options_of(const Invocation& invocation) {
     return options;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_serve(const Invocation& invocation) {
     { storage::Database::open_or_create(invocation.text("db")); }  // creates or checks the file
-    const service::ServiceOptions options = options_of(invocation);
+    const service::ServiceOptions options = service_options_of(invocation);
     service::Service service(options);
     const bool anywhere = options.access.host == "0.0.0.0" || options.access.host == "::";
     const std::string host = anywhere ? "127.0.0.1" : options.access.host;
@@ -109,20 +108,17 @@ Command serve_command() {
               .low = 0,
               .high = 65535},
              {.name = "host",
-              .kind = OptionKind::string,
               .value = "ADDRESS",
               .meaning =
                   "Address to listen on. Any address other than this machine's own requires a token, which is "
                   "printed.",
               .default_value = "127.0.0.1"},
              {.name = "token-file",
-              .kind = OptionKind::string,
               .value = "FILE",
               .meaning =
                   "Require the token in the first line of FILE with every request; it has at least 16 letters "
                   "and digits."},
              {.name = "configs",
-              .kind = OptionKind::string,
               .value = "FOLDER",
               .meaning = "Folder of configurations that users can start by name."},
              {.name = "query-limit",
@@ -136,7 +132,7 @@ Command serve_command() {
              help_option},
         .examples = {"capstan serve --db results/capstan.db --configs configs", "capstan serve --port 0",
                      "capstan serve --host 0.0.0.0 --token-file token.txt"},
-        .run = run};
+        .run = run_serve};
 }
 
 }  // namespace capstan::cli

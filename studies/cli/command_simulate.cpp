@@ -6,7 +6,6 @@
 #include "capstan/answers/recording_answers.h"
 #include "capstan/bench/bench_run.h"
 #include "capstan/cable/motion_name.h"
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -138,7 +137,7 @@ void append_line(std::string& text, const TrueSample& sample, double sample_rate
     text += "\n";
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_simulate(const Invocation& invocation) {
     if (names_a_recording(invocation.argument("CONFIG"))) return simulate_recording(invocation);
     if (config::content_of_config(invocation.argument("CONFIG")) == config::ConfigContent::bench)
         return simulate_bench_file(invocation);
@@ -161,7 +160,6 @@ ExitCode run(const Invocation& invocation) {
 
 const Option parameters_option{
     .name = "parameters",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning = "Recordings only: the model's parameters, in a file written by `capstan calibrate --save`."};
 
@@ -196,7 +194,7 @@ Command simulate_command() {
                      "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'",
                      "capstan simulate configs/bench-slack.toml --html slack.html -o slack.csv",
                      "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html"},
-        .run = run};
+        .run = run_simulate};
 }
 
 }  // namespace capstan::cli

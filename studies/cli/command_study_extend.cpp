@@ -2,11 +2,9 @@
 
 #include <cstdio>
 
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/program.h"
-#include "capstan/cli/shard_option.h"
 #include "capstan/cli/watched_run.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/placement/stored_study.h"
@@ -39,8 +37,8 @@ StudyToExtend study_to_extend(const Invocation& invocation, storage::Database& d
         id, study.name, id, invocation.text("db")));
 }
 
-std::string words_of(const Invocation& invocation, const StudyToExtend& study,
-                     const ExtensionOutcome& outcome) {
+std::string extension_message(const Invocation& invocation, const StudyToExtend& study,
+                              const ExtensionOutcome& outcome) {
     const std::string& file = invocation.text("db");
     if (outcome.run.end == RunEnd::stopped)
         return "Stopped; every finished unit is kept. The same command goes on.";
@@ -64,7 +62,7 @@ std::string words_of(const Invocation& invocation, const StudyToExtend& study,
     return words;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_extend(const Invocation& invocation) {
     if (invocation.has("repetitions") == invocation.has("until-resolved")) {
         throw UsageError(
             "capstan study extend: give either --repetitions (the total number of repetitions) or "
@@ -90,7 +88,7 @@ ExitCode run(const Invocation& invocation) {
             }
             outcome = extend_until_resolved(database, study, resolution, program_version(), options);
         }
-        return {outcome.run.end, outcome.run.times, words_of(invocation, study, outcome),
+        return {outcome.run.end, outcome.run.times, extension_message(invocation, study, outcome),
                 outcome.run.study_id};
     });
     if (code == ExitCode::success) deliver_conclusions(invocation, database, outcome.run.study_id);
@@ -136,7 +134,7 @@ Command study_extend_command() {
             .options = std::move(options),
             .examples = {"capstan study extend --repetitions 8000",
                          "capstan study extend paper --until-resolved 0.002"},
-            .run = run,
+            .run = run_study_extend,
             .can_be_stopped = true};
 }
 

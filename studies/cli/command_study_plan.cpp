@@ -18,7 +18,7 @@ int sensible_shards(const StudyCost& cost) {
     return std::clamp(static_cast<int>(cost.processor_s / shard_s), 1, cost.parts);
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_plan(const Invocation& invocation) {
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
     if (invocation.has("shards")) require_useful(plans, {1, static_cast<int>(invocation.integer("shards"))});
@@ -64,7 +64,7 @@ Command study_plan_command() {
              help_option},
         .examples = {"capstan study plan configs/atlas.toml",
                      "capstan study plan configs/atlas.toml --shards 100 --json"},
-        .run = run};
+        .run = run_study_plan};
 }
 
 }  // namespace capstan::cli

@@ -5,10 +5,13 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
-#include "capstan/cli/shard_option.h"
 #include "capstan/cli/watched_run.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
+#include "capstan/placement/stored_study.h"
+#include "capstan/placement/study_merge.h"
+#include "capstan/platform/standard_streams.h"
+#include "capstan/storage/study_store.h"
 #include "capstan/worlds/stored_worlds.h"
 
 namespace capstan::cli {
@@ -100,9 +103,9 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
 }
 
 ExitCode run_all_worlds(const Invocation& invocation, const std::vector<StudyPlan>& plans) {
-    if (invocation.has("shard") || invocation.has("truth"))
+    if (invocation.has("shard"))
         throw UsageError(
-            "--shard and --truth are for studies without [uncertainty]; a study over worlds runs as one part");
+            "--shard is for studies without [uncertainty]; a study over worlds runs as one part");
     storage::Database database = storage::Database::open_or_create(invocation.text("db"));
     refuse_shard_file(database);
     std::vector<std::int64_t> ids;
@@ -113,8 +116,9 @@ ExitCode run_all_worlds(const Invocation& invocation, const std::vector<StudyPla
     return code;
 }
 
-ExitCode run(const Invocation& invocation) {
-    const config::ReadConfig config = read_config_of(invocation);
+ExitCode run_study_run(const Invocation& invocation) {
+    config::ReadConfig config = read_config_of(invocation);
+    if (invocation.has("from-diagnosis")) take_diagnosis(invocation, config.plan);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
     if (config.plan.uncertainty.is_stated) return run_all_worlds(invocation, plans);
     if (invocation.has("truth") && !invocation.has("shard") && plans.size() == 1)
@@ -126,7 +130,6 @@ ExitCode run(const Invocation& invocation) {
 
 const Option truth_option{
     .name = "truth",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
         "The true cable differs from the model as the [truth] in FILE says; `capstan diagnose "
@@ -137,7 +140,8 @@ const Option truth_option{
 
 Command study_run_command() {
     std::vector<Option> options = watched_run_options();
-    options.insert(options.begin() + 2, {seed_option, repetitions_option, truth_option, shard_option});
+    options.insert(options.begin() + 2,
+                   {seed_option, repetitions_option, truth_option, from_diagnosis_option, shard_option});
     return {.name = "study run",
             .summary = "Run a study and recommend sensors.",
             .description =
@@ -154,7 +158,107 @@ Command study_run_command() {
                          "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
                          "capstan study run my.toml --truth corrected.toml",
                          "capstan study run my.toml --shard 2/8 --db part-2.db"},
-            .run = run,
+            .run = run_study_run,
+            .can_be_stopped = true};
+}
+
+namespace {
+
+ExitCode resume_one(const Invocation& invocation, storage::Database& database, std::int64_t id) {
+    const StoredStudy stored = load_stored_study(database, id);
+    const storage::StudyRecord& study = stored.description.study;
+    if (study.status == "complete") {
+        say(fmt::format("Study {} ({}) is complete already; nothing to do.", id, study.name));
+        deliver_conclusions(invocation, database, id);
+        return ExitCode::success;
+    }
+    if (study.program_version != program_version()) {
+        say(fmt::format(
+            "Note: study {} was started by capstan {}, and this is {}; the remaining units may differ in "
+            "the last bits.",
+            id, study.program_version, program_version()));
+    }
+    if (stored.plan.uncertainty.is_stated) return run_watched_worlds(invocation, &database, id, stored.plan);
+    return run_watched(invocation, database, study.name, [&](const RunOptions& options) {
+        return resume_study(database, id, stored.plan, options);
+    });
+}
+
+// A study named "all" must be given by its number.
+ExitCode resume_all(const Invocation& invocation, storage::Database& database) {
+    int running = 0;
+    for (const storage::StudySummary& study : storage::list_studies(database)) {
+        if (study.status == "complete") continue;
+        ++running;
+        const ExitCode code = resume_one(invocation, database, study.study_id);
+        if (code != ExitCode::success) return code;
+    }
+    if (running == 0) say("All studies are complete already; nothing to do.");
+    return ExitCode::success;
+}
+
+ExitCode run_study_resume(const Invocation& invocation) {
+    storage::Database database = storage::Database::open_existing(invocation.text("db"));
+    refuse_shard_file(database);
+    const std::string& named = invocation.argument("STUDY");
+    if (named == "all") return resume_all(invocation, database);
+    return resume_one(invocation, database, storage::find_study(database, named));
+}
+
+}  // namespace
+
+Command study_resume_command() {
+    return {.name = "study resume",
+            .summary = "Continue a study that was stopped or killed.",
+            .description =
+                "Continues a study that was stopped or killed, from the configuration stored with it. Stored "
+                "units are kept; the tables end with the same bits as without the interruption.",
+            .arguments = {{"STUDY", "Its number, its name (the newest study of that name), latest, or all.",
+                           ArgumentNeed::optional, "latest"}},
+            .options = watched_run_options(),
+            .examples = {"capstan study resume", "capstan study resume paper --db paper.db"},
+            .run = run_study_resume,
+            .can_be_stopped = true};
+}
+
+namespace {
+
+ExitCode run_study_merge(const Invocation& invocation) {
+    const std::string& file = invocation.text("db");
+    const auto& names = invocation.repeated_argument();
+    const std::vector<std::filesystem::path> shards(names.begin(), names.end());
+    return watch(invocation, "merge", [&](const RunOptions& options) -> WatchedEnd {
+        const RunEnd end = merge_shards(file, shards, options);
+        const std::string words =
+            end == RunEnd::complete
+                ? fmt::format("Merged {} into {}; `capstan recommend --db {}` shows the recommendation.",
+                              shards.size() == 1 ? "1 shard" : fmt::format("{} shards", shards.size()), file,
+                              file)
+                : "Stopped; nothing was written, and the shards are as they were.";
+        return {end, {}, words, 0};
+    });
+}
+
+}  // namespace
+
+Command study_merge_command() {
+    return {.name = "study merge",
+            .summary = "Join the shards of a study.",
+            .description =
+                "Joins the files written by `capstan study run --shard` into a new database and computes the "
+                "recommendations. Every table has the same bits as after one run. Every shard must be given "
+                "once, be finished, and belong to the same study. Otherwise nothing is written, and every "
+                "missing, repeated, foreign or unfinished shard is named.",
+            .arguments = {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
+            .options = {{.name = "db",
+                         .value = "FILE",
+                         .meaning = "The new database; it is written completely or not at all.",
+                         .default_value = "capstan.db"},
+                        jobs_option,
+                        progress_option,
+                        help_option},
+            .examples = {"capstan study merge --db atlas.db shard-*.db"},
+            .run = run_study_merge,
             .can_be_stopped = true};
 }
 

@@ -98,12 +98,11 @@ reports::Answer answer_of(const StudyStatus& status) {
     Data merge = {{"shard", "merge"}};
     merge.update(task_data(status.merge));
     rows.push_back(std::move(merge));
-    reports::Answer answer;
-    answer.id = "status";
-    answer.kind = "A submitted study";
-    answer.title = status.directory.name;
-    answer.headline =
-        fmt::format("{} of {} shards are done. {}", done, status.directory.shards, advice(status));
+    reports::Answer answer{.id = "status",
+                           .kind = "A submitted study",
+                           .title = status.directory.name,
+                           .headline = fmt::format("{} of {} shards are done. {}", done,
+                                                   status.directory.shards, advice(status))};
     answer.values = {{"name", status.directory.name},
                      {"directory", status.directory.path.string()},
                      {"slurm", status.slurm},
@@ -124,7 +123,7 @@ reports::Answer answer_of(const StudyStatus& status) {
     return answer;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_status(const Invocation& invocation) {
     const StudyStatus status = status_of(invocation.argument("DIR"));
     deliver_answer(invocation, answer_of(status));
     return ExitCode::success;
@@ -144,7 +143,7 @@ Command study_status_command() {
         .arguments = {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
         .options = {output_option, json_option, help_option},
         .examples = {"capstan study status atlas", "capstan study status atlas --json | jq -r .merge.state"},
-        .run = run};
+        .run = run_study_status};
 }
 
 }  // namespace capstan::cli

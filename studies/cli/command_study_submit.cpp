@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -87,7 +86,7 @@ void submit(const StudyDirectory& directory) {
         text + fmt::format("capstan study status {} shows the progress.\n", directory.path.string()));
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_study_submit(const Invocation& invocation) {
     if (!invocation.has("slurm")) {
         throw UsageError(
             "capstan study submit: give --slurm; Slurm is the only supported scheduler. Elsewhere run "
@@ -147,7 +146,6 @@ Command study_submit_command() {
                          .low = 1,
                          .high = 1e6},
                         {.name = "directory",
-                         .kind = OptionKind::string,
                          .value = "DIR",
                          .meaning = "The study's folder: scripts, shards, logs, and the result study.db.",
                          .default_value = "capstan-study"},
@@ -166,7 +164,7 @@ Command study_submit_command() {
                         help_option},
             .examples = {"capstan study submit --slurm configs/atlas.toml --shards 100 --directory atlas",
                          "SBATCH_PARTITION=long capstan study submit --slurm my.toml"},
-            .run = run};
+            .run = run_study_submit};
 }
 
 }  // namespace capstan::cli

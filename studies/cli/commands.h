@@ -1,43 +1,49 @@
 #pragma once
-// The one list of commands, and where each is defined.
 
 #include "capstan/cli/command.h"
 
+// The list of commands, in the order of `capstan --help`. A line `COMMAND(study_run)` takes its command from
+// `Command study_run_command()` in one of the files command_*.cpp; such a function without its line here does
+// not compile.
+#define CAPSTAN_COMMANDS(COMMAND) \
+    COMMAND(study_run)            \
+    COMMAND(study_resume)         \
+    COMMAND(study_extend)         \
+    COMMAND(study_list)           \
+    COMMAND(study_show)           \
+    COMMAND(study_replay)         \
+    COMMAND(study_delete)         \
+    COMMAND(study_merge)          \
+    COMMAND(study_plan)           \
+    COMMAND(study_submit)         \
+    COMMAND(study_status)         \
+    COMMAND(recommend)            \
+    COMMAND(place)                \
+    COMMAND(sensitivity)          \
+    COMMAND(duty)                 \
+    COMMAND(estimate)             \
+    COMMAND(query)                \
+    COMMAND(report)               \
+    COMMAND(export)               \
+    COMMAND(serve)                \
+    COMMAND(simulate)             \
+    COMMAND(calibrate)            \
+    COMMAND(diagnose)             \
+    COMMAND(gap_trial)            \
+    COMMAND(config_default)       \
+    COMMAND(config_check)         \
+    COMMAND(paper_exp1)           \
+    COMMAND(paper_exp2)           \
+    COMMAND(paper_solver)         \
+    COMMAND(doctor)               \
+    COMMAND(completion)           \
+    COMMAND(man)
+
 namespace capstan::cli {
 
-// One file each: command_<name>.cpp.
-Command study_run_command();
-Command study_resume_command();
-Command study_extend_command();
-Command study_list_command();
-Command study_show_command();
-Command study_replay_command();
-Command study_delete_command();
-Command study_merge_command();
-Command study_plan_command();
-Command study_submit_command();
-Command study_status_command();
-Command recommend_command();
-Command place_command();
-Command sensitivity_command();
-Command duty_command();
-Command estimate_command();
-Command query_command();
-Command report_command();
-Command export_command();
-Command serve_command();
-Command doctor_command();
-Command completion_command();
-Command man_command();
-Command simulate_command();
-Command calibrate_command();
-Command diagnose_command();
-Command gap_trial_command();
-Command config_default_command();
-Command config_check_command();
-Command paper_solver_command();
-Command paper_exp1_command();
-Command paper_exp2_command();
+#define CAPSTAN_DECLARE(name) Command name##_command();
+CAPSTAN_COMMANDS(CAPSTAN_DECLARE)
+#undef CAPSTAN_DECLARE
 
 const std::vector<Command>& commands();
 const Command* find_command(std::string_view name);

@@ -9,15 +9,11 @@ namespace capstan::cli {
 
 const Option help_option{
     .name = "help", .letter = 'h', .kind = OptionKind::flag, .meaning = "Explain this command."};
-const Option database_option{.name = "db",
-                             .kind = OptionKind::string,
-                             .value = "FILE",
-                             .meaning = "The results database.",
-                             .default_value = "capstan.db"};
+const Option database_option{
+    .name = "db", .value = "FILE", .meaning = "The results database.", .default_value = "capstan.db"};
 const Option output_option{
     .name = "output",
     .letter = 'o',
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning = "Write the answer to FILE, which is written completely or not at all; - is standard output.",
     .default_value = "-"};
@@ -47,7 +43,6 @@ const Option json_option{
     .name = "json", .kind = OptionKind::flag, .meaning = "Print the answer as JSON, for programs."};
 const Option progress_option{
     .name = "progress",
-    .kind = OptionKind::string,
     .value = "auto|json|none",
     .meaning =
         "Progress on standard error: auto is a bar on a terminal and plain lines elsewhere, json is "
@@ -69,14 +64,12 @@ const Option segments_option{
     .high = 100000};
 
 const Option format_option{.name = "format",
-                           .kind = OptionKind::string,
                            .value = "text|md|csv|json",
                            .meaning = "Default: by the extension of the output file, otherwise text.",
                            .choices = {"text", "md", "csv", "json"}};
 
 const Option page_option{
     .name = "html",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning = "Also write FILE, one self-contained page of figures and numbers; open it in a browser."};
 
@@ -95,7 +88,6 @@ config::ReadConfig read_config_of(const Invocation& invocation) {
 }
 
 const Option noise_option{.name = "noise",
-                          .kind = OptionKind::string,
                           .value = "LABEL",
                           .meaning = "Which of the configuration's noise levels; the first if not given."};
 

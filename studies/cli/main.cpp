@@ -2,7 +2,7 @@
 #include <exception>
 #include <new>
 
-#include "capstan/cli/exit_code.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/program.h"
 #include "capstan/platform/standard_streams.h"
 

@@ -1,15 +1,18 @@
 #include "capstan/cli/program.h"
 
 #include <fmt/format.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/command.h"
-#include "capstan/cli/command_line.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/help_text.h"
 #include "capstan/cli/output.h"
@@ -125,6 +128,40 @@ ExitCode run_program(const std::vector<std::string>& words) {
         say(std::string("capstan: ") + error.what());
         return ExitCode::failure;
     }
+}
+
+namespace {
+
+// Of those that the program was built for. The lower bit is the better target.
+std::int64_t targets_here() {
+    return hwy::SupportedTargets() & HWY_TARGETS;
+}
+
+std::string names(std::int64_t targets) {
+    std::string list;
+    for (; targets != 0; targets &= targets - 1)
+        list += fmt::format("{}{}", list.empty() ? "" : ", ", hwy::TargetName(targets & -targets));
+    return list;
+}
+
+}  // namespace
+
+std::string simd_in_use() {
+    return hwy::TargetName(targets_here() & -targets_here());
+}
+
+void limit_simd_from_environment() {
+    const char* const wanted = std::getenv("CAPSTAN_SIMD");
+    if (wanted == nullptr || std::string_view(wanted).empty()) return;
+    const std::int64_t there = targets_here();
+    for (std::int64_t rest = there; rest != 0; rest &= rest - 1) {
+        const std::int64_t target = rest & -rest;
+        if (std::string_view(hwy::TargetName(target)) != wanted) continue;
+        hwy::DisableTargets(target - 1);
+        return;
+    }
+    throw UsageError(
+        fmt::format("CAPSTAN_SIMD={}: this program on this processor has {}", wanted, names(there)));
 }
 
 }  // namespace capstan::cli

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "capstan/cli/exit_code.h"
+#include "capstan/cli/command.h"
 
 namespace capstan::cli {
 

@@ -1,14 +1,20 @@
 #include "capstan/cli/watched_run.h"
 
 #include <fmt/format.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX's own names are in no <csignal>
+
+#include <charconv>
 
 #include "capstan/answers/placement_answers.h"
+#include "capstan/cli/command.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/stop_request.h"
 #include "capstan/paper/placement_comparison.h"
 #include "capstan/platform/clocks.h"
 #include "capstan/platform/progress.h"
+#include "capstan/storage/diagnosis_store.h"
+#include "capstan/storage/study_store.h"
+#include "capstan/worlds/diagnosed_world.h"
 #include "capstan/worlds/stored_worlds.h"
 
 namespace capstan::cli {
@@ -94,8 +100,8 @@ ExitCode run_watched(const Invocation& invocation, storage::Database& database, 
     return code;
 }
 
-ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* database, std::int64_t study_id,
-                            const StudyPlan& plan) {
+std::optional<WorldAnswer> watch_worlds(const Invocation& invocation, storage::Database* database,
+                                        std::int64_t study_id, const StudyPlan& plan) {
     ProgressDisplay display(progress_mode(invocation.text("progress")));
     WorldRunOptions options;
     options.jobs = static_cast<int>(invocation.integer("jobs"));
@@ -116,29 +122,128 @@ ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* dat
         }
     }
     display.end_line();
+    const double wall_s = wall_time_s() - start_s;
+    const ProgressMode mode = display.mode();
     if (!found) {
         const std::string words =
             database == nullptr
-                ? std::string("Stopped.")
+                ? std::string("Stopped; nothing is stored.")
                 : fmt::format(
                       "Stopped; every finished block of worlds is kept. Go on with: capstan study resume {} --db {}",
                       study_id, database->path().string());
-        say_end(display.mode() == ProgressMode::none ? ProgressMode::automatic : display.mode(), "stopped",
-                words, study_id);
-        return ExitCode::stopped;
+        say_end(mode == ProgressMode::none ? ProgressMode::automatic : mode, "stopped", words, study_id);
+        return found;
     }
     if (database != nullptr)
-        say_end(display.mode(), "complete",
+        say_end(mode, "complete",
                 fmt::format("Study {} ({}) is complete in {}, after {:.2f} s.", study_id, plan.name,
-                            database->path().string(), wall_time_s() - start_s),
+                            database->path().string(), wall_s),
                 study_id);
-    if (invocation.has("stats")) say(fmt::format("wall time: {:.2f} s", wall_time_s() - start_s));
+    if (invocation.has("stats")) say(fmt::format("wall time: {:.2f} s", wall_s));
+    return found;
+}
+
+ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* database, std::int64_t study_id,
+                            const StudyPlan& plan) {
+    const std::optional<WorldAnswer> found = watch_worlds(invocation, database, study_id, plan);
+    if (!found) return ExitCode::stopped;
     deliver_answer(invocation, answers::world_answer(plan, *found, study_id));
     return ExitCode::success;
 }
 
+const Option from_diagnosis_option{
+    .name = "from-diagnosis",
+    .value = "ID",
+    .meaning =
+        "The worlds of a CONFIG with [uncertainty] lie about what this diagnosis in the results database found: its "
+        "friction, stiffness and pretension, and its causes with their probability."};
+
+void take_diagnosis(const Invocation& invocation, StudyPlan& plan) {
+    if (!plan.uncertainty.is_stated)
+        throw UsageError("--from-diagnosis needs a CONFIG with [uncertainty], whose worlds it changes");
+    const std::string& text = invocation.text("from-diagnosis");
+    std::int64_t id = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (problem != std::errc{} || end != text.data() + text.size())
+        throw UsageError(
+            fmt::format("--from-diagnosis is '{}', but must be the number of a diagnosis; `capstan query "
+                        "\"SELECT * FROM v_diagnosis\"` lists them",
+                        text));
+    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
+    const DiagnosedWorld found = world_of(storage::load_diagnosis(database, id));
+    for (const std::string& cause : found.left_out)
+        say(fmt::format("Note: {} is not of the cable and is left out.", cause));
+    plan.truth = found.truth;
+    plan.uncertainty.truth_probability = found.probability;
+}
+
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id) {
     deliver_answer(invocation, answers::conclusions_answer(database, study_id));
+}
+
+namespace {
+
+std::atomic<bool> stop_asked{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may set it
+
+void ask_to_stop(int) {
+    stop_asked.store(true);
+}
+
+void handle(void (*handler)(int), int flags) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = flags;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+StopRequest::StopRequest() {
+    stop_asked.store(false);
+    handle(ask_to_stop, static_cast<int>(SA_RESETHAND | SA_RESTART));
+}
+
+StopRequest::~StopRequest() {
+    handle(SIG_DFL, 0);
+}
+
+const std::atomic<bool>* StopRequest::flag() {
+    return &stop_asked;
+}
+
+const Option shard_option{
+    .name = "shard",
+    .value = "I/N",
+    .meaning =
+        "Run only part I of N (I from 1) into a file of its own. `capstan study merge` joins all N, "
+        "with the same bits as one run. Running the command again continues the part."};
+
+Shard parse_shard(const std::string& text) {
+    Shard shard;
+    const char* const end = text.data() + text.size();
+    const auto [slash, problem] = std::from_chars(text.data(), end, shard.number);
+    if (problem == std::errc{} && slash != end && *slash == '/') {
+        const auto [last, other] = std::from_chars(slash + 1, end, shard.count);
+        const bool in_range = shard.number >= 1 && shard.number <= shard.count;
+        if (other == std::errc{} && last == end && in_range) return shard;
+    }
+    throw UsageError(fmt::format(
+        "--shard is '{}', but must be I/N with I from 1 to N, for example --shard 2/8 for the second "
+        "of eight",
+        text));
+}
+
+void refuse_shard_file(storage::Database& database) {
+    const auto mark = storage::read_shard(database);
+    if (!mark) return;
+    const std::string file = database.path().string();
+    throw UsageError(
+        fmt::format("{0} is the file of {1}. To continue it: capstan study run CONFIG --shard "
+                    "{2}/{3} --db {0}\nFor a complete study, name another file with --db.",
+                    file, words_of({mark->shard, mark->shards}), mark->shard, mark->shards));
 }
 
 }  // namespace capstan::cli

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "capstan/cli/command.h"
 #include "capstan/placement/study_run.h"
+#include "capstan/placement/study_shard.h"
 #include "capstan/storage/database.h"
+#include "capstan/worlds/world_study.h"
 
 namespace capstan::cli {
 
@@ -29,11 +33,41 @@ ExitCode watch(const Invocation& invocation, const std::string& name, const Watc
 ExitCode run_watched(const Invocation& invocation, storage::Database& database, const std::string& study_name,
                      const std::function<RunOutcome(const RunOptions&)>& work);
 
-/// The same for a study over worlds; without a database nothing is stored and `study_id` is 0.
+/// Runs a study over worlds with progress shown and Ctrl-C caught; nothing if it was stopped. Without a
+/// database nothing is stored.
+std::optional<WorldAnswer> watch_worlds(const Invocation& invocation, storage::Database* database,
+                                        std::int64_t study_id, const StudyPlan& plan);
+
+extern const Option from_diagnosis_option;
+/// The truth of the plan's worlds is what the diagnosis of --from-diagnosis found, in the database of --db.
+void take_diagnosis(const Invocation& invocation, StudyPlan& plan);
+
+/// The same, and gives the answer; `study_id` is 0 without a database.
 ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* database, std::int64_t study_id,
                             const StudyPlan& plan);
 
 /// The answer of a study that is complete.
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id);
+
+/// While it lives, the first Ctrl-C or request to terminate only sets a flag; a second one ends the program
+/// at once, which loses no more than the unit under way.
+class StopRequest {
+  public:
+    StopRequest();
+    ~StopRequest();
+    StopRequest(const StopRequest&) = delete;
+    StopRequest& operator=(const StopRequest&) = delete;
+
+    static const std::atomic<bool>* flag();
+};
+
+extern const Option shard_option;
+
+/// "2/8". Throws UsageError for anything else.
+Shard parse_shard(const std::string& text);
+
+/// Whole studies do not go into a shard's file, nor are they resumed in it. Throws UsageError that says what
+/// to do instead.
+void refuse_shard_file(storage::Database& database);
 
 }  // namespace capstan::cli

@@ -5,6 +5,7 @@
 #include "capstan/config/config_effect_keys.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/config/config_reader.h"
+#include "capstan/config/config_writer.h"
 
 namespace capstan::config {
 
@@ -16,12 +17,6 @@ StudyKey ratio_key(const std::string& name, const std::string& of, double TrueCa
     return number(
         {"truth", name, "", "Ratio of the true value to that in [transmission], for " + of + "."},
         {0.01, true, 100.0}, 1.0, [ratio](auto& plan, int) -> auto& { return plan.truth.*ratio; });
-}
-
-// A number that reads back to the same bits, and as a real number.
-std::string real_text(double value) {
-    const std::string text = fmt::format("{}", value);
-    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
 }  // namespace
@@ -63,15 +58,15 @@ std::string truth_text(const TrueCable& truth, const std::vector<std::string>& c
     std::string text;
     for (const std::string& comment : comments) text += "# " + comment + "\n";
     text += fmt::format("\n[truth]\nfriction_ratio = {}\nstiffness_ratio = {}\npretension_ratio = {}\n",
-                        real_text(truth.friction_ratio), real_text(truth.stiffness_ratio),
-                        real_text(truth.pretension_ratio));
+                        toml_number(truth.friction_ratio), toml_number(truth.stiffness_ratio),
+                        toml_number(truth.pretension_ratio));
     for (std::size_t e = 0; e < truth.effects.size(); ++e) {
         const Effect& effect = effect_catalogue()[e];
         if (truth.effects[e] == effect.absent) continue;
         text += fmt::format("\n[{}]  # {}\n", effect_section("truth", effect), effect.meaning);
         for (std::size_t p = 0; p < effect.parameters.size(); ++p)
             text += fmt::format("{} = {}\n", effect_key_name(effect.parameters[p]),
-                                real_text(truth.effects[e][p]));
+                                toml_number(truth.effects[e][p]));
     }
     return text;
 }

@@ -173,6 +173,11 @@ void add_uncertainty_keys(StudyKeys& keys) {
         {at, "far_end_bandwidth_Hz", "Hz", "Bandwidth of that motion: 95 % of its power lies below."},
         above_zero, standard.far_end_bandwidth_Hz,
         [](auto& plan, int) -> auto& { return plan.uncertainty.far_end_bandwidth_Hz; }));
+    own.push_back(number(
+        {at, "truth_probability", "",
+         "Probability that a world is as [truth] says; the others lie about the nominal cable."},
+        {0.0, true, 1.0}, standard.truth_probability,
+        [](auto& plan, int) -> auto& { return plan.uncertainty.truth_probability; }));
     own.push_back(integer(
         {at, "members", "", "Cables in the estimator's ensemble, a multiple of 8."}, {16, true, 1024},
         std::int64_t{standard.members}, [](auto& plan, int) -> auto& { return plan.uncertainty.members; }));

@@ -28,13 +28,6 @@ std::string toml_string(std::string_view text) {
     return result + "\"";
 }
 
-// The shortest text that reads back as the same number, marked as a real number.
-std::string real_text(double value) {
-    std::string text = fmt::format("{}", value);
-    if (text.find_first_of(".en") == std::string::npos) text += ".0";
-    return text;
-}
-
 template <class Item, class Text>
 std::string list_text(const std::vector<Item>& items, Text text) {
     std::string result = "[";
@@ -46,7 +39,7 @@ struct ToToml {
     std::string operator()(std::monostate) const { return {}; }
     std::string operator()(bool value) const { return value ? "true" : "false"; }
     std::string operator()(std::int64_t value) const { return std::to_string(value); }
-    std::string operator()(double value) const { return real_text(value); }
+    std::string operator()(double value) const { return toml_number(value); }
     std::string operator()(const std::string& value) const { return toml_string(value); }
     template <class Item>
     std::string operator()(const std::vector<Item>& value) const {
@@ -59,7 +52,7 @@ std::string_view kind_words(ValueKind kind) {
         case ValueKind::string:
             return "text";
         case ValueKind::integer:
-            return "whole number";
+            return "integer";
         case ValueKind::number:
             return "number";
         case ValueKind::boolean:
@@ -67,7 +60,7 @@ std::string_view kind_words(ValueKind kind) {
         case ValueKind::choice:
             return "";
         case ValueKind::integers:
-            return "list of whole numbers";
+            return "list of integers";
         case ValueKind::numbers:
             return "list of numbers";
         case ValueKind::names:
@@ -148,6 +141,12 @@ std::string config_text(const Plan& plan, Comments comments) {
 }
 template std::string config_text(const StudyPlan& plan, Comments comments);
 template std::string config_text(const bench::BenchPlan& plan, Comments comments);
+
+std::string toml_number(double value) {
+    std::string text = fmt::format("{}", value);
+    if (text.find_first_of(".en") == std::string::npos) text += ".0";
+    return text;
+}
 
 StudyPlan default_plan() {
     return parse_config("", "defaults").plan;

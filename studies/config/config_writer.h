@@ -14,6 +14,9 @@ enum class Comments { none, every_key };
 template <class Plan>
 std::string config_text(const Plan& plan, Comments comments);
 
+/// The shortest text that reads back as the same number and marks it as a real number.
+std::string toml_number(double value);
+
 /// The plan of an empty configuration: all defaults.
 StudyPlan default_plan();
 bench::BenchPlan default_bench();

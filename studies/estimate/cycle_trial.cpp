@@ -8,12 +8,12 @@
 #include "capstan/estimation/recursive_fusion.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/platform/parallel_for.h"
+#include "capstan/platform/statistics.h"
 
 namespace capstan::estimate {
 
 namespace {
 
-constexpr double two_sided_95 = 1.959964;
 // In parts of what the plan says the distal end may do in a sample.
 constexpr double wander_fractions[] = {1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0};
 constexpr int choosing_repetitions = 2;

@@ -6,12 +6,11 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimate/tracking.h"
 #include "capstan/platform/parallel_for.h"
+#include "capstan/platform/statistics.h"
 
 namespace capstan::estimate {
 
 namespace {
-
-constexpr double two_sided_95 = 1.959964;
 
 // The squared model error, in parts of the tension, that one reading asks for so as to be just within the
 // band.
@@ -126,22 +125,22 @@ std::vector<LeftOutChannel> leave_out(const SensedCable& cable, const std::vecto
     return results;
 }
 
-WholeEstimate prepare_whole(const SensedCable& cable, const TrackingOptions& options) {
-    WholeEstimate estimate;
+EstimatorTuning tune_estimator(const SensedCable& cable, const TrackingOptions& options) {
+    EstimatorTuning tuning;
     const ChannelSet all = all_but(cable, {});
-    estimate.trust = likeliest_trust(cable, all, options);
-    estimate.widening_known = all.size() >= 2;
-    if (!estimate.widening_known) return estimate;
+    tuning.trust = likeliest_trust(cable, all, options);
+    tuning.widening_known = all.size() >= 2;
+    if (!tuning.widening_known) return tuning;
     std::vector<std::vector<double>> needed(all.size());
     parallel_for_each_index(static_cast<int>(all.size()), options.jobs, [&](int k) {
         const std::size_t predicted[] = {static_cast<std::size_t>(k)};
-        add_needed(cable, all_but(cable, predicted), predicted[0], estimate.trust, options,
+        add_needed(cable, all_but(cable, predicted), predicted[0], tuning.trust, options,
                    needed[predicted[0]]);
     });
     std::vector<double> pooled;
     for (const std::vector<double>& one : needed) pooled.insert(pooled.end(), one.begin(), one.end());
-    estimate.widening = widening_of(std::move(pooled));
-    return estimate;
+    tuning.widening = widening_of(std::move(pooled));
+    return tuning;
 }
 
 }  // namespace capstan::estimate

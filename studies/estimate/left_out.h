@@ -29,13 +29,14 @@ struct LeftOutChannel {
 std::vector<LeftOutChannel> leave_out(const SensedCable& cable, const std::vector<std::size_t>& channels,
                                       const TrackingOptions& options);
 
-/// The cable's tension everywhere from all its channels.
-struct WholeEstimate {
+/// What an estimate of the tension everywhere from all channels of a cable uses, chosen by the evidence of
+/// these channels.
+struct EstimatorTuning {
     ModelTrust trust;
     double widening = 0.0;  ///< E39, each channel predicted without itself
     bool widening_known = true;
 };
-WholeEstimate prepare_whole(const SensedCable& cable, const TrackingOptions& options);
+EstimatorTuning tune_estimator(const SensedCable& cable, const TrackingOptions& options);
 
 /// Half width of the 95% band of a tension: posterior deviation and widening.
 double band_N(const RecursiveEstimator::Moments& moments, double widening);

@@ -12,6 +12,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/least_squares.h"
 #include "capstan/gap/twin_residuals.h"
+#include "capstan/platform/statistics.h"
 
 namespace capstan::gap {
 
@@ -21,7 +22,6 @@ namespace {
 constexpr double min_known_factor = 2.0;
 // From this correlation on, two estimates are reported as trading with each other.
 constexpr double trading_correlation = 0.95;
-constexpr double two_sided_95 = 1.959964;
 
 // Logarithms of the fitted parameters over their nominal values, and how they spread.
 struct LogFit {

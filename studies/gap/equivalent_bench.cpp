@@ -7,6 +7,7 @@
 #include "capstan/gap/calibration.h"
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/twin.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
@@ -19,12 +20,6 @@ constexpr double length_m = 1.0;
 // Numbers that are not stated may be wrong by a factor of a few.
 constexpr double unknown_log_std = 1.0;
 constexpr double run_pretension_log_std = 0.3;
-
-double mean_of(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
-}
 
 std::vector<double> scaled(const std::vector<double>& values, double factor, double offset = 0.0) {
     std::vector<double> all;

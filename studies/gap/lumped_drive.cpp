@@ -3,6 +3,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/twin.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 #include "capstan/solver/pull_pull.h"
 
@@ -10,7 +11,7 @@ namespace capstan::gap {
 
 namespace {
 
-enum ParameterIndex : std::size_t { friction_exponent, stiffness, pretension, speed_ratio };
+enum DriveParameter : std::size_t { friction_exponent, stiffness, drive_pretension, speed_ratio };
 
 // Without stiction (mu_s alone cannot be identified) few segments are enough.
 constexpr int lumped_segments = 40;
@@ -24,12 +25,6 @@ constexpr double start_give_rad = 0.05;
 const std::vector<double>& samples_of(const Recording& recording, const RecordedRun& run,
                                       const char* channel) {
     return run.values[static_cast<std::size_t>(*recording.channel(channel))];
-}
-
-double mean_of(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
 }
 
 // Sum over all runs of (x - run's mean) (y - run's mean).
@@ -139,7 +134,7 @@ class LumpedDrive final : public Twin {
         const Cable cable(cable_specification({{1.0, 1.0}},
                                               {.dynamic_friction = values[friction_exponent],
                                                .axial_stiffness_N = values[stiffness],
-                                               .pretension_N = values[pretension]},
+                                               .pretension_N = values[drive_pretension]},
                                               lumped_segments));
         return {cable, cable, {1.0, values[speed_ratio]}};
     }

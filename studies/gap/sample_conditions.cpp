@@ -47,13 +47,13 @@ using PerRun = std::vector<std::vector<double>>;  // runs x samples
 // Below this fraction of the largest speed the bench counts as at rest.
 constexpr double rest_fraction = 0.03;
 
-struct Motion {
+struct RecordedMotion {
     PerRun speed;             // 0 at rest
     PerRun since_reversal_s;  // infinite before the first
 };
 
-Motion motion_of(const Recording& recording) {
-    Motion motion;
+RecordedMotion motion_of(const Recording& recording) {
+    RecordedMotion motion;
     for (const RecordedRun& run : recording.runs) {
         std::vector<double> speed = speed_of(recording, run);
         double most = 0.0;
@@ -139,7 +139,7 @@ PerRun motor_tension_N(const Recording& recording) {
 
 std::vector<SampleSorting> sample_sortings(const Recording& recording,
                                            const std::vector<RunResiduals>& runs) {
-    const Motion motion = motion_of(recording);
+    const RecordedMotion motion = motion_of(recording);
     const auto regime = [&](std::size_t run, std::size_t sample) {
         constexpr double nearly_all = 0.95;
         if (motion.speed[run][sample] == 0.0) return 0;

@@ -13,7 +13,7 @@ namespace capstan::gap {
 
 namespace {
 
-enum ParameterIndex : std::size_t { dynamic_friction, static_friction, axial_stiffness, pretension };
+enum CableParameter : std::size_t { dynamic_friction, static_friction, axial_stiffness, pretension };
 
 std::vector<TwinParameter> parameters_of(const NominalBench& bench) {
     return {{"dynamic_friction", "", "mu_d of a sliding cable", bench.dynamic_friction},

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "capstan/platform/median.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap_trial {

@@ -7,7 +7,7 @@
 
 #include "capstan/paper/compared_cycle.h"
 #include "capstan/placement/cell_statistics.h"
-#include "capstan/platform/median.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/reference/generic_solver.h"
 #include "capstan/reference/linear_assumed.h"
 #include "capstan/solver/quasi_static_step.h"

@@ -101,7 +101,7 @@ double searched_error_N(const storage::RecommendationRecord& recommendation) {
 
 std::vector<storage::RecommendationRecord> recommend(storage::Database& database, std::int64_t study_id,
                                                      const RecommendationPolicy& policy,
-                                                     const FreshErrors& fresh_errors) {
+                                                     const IndependentErrors& independent_errors) {
     const storage::StudyDescription study = storage::load_study(database, study_id);
     const ScenarioFractions fractions = scenario_fractions(study);
     std::vector<storage::RecommendationRecord> recommendations;
@@ -124,7 +124,7 @@ std::vector<storage::RecommendationRecord> recommend(storage::Database& database
             chosen.push_back(candidates[each]);
         }
         const auto judged =
-            placement_questions(fresh_errors(noise, chosen), study, fractions, chosen_reference);
+            placement_questions(independent_errors(noise, chosen), study, fractions, chosen_reference);
         for (std::size_t q = 0; q < choices.size(); ++q) {
             storage::RecommendationRecord& record = choices[q].record;
             const IntervalEstimate error = interval_of(judged[q].scores[q]);

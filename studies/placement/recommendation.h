@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "capstan/placement/fresh_errors.h"
+#include "capstan/placement/independent_errors.h"
 #include "capstan/storage/database.h"
 #include "capstan/storage/records.h"
 
@@ -19,11 +19,11 @@ struct RecommendationPolicy {
 /// regimes and for the duty cycle: the number of sensors, their nodes and the fusion method, with the
 /// alternatives that are not significantly worse in paired differences on the same draws. The draws that
 /// chose the best of many make it look better than it is, so a recommendation's error and interval are those
-/// of `fresh_errors`, on independent draws; the best of each count keeps the study's own draws, with an
+/// of `independent_errors`, on independent draws; the best of each count keeps the study's own draws, with an
 /// interval that holds for all candidates of the count together.
 std::vector<storage::RecommendationRecord> recommend(storage::Database& database, std::int64_t study_id,
                                                      const RecommendationPolicy& policy,
-                                                     const FreshErrors& fresh_errors);
+                                                     const IndependentErrors& independent_errors);
 
 /// The error [N] on the draws that chose a recommendation. Their optimism is error_N less this.
 double searched_error_N(const storage::RecommendationRecord& recommendation);

@@ -86,7 +86,7 @@ void conclude_study(storage::Database& database, std::int64_t study_id, const St
                     const RunOptions& options, StudyTimes& times) {
     double start_s = wall_time_s();
     const auto recommendations = recommend(database, study_id, {plan.worthwhile_gain_N},
-                                           fresh_errors(database, study_id, plan, options.jobs));
+                                           independent_errors(database, study_id, plan, options.jobs));
     std::vector<storage::PaperComparisonRecord> paper;
     if (plan.compare_with_paper && options.compare_with_paper) {
         paper = options.compare_with_paper(database, study_id);

@@ -202,8 +202,6 @@ void check_worlds(const StudyPlan& plan, Problems& problems) {
     if (plan.placement.forbidden_m.size() % 2 != 0)
         problems.push_back(
             {"placement.forbidden_m", "has an odd number of places; give from and to of each stretch"});
-    if (plan.truth.is_the_model()) return;
-    problems.push_back({"truth", "has no meaning with [uncertainty], which says how true cables differ"});
 }
 
 // The sum of the regimes' duty fractions may be off by the rounding of the digits given.
@@ -323,6 +321,7 @@ std::vector<KeyProblem> problems_of_values(const StudyPlan& plan) {
         check_worlds(plan, problems);
         for (KeyProblem& problem : problems_of(plan.placement, cable.segments + 1))
             problems.push_back(std::move(problem));
+        for (KeyProblem& problem : problems_of_truth(plan)) problems.push_back(std::move(problem));
         return problems;
     }
     if (cable.segments > max_estimated_segments) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,25 @@ using ShowStates = std::function<void(int sample, const CableState& previous, co
 /// by BenchSimulation on a grid fine enough, read off at the plan's nodes. Throws InvalidInput with
 /// problems_of_truth(plan).
 void simulate_truth(const StudyPlan& plan, const ShowStates& show);
+
+/// A cable with effects between ends whose positions are given, on a grid fine enough and read off at the
+/// nodes of its specification.
+class CableWithEffects {
+  public:
+    CableWithEffects(const CableSpecification& cable, const EffectValues& effects, double sample_rate_Hz);
+    ~CableWithEffects();
+
+    const CableState& state() const { return now_; }
+    /// The next sample, from 1: how far both ends are from where they rested. False where there is no
+    /// solution.
+    bool advance(int sample, double proximal_m, double distal_m);
+
+  private:
+    struct Bench;
+    Cable cable_;
+    std::unique_ptr<Bench> bench_;
+    CableState now_;
+};
 
 /// The reasons why the plan's true cable cannot be simulated; empty if there are none.
 std::vector<KeyProblem> problems_of_truth(const StudyPlan& plan);

@@ -78,34 +78,21 @@ MotionPattern pattern_between(const CableState& before, const CableState& now) {
     return pattern;
 }
 
-// For ends with prescribed positions.
-BenchInputs inputs_at(const Cable& cable, const TrueMotion& motion, int sample) {
-    const EndConditions ends = ends_at(cable, motion, sample);
-    const EndConditions rest = ends_at(cable, motion, 0);
-    const double proximal_m = ends.proximal.value - rest.proximal.value;
-    const double distal_m = ends.distal.value - rest.distal.value;
-    // The motor pulley reels in when its end moves backward.
-    return {MotorAngle{-proximal_m / radius_m}, LoadAngle{-distal_m / radius_m}, 1.0 / motion.sample_rate_Hz,
-            sample / motion.sample_rate_Hz};
-}
-
 void simulate_effects(const StudyPlan& plan, const ShowStates& show) {
-    CableSpecification coarse = true_specification(plan.transmission.cable, plan.truth);
-    const int pieces = pieces_of_each_segment(coarse.segments);
-    CableSpecification fine = coarse;
-    fine.segments *= pieces;
-    const Cable cable(coarse);
-    BenchSimulation bench(
-        {.cable = Cable(fine), .arrangement = CableArrangement::single, .pulleys = {radius_m, radius_m}},
-        effects_with(plan.truth.effects));
-    CableState now = read_off(bench, cable, pieces);
+    const CableSpecification specification = true_specification(plan.transmission.cable, plan.truth);
+    const Cable cable(specification);
+    CableWithEffects with_effects(specification, plan.truth.effects, plan.motion.sample_rate_Hz);
+    CableState now = with_effects.state();
     CableState previous = now;
+    const EndConditions rest = ends_at(cable, plan.motion, 0);
     for (int sample = 1; sample <= plan.motion.samples; ++sample) {
         previous = now;
-        if (!bench.advance(inputs_at(cable, plan.motion, sample)).converged)
+        const EndConditions ends = ends_at(cable, plan.motion, sample);
+        if (!with_effects.advance(sample, ends.proximal.value - rest.proximal.value,
+                                  ends.distal.value - rest.distal.value))
             throw InvalidInput({"truth: the motion with these effects has no solution at sample " +
                                 std::to_string(sample) + "; make the effects smaller"});
-        now = read_off(bench, cable, pieces);
+        now = with_effects.state();
         now.last_motion = pattern_between(previous, now);
         show(sample, previous, now);
     }
@@ -136,6 +123,42 @@ void simulate_truth(const StudyPlan& plan, const ShowStates& show) {
                                plan.transmission.rules);
     simulate(step, plan.motion,
              [&](const TrueSample& sample) { show(sample.sample, sample.previous, sample.now); });
+}
+
+struct CableWithEffects::Bench {
+    int pieces;
+    double sample_rate_Hz;
+    BenchSimulation simulation;
+
+    Bench(const CableSpecification& cable, const EffectValues& effects, double rate_Hz)
+        : pieces(pieces_of_each_segment(cable.segments)),
+          sample_rate_Hz(rate_Hz),
+          simulation({.cable = finer(cable, pieces),
+                      .arrangement = CableArrangement::single,
+                      .pulleys = {radius_m, radius_m}},
+                     effects_with(effects)) {}
+
+    static Cable finer(CableSpecification cable, int pieces) {
+        cable.segments *= pieces;
+        return Cable(cable);
+    }
+};
+
+CableWithEffects::CableWithEffects(const CableSpecification& cable, const EffectValues& effects,
+                                   double sample_rate_Hz)
+    : cable_(cable),
+      bench_(std::make_unique<Bench>(cable, effects, sample_rate_Hz)),
+      now_(read_off(bench_->simulation, cable_, bench_->pieces)) {}
+
+CableWithEffects::~CableWithEffects() = default;
+
+bool CableWithEffects::advance(int sample, double proximal_m, double distal_m) {
+    // The motor pulley reels in when its end moves backward.
+    const BenchInputs inputs{MotorAngle{-proximal_m / radius_m}, LoadAngle{-distal_m / radius_m},
+                             1.0 / bench_->sample_rate_Hz, sample / bench_->sample_rate_Hz};
+    if (!bench_->simulation.advance(inputs).converged) return false;
+    now_ = read_off(bench_->simulation, cable_, bench_->pieces);
+    return true;
 }
 
 }  // namespace capstan

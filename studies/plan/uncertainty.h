@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "capstan/effects/effect_catalogue.h"
 #include "capstan/sensing/sensor.h"
 
 namespace capstan {
@@ -34,11 +33,10 @@ struct Uncertainty {
         0.0;  ///< 95% of the time within plus and minus this; 0: as [motion.distal] moves
     double far_end_bandwidth_Hz = 2.0;
 
-    int members = 48;           ///< of the estimator's ensemble
+    int members = 64;           ///< of the estimator's ensemble
     double worlds_ratio = 1.0;  ///< the worlds' widths are this times what the estimator is told
-    /// Effects that the true cable has, with the probability that a world has them.
-    EffectValues effects = absent_effects();
-    double effects_probability = 1.0;
+    double truth_probability =
+        1.0;  ///< that a world has what [truth] says; else it is about the nominal cable
 };
 
 /// One or more sensors of a kind that can be bought, a row of [[sensor]].

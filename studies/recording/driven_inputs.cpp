@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capstan/platform/median.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan {

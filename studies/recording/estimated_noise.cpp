@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "capstan/platform/median.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/recording/driven_inputs.h"
 
 namespace capstan {

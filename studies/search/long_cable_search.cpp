@@ -205,7 +205,7 @@ JudgedLayout judged(const std::string& how, const Nodes& nodes, LayoutRater& sea
 void judge_again(JudgedLayout& layout, const Nodes& optimum, LayoutRater& independent) {
     const Rating own = independent.rate(layout.nodes);
     layout.method = own.method;
-    layout.fresh = interval_of(own.score());
+    layout.independent = interval_of(own.score());
     layout.difference = interval_of(difference_of(own.score(), independent.rate(optimum).score()));
 }
 
@@ -253,8 +253,8 @@ PlacementAnswer search_long_cable(const StudyPlan& plan, const PlacementOptions&
             }
             judge_again(count.optimum, best, independent);
             for (JudgedLayout& beside : count.beside) judge_again(beside, best, independent);
-            count.optimism_N = count.optimum.fresh.value_N - count.optimum.searched_N;
-            count.at_most_better_N = std::max(0.0, count.optimum.fresh.value_N - everywhere.error_N);
+            count.optimism_N = count.optimum.independent.value_N - count.optimum.searched_N;
+            count.at_most_better_N = std::max(0.0, count.optimum.independent.value_N - everywhere.error_N);
             if (options.on_progress) {
                 options.on_progress(std::to_string(count.sensors) + " of " + std::to_string(max_sensors) +
                                     " sensors placed");

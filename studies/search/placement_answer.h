@@ -13,10 +13,10 @@ struct JudgedLayout {
     std::string how;         ///< "optimum", "runner_up", "even", "distal", "both", "greedy_forward", ...
     std::vector<int> nodes;  // from 0
     std::string method;
-    double searched_N = 0.0;      ///< on the draws that chose it: optimistic for an optimum
-    IntervalEstimate fresh;       ///< on independent draws
-    IntervalEstimate difference;  ///< to the optimum of the same count, paired, independent draws
-    double after_loss_N = 0.0;    ///< after the worst loss of one sensor; infinite: none is left
+    double searched_N = 0.0;       ///< on the draws that chose it: optimistic for an optimum
+    IntervalEstimate independent;  ///< on independent draws
+    IntervalEstimate difference;   ///< to the optimum of the same count, paired, independent draws
+    double after_loss_N = 0.0;     ///< after the worst loss of one sensor; infinite: none is left
     double cost = 0.0;
     std::vector<std::string> breaks;  ///< keys of the constraints that it violates
 };
@@ -60,8 +60,8 @@ struct ScopeAnswer {
 enum class SearchKind { exhaustive, greedy };
 
 struct PlacementTimes {
-    double score_s = 0.0;  ///< wall time of scoring all candidates
-    double fresh_s = 0.0;  ///< wall time of scoring the chosen ones on independent draws
+    double score_s = 0.0;        ///< wall time of scoring all candidates
+    double independent_s = 0.0;  ///< wall time of scoring the chosen ones on independent draws
     double wall_s = 0.0;
 };
 

@@ -62,10 +62,10 @@ void judge_again(const PlacementScope& scope, const std::vector<ScenarioErrors>&
     const Score best = scope.score(independent, count.optimum.candidate);
     for_each_layout(count, [&](JudgedLayout& layout) {
         const Score own = scope.score(independent, layout.candidate);
-        layout.fresh = interval_of(own);
+        layout.independent = interval_of(own);
         layout.difference = interval_of(difference_of(own, best));
     });
-    count.optimism_N = count.optimum.fresh.value_N - count.optimum.searched_N;
+    count.optimism_N = count.optimum.independent.value_N - count.optimum.searched_N;
 }
 
 // Throws if layouts are allowed but none satisfies the limit on the error after a loss.
@@ -96,7 +96,8 @@ double min_resolved_N(const std::vector<ScopeAnswer>& scopes) {
 
 void ScopeAnswer::recommend_count(double worthwhile_gain_N) {
     std::vector<CountError> by_count;
-    for (const CountAnswer& count : counts) by_count.push_back({count.sensors, count.optimum.fresh.value_N});
+    for (const CountAnswer& count : counts)
+        by_count.push_back({count.sensors, count.optimum.independent.value_N});
     recommended_count = count_where_gain_flattens(by_count, worthwhile_gain_N);
 }
 
@@ -157,7 +158,7 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
             judge_again(scopes[k], independent.scenarios(), count);
         answer.scopes[k].recommend_count(plan.worthwhile_gain_N);
     }
-    answer.times.fresh_s = wall_time_s() - independent_start_s;
+    answer.times.independent_s = wall_time_s() - independent_start_s;
     answer.noise = plan.noise_levels[options.noise_index].label;
     answer.layouts = subsets->count() - 1;
     answer.candidates = answer.layouts * static_cast<int>(methods.size());

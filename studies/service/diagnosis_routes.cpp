@@ -4,7 +4,7 @@
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/diagnosis_store.h"
-#include "capstan/storage/live_queries.h"
+#include "capstan/storage/report_queries.h"
 
 namespace capstan::service {
 
@@ -74,16 +74,10 @@ std::vector<Route> diagnosis_routes(RouteContext& context) {
          {400, 413},
          {{"log", "binary", "NAME.csv"}, {"sidecar", "binary", "NAME.json"}},
          "multipart/form-data"},
-        {"get",
-         "/api/diagnoses/{diagnosis_id}",
-         "showDiagnosis",
+        {"get", "/api/diagnoses/{diagnosis_id}", "showDiagnosis",
          "As `capstan diagnose --json` writes it. A diagnosis that was not made by this service lacks "
          "`non_identifiable`, which the database does not keep",
-         "The diagnosis",
-         json_of("object"),
-         show,
-         200,
-         {404}},
+         "The diagnosis", json_of("object"), show},
     };
 }
 

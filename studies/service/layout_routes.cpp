@@ -60,7 +60,7 @@ std::vector<Route> layout_routes(RouteContext& context) {
              json_of("LayoutScore"),
              score,
              200,
-             {400, 404},
+             {400},
              {{"nodes", "[integer]", "From 1 at the motor"},
               {"method", "string", "As in fusion_method.method"},
               {"regime", "string"},

@@ -1,5 +1,5 @@
 // The interface as OpenAPI 3, from the rows of the routes.
-#include <regex>
+#include <set>
 
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
@@ -73,9 +73,8 @@ Json object_schema(const std::vector<ApiField>& fields) {
 
 Json parameters_of(const std::string& path) {
     Json parameters = Json::array();
-    const std::regex braces(R"(\{(\w+)\})");
-    for (std::sregex_iterator each(path.begin(), path.end(), braces), end; each != end; ++each) {
-        const std::string name = (*each)[1];
+    for (std::size_t open = 0; (open = path.find('{', open)) != std::string::npos; ++open) {
+        const std::string name = path.substr(open + 1, path.find('}', open) - open - 1);
         const Json schema =
             name == "name" ? Json{{"type", "string"}} : Json{{"type", "integer"}, {"minimum", 1}};
         parameters.push_back({{"name", name}, {"in", "path"}, {"required", true}, {"schema", schema}});
@@ -92,7 +91,9 @@ Json operation(const Route& route) {
     success["description"] = route.answer;
     for (const auto& [content_type, type] : route.answer_types)
         success["content"][content_type] = {{"schema", type_schema(type)}};
-    for (const int status : route.failures)
+    std::set<int> failures(route.failures.begin(), route.failures.end());
+    if (route.path.find('{') != std::string::npos) failures.insert(404);
+    for (const int status : failures)
         json["responses"][std::to_string(status)] = {{"$ref", "#/components/responses/Error"}};
     return json;
 }

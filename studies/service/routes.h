@@ -52,7 +52,7 @@ struct Route {
     std::map<std::string, std::string> answer_types;  ///< by content type, as ApiField::type
     httplib::Server::Handler handler;
     int status = 200;              ///< of a success
-    std::vector<int> failures{};   ///< other statuses
+    std::vector<int> failures{};   ///< other statuses; a path with braces also has 404
     std::vector<ApiField> body{};  ///< of a post
     std::string body_type = "application/json";
 };

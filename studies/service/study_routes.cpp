@@ -5,7 +5,7 @@
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/error.h"
-#include "capstan/storage/live_queries.h"
+#include "capstan/storage/report_queries.h"
 
 namespace capstan::service {
 
@@ -61,33 +61,12 @@ std::vector<Route> study_routes(RouteContext& context) {
     return {
         {"get", "/api/studies", "listStudies", "The studies, oldest first; as `capstan study list --json`",
          "Studies", json_of("[Study]"), list},
-        {"get",
-         "/api/studies/{study_id}",
-         "showStudy",
-         "As `capstan study show --json`",
-         "The study",
-         json_of("object"),
-         of_study(context, show),
-         200,
-         {404}},
-        {"get",
-         "/api/studies/{study_id}/units",
-         "listUnits",
-         "The work units, done or not",
-         "Units",
-         json_of("[object]"),
-         rows_of(storage::units_query),
-         200,
-         {404}},
-        {"get",
-         "/api/studies/{study_id}/cable",
-         "showCable",
-         "The cable, segment by segment from the motor",
-         "Segments",
-         json_of("[object]"),
-         rows_of(storage::cable_query),
-         200,
-         {404}},
+        {"get", "/api/studies/{study_id}", "showStudy", "As `capstan study show --json`", "The study",
+         json_of("object"), of_study(context, show)},
+        {"get", "/api/studies/{study_id}/units", "listUnits", "The work units, done or not", "Units",
+         json_of("[object]"), rows_of(storage::units_query)},
+        {"get", "/api/studies/{study_id}/cable", "showCable", "The cable, segment by segment from the motor",
+         "Segments", json_of("[object]"), rows_of(storage::cable_query)},
         {"get",
          "/api/studies/{study_id}/recommendation",
          "recommend",
@@ -96,16 +75,10 @@ std::vector<Route> study_routes(RouteContext& context) {
          json_of("object"),
          of_study(context, recommend),
          200,
-         {404, 409}},
-        {"get",
-         "/api/studies/{study_id}/report",
-         "report",
-         "Every table of the report, as `capstan report --format json`",
-         "Tables",
-         json_of("object"),
-         of_study(context, report),
-         200,
-         {404}},
+         {409}},
+        {"get", "/api/studies/{study_id}/report", "report",
+         "Every table of the report, as `capstan report --format json`", "Tables", json_of("object"),
+         of_study(context, report)},
     };
 }
 

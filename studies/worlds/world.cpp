@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "capstan/plan/true_motion.h"
 #include "capstan/sensing/random_stream.h"
@@ -12,10 +13,8 @@ namespace capstan {
 
 namespace {
 
-constexpr double normal_95 = 1.959963984540054;
-
 double deviation_of(const Uncertainty& uncertainty, double fraction) {
-    return uncertainty.distribution == FactorDistribution::normal ? std::log1p(fraction) / normal_95
+    return uncertainty.distribution == FactorDistribution::normal ? std::log1p(fraction) / deviations_of_95
                                                                   : fraction / std::numbers::sqrt3;
 }
 
@@ -73,6 +72,69 @@ struct SensorFault {
     double gain = 0.0;
 };
 
+std::vector<SensorFault> faults_of(const WorldQuestion& question, std::uint32_t index) {
+    std::vector<SensorFault> faults;
+    for (std::size_t s = 0; s < question.offers.size(); ++s) {
+        const auto normals = standard_normals(
+            {question.seed, RandomPurpose::world_sensor, 0, index, static_cast<std::uint32_t>(s)});
+        const SensorErrors& errors = question.offers[s].errors;
+        faults.push_back({errors.zero * normals[0], errors.gain_ratio * normals[1]});
+    }
+    return faults;
+}
+
+// The true cable of a world over time: by the closed-form step, or with effects by the bench.
+class TrueMover {
+  public:
+    TrueMover(const WorldQuestion& question, const World& world, std::uint32_t index)
+        : step_(Cable(specification_of(question, world, index)), ModelRules::consistent()),
+          stiffness_N_per_m_(question.belief.support.spring_stiffness_N_per_m),
+          state_(pretensioned(step_.cable())),
+          begun_m_(state_.displacement_m.front()) {
+        if (!question.truth.has_effects() || !is_as_truth_says(question, index)) return;
+        effects_.emplace(specification_of(question, world, index), question.truth.effects,
+                         question.motion.sample_rate_Hz);
+    }
+
+    bool has_effects() const { return effects_.has_value(); }
+    int unsolved_steps() const { return unsolved_steps_; }
+
+    // Both ends as they moved since the start; of a spring its wall.
+    const CableState& advance(int sample, double proximal_m, double far_end_m) {
+        if (effects_) {
+            if (!effects_->advance(sample, proximal_m, far_end_m)) ++unsolved_steps_;
+            return effects_->state();
+        }
+        const EndCondition distal =
+            stiffness_N_per_m_ > 0.0
+                ? EndCondition{stiffness_N_per_m_, 1.0,
+                               step_.cable().pretension_N() + stiffness_N_per_m_ * far_end_m}
+                : EndCondition::position_m(far_end_m);
+        const StepReport report =
+            step_.advance(state_, {EndCondition::position_m(begun_m_ + proximal_m), distal});
+        unsolved_steps_ += report.verified ? 0 : 1;
+        return state_;
+    }
+
+  private:
+    static bool is_as_truth_says(const WorldQuestion& question, std::uint32_t index) {
+        const double normal = standard_normals({question.seed, RandomPurpose::world_cable, 1, index, 0})[0];
+        return 0.5 * std::erfc(-normal / std::numbers::sqrt2) < question.uncertainty.truth_probability;
+    }
+    static CableSpecification specification_of(const WorldQuestion& question, const World& world,
+                                               std::uint32_t index) {
+        const CableSpecification cable = question.cable.with(world.factors);
+        return is_as_truth_says(question, index) ? true_specification(cable, question.truth) : cable;
+    }
+
+    QuasiStaticStep step_;
+    double stiffness_N_per_m_;
+    CableState state_;
+    double begun_m_;
+    std::optional<CableWithEffects> effects_;
+    int unsolved_steps_ = 0;
+};
+
 }  // namespace
 
 WorldQuestion world_question(const StudyPlan& plan, int segments) {
@@ -103,36 +165,19 @@ WorldQuestion world_question(const StudyPlan& plan, int segments) {
 World draw_world(const WorldQuestion& question, std::uint32_t index) {
     World world;
     world.factors = draw_factors(question, index);
-    const Cable cable(question.cable.with(world.factors));
     const Cable nominal(question.cable.nominal());
-    const QuasiStaticStep step(cable, ModelRules::consistent());
+    TrueMover mover(question, world, index);
     const std::vector<double> far_end_m = far_end_of(question, index);
-    const double stiffness = question.belief.support.spring_stiffness_N_per_m;
-    world.nodes = cable.nodes();
-
-    std::vector<SensorFault> faults;
-    for (std::size_t s = 0; s < question.offers.size(); ++s) {
-        const auto normals = standard_normals(
-            {question.seed, RandomPurpose::world_sensor, 0, index, static_cast<std::uint32_t>(s)});
-        const SensorErrors& errors = question.offers[s].errors;
-        faults.push_back({errors.zero * normals[0], errors.gain_ratio * normals[1]});
-    }
-
-    CableState state = pretensioned(cable);
-    const double begun_m = state.displacement_m.front();
-    double before_m = ends_at(nominal, question.motion, 0).proximal.value;
-    const double started_m = before_m;
+    const std::vector<SensorFault> faults = faults_of(question, index);
+    world.nodes = nominal.nodes();
+    const double started_m = ends_at(nominal, question.motion, 0).proximal.value;
+    double before_m = started_m;
     for (int sample = 1; sample <= question.motion.samples; ++sample) {
-        const auto at = static_cast<std::size_t>(sample - 1);
         const double now_m = ends_at(nominal, question.motion, sample).proximal.value;
         world.proximal_increment_m.push_back(now_m - before_m);
         before_m = now_m;
-        const EndCondition distal =
-            stiffness > 0.0 ? EndCondition{stiffness, 1.0, cable.pretension_N() + stiffness * far_end_m[at]}
-                            : EndCondition::position_m(far_end_m[at]);
-        const StepReport report =
-            step.advance(state, {EndCondition::position_m(begun_m + (now_m - started_m)), distal});
-        world.unverified_steps += report.verified ? 0 : 1;
+        const CableState& state =
+            mover.advance(sample, now_m - started_m, far_end_m[static_cast<std::size_t>(sample - 1)]);
         world.tension_N.insert(world.tension_N.end(), state.tension_N.begin(), state.tension_N.end());
         for (std::size_t s = 0; s < question.offers.size(); ++s) {
             const SensorOffer& offer = question.offers[s];
@@ -140,13 +185,15 @@ World draw_world(const WorldQuestion& question, std::uint32_t index) {
                 standard_normals({question.seed, RandomPurpose::world_reading,
                                   static_cast<std::uint32_t>(sample), index, static_cast<std::uint32_t>(s)});
             const double true_value = measures_tension(offer.kind)
-                                          ? tension_at_N(state, spot_at(cable, offer.place_m))
+                                          ? tension_at_N(state, spot_at(nominal, offer.place_m))
                                           : state.displacement_m.back();
             world.reading.push_back(
                 true_value * (1.0 + faults[s].gain + offer.errors.multiplicative_ratio * normals[0]) +
                 faults[s].zero + offer.errors.additive * normals[1]);
         }
     }
+    world.has_effects = mover.has_effects();
+    world.unsolved_steps = mover.unsolved_steps();
     return world;
 }
 

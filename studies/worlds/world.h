@@ -17,6 +17,7 @@ struct WorldQuestion {
     Uncertainty uncertainty;
     CableBelief belief;               ///< the plan's uncertainty, as the estimator is told
     std::vector<SensorOffer> offers;  ///< sensors with places, in the order of the configuration
+    TrueCable truth;  ///< what the worlds lie about; the nominal cable unless [truth] says else
     std::uint64_t seed = 1;
 };
 
@@ -29,7 +30,8 @@ struct World {
     std::vector<double> proximal_increment_m;  // samples
     std::vector<double> tension_N;             // samples x nodes
     std::vector<double> reading;               // samples x offers: N or m
-    int unverified_steps = 0;
+    bool has_effects = false;
+    int unsolved_steps = 0;  ///< of the true cable: no pattern verified, or the effects had no solution
     int nodes = 0;
 
     int samples() const { return static_cast<int>(proximal_increment_m.size()); }

@@ -19,7 +19,7 @@ constexpr int worlds_at_first = 20;
 constexpr int worlds_for_knowledge = 200;
 constexpr int worlds_for_robustness = 100;
 // Sets of the recommended price that compete where the widths are wrong.
-constexpr std::size_t rivals = 8;
+constexpr std::size_t rivals = 4;
 
 // All that is asked of the table, for one plan.
 class Choice {
@@ -169,7 +169,6 @@ std::vector<PriceBest> best_of_each_price(Choice& choice, std::vector<Group>& gr
         winners.push_back(best);
     }
     winners.push_back(0);
-    choice.fill(Condition::as_stated, winners, 0, choice.worlds(), "the best set of each price");
     choice.fill(Condition::as_stated, winners, choice.worlds(), 2 * choice.worlds(), "independent worlds");
     std::vector<PriceBest> prices;
     double least_N = choice.expected(0).objective.value_N;
@@ -178,7 +177,7 @@ std::vector<PriceBest> best_of_each_price(Choice& choice, std::vector<Group>& gr
         best.price = group.price;
         best.candidates = group.candidates;
         best.expected = choice.expected(group.left.front());
-        best.selected_N = choice.score(group.left.front(), 0, choice.worlds());
+        best.selected_N = choice.score(group.left.front(), 0, group.worlds);
         best.ties.assign(group.left.begin() + 1, group.left.end());
         best.on_front = best.expected.objective.value_N < least_N;
         least_N = std::min(least_N, best.expected.objective.value_N);

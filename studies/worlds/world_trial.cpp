@@ -9,8 +9,6 @@ namespace capstan {
 
 namespace {
 
-constexpr double normal_95 = 1.959963984540054;
-
 // Adds up what one sample says, and divides in the end.
 class ErrorSums {
   public:
@@ -23,7 +21,7 @@ class ErrorSums {
             node_abs_N_[node] += error_N;
             squares_N2_ += error_N * error_N;
             // Rounding of a band without width, where everything is known.
-            covered_ += error_N <= normal_95 * deviation_N[node] + 1e-9 ? 1.0 : 0.0;
+            covered_ += error_N <= deviations_of_95 * deviation_N[node] + 1e-9 ? 1.0 : 0.0;
         }
         ++samples_;
     }

@@ -10,7 +10,7 @@ namespace capstan::fuzz {
 
 namespace {
 
-void demand(bool kept, const std::string& promise) {
+void require(bool kept, const std::string& promise) {
     if (!kept) throw BrokenPromise(promise);
 }
 
@@ -28,11 +28,11 @@ double largest(const std::vector<double>& values) {
 
 void demand_a_state(const Cable& cable, const CableState& state) {
     const auto nodes = static_cast<std::size_t>(cable.nodes());
-    demand(state.tension_N.size() == nodes && state.displacement_m.size() == nodes, "number of nodes");
+    require(state.tension_N.size() == nodes && state.displacement_m.size() == nodes, "number of nodes");
     for (std::size_t node = 0; node < nodes; ++node) {
-        demand(std::isfinite(state.tension_N[node]), "tension is finite" + at_node(node));
-        demand(state.tension_N[node] >= 0.0, "tension is not negative" + at_node(node));
-        demand(std::isfinite(state.displacement_m[node]), "displacement is finite" + at_node(node));
+        require(std::isfinite(state.tension_N[node]), "tension is finite" + at_node(node));
+        require(state.tension_N[node] >= 0.0, "tension is not negative" + at_node(node));
+        require(std::isfinite(state.displacement_m[node]), "displacement is finite" + at_node(node));
     }
 }
 
@@ -57,7 +57,7 @@ void VerifiedAnswers::demand_ends(const CableState& state, const EndConditions& 
         const double tolerance = 1e-11 * std::abs(end.value) +
                                  std::abs(end.displacement_factor) * rounding_m_ +
                                  std::abs(end.tension_factor) * rounding_N_;
-        demand(std::abs(left - end.value) <= tolerance, std::string(name) + " end's condition is met");
+        require(std::abs(left - end.value) <= tolerance, std::string(name) + " end's condition is met");
     };
     check("proximal", ends.proximal, state.tension_N.front(), state.displacement_m.front());
     check("distal", ends.distal, state.tension_N.back(), state.displacement_m.back());
@@ -69,25 +69,25 @@ void VerifiedAnswers::demand_segments(const CableState& state) const {
         const double a_N = state.tension_N[i];
         const double b_N = state.tension_N[i + 1];
         const double holds = std::exp(cable.static_friction() * cable.wrap_angle_rad()[i]) * (1.0 + 1e-9);
-        demand(std::max(a_N, b_N) <= std::min(a_N, b_N) * holds + rounding_N_,
-               "a segment holds no more than static friction" + at_node(static_cast<std::size_t>(i)));
+        require(std::max(a_N, b_N) <= std::min(a_N, b_N) * holds + rounding_N_,
+                "a segment holds no more than static friction" + at_node(static_cast<std::size_t>(i)));
         if (step_.rules().elongation != ElongationRule::mean_tension) continue;
         const double elongation_m = state.displacement_m[i + 1] - state.displacement_m[i];
         const double expected_m = cable.segment_compliance_m_per_N() * 0.5 * (a_N + b_N);
-        demand(std::abs(elongation_m - expected_m) <= 4.0 * rounding_m_,
-               "a taut segment is as long as its tensions say" + at_node(static_cast<std::size_t>(i)));
+        require(std::abs(elongation_m - expected_m) <= 4.0 * rounding_m_,
+                "a taut segment is as long as its tensions say" + at_node(static_cast<std::size_t>(i)));
     }
 }
 
 void demand_unchanged(const CableState& before, const CableState& after) {
-    demand(before.tension_N == after.tension_N && before.displacement_m == after.displacement_m &&
-               before.last_motion == after.last_motion,
-           "a refused input leaves the state unchanged");
+    require(before.tension_N == after.tension_N && before.displacement_m == after.displacement_m &&
+                before.last_motion == after.last_motion,
+            "a refused input leaves the state unchanged");
 }
 
 void demand_words(const std::string& thrown, const std::string& words) {
-    demand(thrown.find(words) != std::string::npos,
-           "refused by name: expected \"" + words + "\", got \"" + thrown + "\"");
+    require(thrown.find(words) != std::string::npos,
+            "refused by name: expected \"" + words + "\", got \"" + thrown + "\"");
 }
 
 }  // namespace capstan::fuzz

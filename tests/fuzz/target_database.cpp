@@ -10,7 +10,6 @@
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/health.h"
-#include "capstan/storage/live_queries.h"
 #include "capstan/storage/report_queries.h"
 #include "capstan/storage/study_store.h"
 #include "sample_database.h"
@@ -63,7 +62,9 @@ void read_study(Database& database, std::int64_t id) {
     let_refuse([&] { reports::study_report_json(database, id); });
     let_refuse([&] { reports::study_report_markdown(database, id); });
     let_refuse([&] { reports::study_error_csv(database, id); });
-    let_refuse([&] { reports::answer_text(answers::recommendation_answer(answers::read_conclusions(database, id))); });
+    let_refuse([&] {
+        reports::answer_text(answers::recommendation_answer(answers::read_conclusions(database, id)));
+    });
     let_refuse([&] { load_stored_study(database, id); });
     let_refuse([&] { storage::pending_units(database, id); });
     let_refuse([&] { storage::read_single_sensor(database, id, 0, 0); });
@@ -77,7 +78,10 @@ void read_study(Database& database, std::int64_t id) {
 void read_all(const std::filesystem::path& path) {
     Database database = Database::open_read_only(path);
     let_refuse([&] { storage::examine(database); });
-    let_refuse([&] { storage::load_diagnoses(database); });
+    let_refuse([&] {
+        for (const storage::DiagnosisSummary& each : storage::list_diagnoses(database))
+            storage::load_diagnosis(database, each.diagnosis_id);
+    });
     let_refuse([&] { storage::read_shard(database); });
     let_refuse([&] { storage::run_read_only(database, storage::studies_query); });
     let_refuse([&] {

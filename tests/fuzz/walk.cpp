@@ -14,7 +14,7 @@ namespace capstan::fuzz {
 
 namespace {
 
-// Friction exponent of the whole cable (mu_d times wrap angle), beyond which the ends' tensions can be so far
+// Friction exponent of the complete cable (mu_d times wrap angle), beyond which the ends' tensions can be so far
 // apart that the smaller one, and the end's place by it, is below the rounding of the other: 1 to 5e8.
 constexpr double exponent_that_doubles_resolve = 20.0;
 

@@ -12,6 +12,10 @@
 
 namespace capstan::sample {
 
+inline bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 class SampleReport {
   public:
     explicit SampleReport(const SampleOptions& options = {})

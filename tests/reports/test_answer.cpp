@@ -3,12 +3,15 @@
 #include <cmath>
 
 #include "capstan/reports/answer.h"
+#include "sample_report.h"
 
 namespace capstan::reports {
 namespace {
 
+using sample::holds;
+
 // A page with one of the two figures' tables of the comparison of solvers.
-Answer page_of(const std::string& title) {
+Answer answer_titled(const std::string& title) {
     Answer page;
     page.id = "solver";
     page.kind = "Test";
@@ -31,54 +34,50 @@ Answer page_of(const std::string& title) {
     return page;
 }
 
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 TEST(AnswerPage, ShowsNumbersBesideTheFiguresOfItsSection) {
-    const std::string html = answer_html(page_of("Solvers"));
+    const std::string html = answer_html(answer_titled("Solvers"));
     EXPECT_LT(html.find("<table class=\"numbers\">"), html.find("<figure id=\"figure-rate\""));
     EXPECT_TRUE(holds(html, "default-src 'none'"));
     EXPECT_LT(html.size(), 3'000'000U);
 }
 
 TEST(AnswerPage, LeavesOutFiguresWithoutRowsAndSectionsWithoutFigures) {
-    const std::string html = answer_html(page_of("Solvers"));
+    const std::string html = answer_html(answer_titled("Solvers"));
     EXPECT_FALSE(holds(html, "id=\"figure-agreement\""));
     EXPECT_FALSE(holds(html, "<section id=\"agreement\""));
     EXPECT_FALSE(holds(html, "href=\"#agreement\""));
 }
 
 TEST(AnswerPage, CarriesNoFigureOfAnotherPage) {
-    EXPECT_FALSE(holds(answer_html(page_of("Solvers")), "\"error_by_count\""));
+    EXPECT_FALSE(holds(answer_html(answer_titled("Solvers")), "\"error_by_count\""));
 }
 
 TEST(AnswerPage, EscapesHostileTexts) {
-    const std::string html = answer_html(page_of("</script><script>alert(1)</script>"));
+    const std::string html = answer_html(answer_titled("</script><script>alert(1)</script>"));
     EXPECT_FALSE(holds(html, "<script>alert"));
     EXPECT_TRUE(holds(html, "&lt;script&gt;alert"));
 }
 
 TEST(Answer, TextShowsUnitsIntervalsAndTheHeadlineFirst) {
-    const std::string text = answer_text(page_of("Solvers"));
+    const std::string text = answer_text(answer_titled("Solvers"));
     EXPECT_TRUE(text.starts_with("Solvers: One sentence.\n"));
     EXPECT_TRUE(holds(text, "Between [N]"));
     EXPECT_TRUE(holds(text, "0.25 to 0.50"));
 }
 
 TEST(Answer, CsvHasEveryValueOfEveryTableInFullPrecision) {
-    const std::string csv = answer_csv(page_of("A, B"));
+    const std::string csv = answer_csv(answer_titled("A, B"));
     EXPECT_TRUE(csv.starts_with("table,row,column,value,unit"));
     EXPECT_TRUE(holds(csv, "numbers,1,what,\"A, B\","));
     EXPECT_TRUE(holds(csv, "numbers,1,interval,\"[0.25,0.5]\",N"));
 }
 
 TEST(Answer, MarkdownEscapesWhatWouldEndATable) {
-    EXPECT_TRUE(holds(answer_markdown(page_of("a|b")), "a\\|b"));
+    EXPECT_TRUE(holds(answer_markdown(answer_titled("a|b")), "a\\|b"));
 }
 
 TEST(Answer, JsonIsTheTreeOfValuesAndANumberThatIsNotFiniteIsNull) {
-    Answer answer = page_of("Solvers");
+    Answer answer = answer_titled("Solvers");
     answer.values["error_N"] = std::nan("");
     EXPECT_TRUE(holds(answer_json(answer), "\"error_N\": null"));
     EXPECT_TRUE(holds(answer_json(answer), "\"count\": 3"));

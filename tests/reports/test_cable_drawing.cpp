@@ -16,7 +16,7 @@ Table cable(const std::vector<Value>& radii_m) {
     return table;
 }
 
-int count_of(const std::string& text, const std::string& part) {
+int occurrences(const std::string& text, const std::string& part) {
     int count = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
     return count;
@@ -24,20 +24,20 @@ int count_of(const std::string& text, const std::string& part) {
 
 TEST(CableDrawing, PinsEverySensor) {
     const std::string svg = cable_drawing(cable({0.3, 0.3, 0.3, 0.3}), {1, 5});
-    EXPECT_EQ(count_of(svg, "class=\"sensor\""), 2);
-    EXPECT_EQ(count_of(svg, "class=\"node\""), 5);
+    EXPECT_EQ(occurrences(svg, "class=\"sensor\""), 2);
+    EXPECT_EQ(occurrences(svg, "class=\"node\""), 5);
     EXPECT_NE(svg.find("sensors at nodes 1, 5"), std::string::npos);
 }
 
 TEST(CableDrawing, JoinsNeighboursOfOneRadiusIntoOneBend) {
     const std::string svg = cable_drawing(cable({Value{}, 0.3, 0.3, 0.05}), {2});
-    EXPECT_EQ(count_of(svg, "class=\"bend\""), 2);
+    EXPECT_EQ(occurrences(svg, "class=\"bend\""), 2);
     EXPECT_NE(svg.find("wraps 191°"), std::string::npos);  // 1 m around 0.3 m
-    EXPECT_EQ(count_of(svg, ">straight<"), 1);
+    EXPECT_EQ(occurrences(svg, ">straight<"), 1);
 }
 
 TEST(CableDrawing, IgnoresASensorThatIsNotOnTheCable) {
-    EXPECT_EQ(count_of(cable_drawing(cable({0.3}), {3}), "class=\"sensor\""), 0);
+    EXPECT_EQ(occurrences(cable_drawing(cable({0.3}), {3}), "class=\"sensor\""), 0);
 }
 
 TEST(CableDrawing, DrawsNothingWithoutACable) {
@@ -46,7 +46,7 @@ TEST(CableDrawing, DrawsNothingWithoutACable) {
 
 TEST(CableDrawing, CopesWithManyNodes) {
     const std::string svg = cable_drawing(cable(std::vector<Value>(200, 0.3)), {100, 101});
-    EXPECT_EQ(count_of(svg, "class=\"sensor\""), 2);
+    EXPECT_EQ(occurrences(svg, "class=\"sensor\""), 2);
 }
 
 }  // namespace

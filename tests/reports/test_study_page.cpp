@@ -11,15 +11,12 @@
 namespace capstan::reports {
 namespace {
 
+using sample::holds;
 using sample::SampleReport;
 
 std::string page_of(const sample::SampleOptions& options = {}) {
     SampleReport sample(options);
     return study_report_html(sample.database, sample.study_id);
-}
-
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 std::size_t count_of(const std::string& text, const std::string& part) {

@@ -11,7 +11,7 @@
 namespace capstan {
 namespace {
 
-double proximal_m(const Cable& cable, int step) {
+double moved_proximal_m(const Cable& cable, int step) {
     return pretensioned(cable).displacement_m.front() + 0.006 * std::sin(2.0 * std::numbers::pi * step / 100);
 }
 
@@ -23,7 +23,7 @@ double mean_error_N(const FusionMethod& method, const std::vector<int>& sensors,
     double sum_N = 0.0;
     int count = 0;
     for (int step = 1; step <= 25; ++step) {
-        const double near_m = proximal_m(model.cable(), step);
+        const double near_m = moved_proximal_m(model.cable(), step);
         model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(0.0)});
         std::vector<NodeReading> readings;
         for (const int node : sensors)
@@ -52,7 +52,7 @@ TEST(RecursiveFusion, WhereNoPatternVerifiesTheStateStays) {
     const CableState start = pretensioned(model.cable());
     RecursiveFusion fusion(model, start, mean_method, DistalSide::excluded);
     const NodeReading pushes[] = {{0, -50.0}, {10, -50.0}};
-    EXPECT_EQ(fusion.step(proximal_m(model.cable(), 1), pushes), 2);
+    EXPECT_EQ(fusion.step(moved_proximal_m(model.cable(), 1), pushes), 2);
     EXPECT_EQ(fusion.estimate().tension_N, start.tension_N);
     EXPECT_EQ(fusion.estimate().displacement_m, start.displacement_m);
     EXPECT_EQ(fusion.estimate().last_motion.kind, MotionKind::rest);
@@ -82,7 +82,7 @@ TEST(RecursiveFusion, StaysFiniteThroughEveryKindOfMotionOfTheTruth) {
     RecursiveFusion fusion(model, truth, mean_r_method, DistalSide::admitted);
     std::set<MotionKind> seen;
     for (int step = 1; step <= 200; ++step) {
-        const double near_m = proximal_m(model.cable(), step);
+        const double near_m = moved_proximal_m(model.cable(), step);
         const double far_m = step > 100 ? 1e-3 * std::sin(0.2 * step) : 0.0;
         model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(far_m)});
         seen.insert(truth.last_motion.kind);

@@ -9,7 +9,7 @@
 namespace capstan {
 namespace {
 
-int way_of(const DirectionBits& bits, int segment) {
+int segment_way(const DirectionBits& bits, int segment) {
     return static_cast<int>(bits.forward >> segment & 1) - static_cast<int>(bits.backward >> segment & 1);
 }
 
@@ -32,9 +32,9 @@ struct Sides {
 
 Sides sides_of(const DirectionBits& directions, int segments) {
     Sides sides;
-    while (sides.leading < segments && way_of(directions, sides.leading) != 0) ++sides.leading;
+    while (sides.leading < segments && segment_way(directions, sides.leading) != 0) ++sides.leading;
     while (sides.leading + sides.trailing < segments &&
-           way_of(directions, segments - 1 - sides.trailing) != 0) {
+           segment_way(directions, segments - 1 - sides.trailing) != 0) {
         ++sides.trailing;
     }
     return sides;
@@ -49,7 +49,7 @@ std::vector<double> displacements_m(const EstimationProblem& problem, const Dire
     std::vector<double> u_m = problem.previous.displacement_m;
     u_m[0] = problem.proximal_displacement_m;
     for (int i = 0; i < sides.leading; ++i) {
-        u_m[i + 1] = u_m[i] + elongation_m(problem, i, way_of(directions, i), tension_N[i]);
+        u_m[i + 1] = u_m[i] + elongation_m(problem, i, segment_way(directions, i), tension_N[i]);
     }
     if (sides.trailing == 0) return u_m;
     const int first = segments - sides.trailing;
@@ -57,7 +57,7 @@ std::vector<double> displacements_m(const EstimationProblem& problem, const Dire
                  problem.model.cable().segment_compliance_m_per_N() *
                      (problem.previous.tension_N[first - 1] + tension_N[first]) / 2.0;
     for (int i = first; i < segments; ++i) {
-        u_m[i + 1] = u_m[i] + elongation_m(problem, i, way_of(directions, i), tension_N[i]);
+        u_m[i + 1] = u_m[i] + elongation_m(problem, i, segment_way(directions, i), tension_N[i]);
     }
     return u_m;
 }
@@ -66,7 +66,7 @@ std::vector<double> displacements_m(const EstimationProblem& problem, const Dire
 bool moved_its_way(const EstimationProblem& problem, const DirectionBits& directions,
                    const std::vector<double>& u_m) {
     for (int i = 0; i < problem.model.cable().segments(); ++i) {
-        const int way = way_of(directions, i);
+        const int way = segment_way(directions, i);
         const double here_m = way * (u_m[i] - problem.previous.displacement_m[i]);
         const double next_m = way * (u_m[i + 1] - problem.previous.displacement_m[i + 1]);
         if (way == 0) continue;
@@ -98,7 +98,7 @@ bool checks_hold(const EstimationProblem& problem, const DirectionBits& directio
     if (sides.leading + sides.trailing == segments) return true;
     // A segment is dragged forward if tension is higher at its distal node.
     const int near = sides.leading;
-    const int near_way = near > 0 ? way_of(directions, near - 1)
+    const int near_way = near > 0 ? segment_way(directions, near - 1)
                                   : sign(direction_of(u_m[0] - problem.previous.displacement_m[0]));
     const double near_N = tension_N[near];
     const double resting_N = problem.previous.tension_N[near + 1];
@@ -106,7 +106,7 @@ bool checks_hold(const EstimationProblem& problem, const DirectionBits& directio
     if (near_way < 0 && !front_holds(problem, near, resting_N, near_N)) return false;
     if (sides.trailing == 0) return true;
     const int far = segments - sides.trailing;
-    const int far_way = way_of(directions, far);
+    const int far_way = segment_way(directions, far);
     const double resting_before_far_N = problem.previous.tension_N[far - 1];
     if (far_way > 0) return front_holds(problem, far - 1, resting_before_far_N, tension_N[far]);
     return front_holds(problem, far - 1, tension_N[far], resting_before_far_N);

@@ -31,7 +31,7 @@ BenchEffects typical(const std::string& name, const std::string& variant) {
     return effects;
 }
 
-BenchInputs hand_at(int step) {
+BenchInputs hand_in_lanes_at(int step) {
     const double angle = 0.3 * std::sin(2.0 * std::numbers::pi * step * 0.005);
     return {MotorTorque{-0.3 * angle}, LoadAngle{angle}, 0.005, step * 0.005};
 }
@@ -49,8 +49,8 @@ TEST(BenchSimulations, ABenchIsIndependentOfItsNeighbours) {
         BenchSimulations all(descriptions, effects);
         BenchSimulation alone(descriptions[at], effects[at]);
         for (int step = 1; step <= 300; ++step) {
-            all.advance(hand_at(step));
-            alone.advance(hand_at(step));
+            all.advance(hand_in_lanes_at(step));
+            alone.advance(hand_in_lanes_at(step));
             ASSERT_EQ(all.pulleys(bench).load_torque_Nm(), alone.load_torque_Nm()) << bench << " at " << step;
             ASSERT_EQ(all.pulleys(bench).motor_angle_rad(), alone.motor_angle_rad())
                 << bench << " at " << step;

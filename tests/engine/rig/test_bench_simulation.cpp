@@ -6,22 +6,12 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/effects/effect_catalogue.h"
 #include "capstan/rig/bench_simulation.h"
+#include "example_bench.h"
 
 namespace capstan {
 namespace {
 
-constexpr double time_step_s = 0.005;
-constexpr Pulleys pulleys{0.02, 0.104};
-
-Cable cable_with(int segments) {
-    CableSpecification specification;
-    specification.curvature = {{0.6, 5.0}, {0.8, 0.28}, {0.6, 5.0}};
-    specification.segments = segments;
-    specification.axial_stiffness_N = 4000.0;
-    specification.dynamic_friction = specification.static_friction = 0.21;
-    specification.pretension_N = 6.0;
-    return Cable(specification);
-}
+using namespace test;
 
 // A hand that moves the handle to and fro against a motor torque that pushes it back.
 BenchInputs hand_at(int step) {

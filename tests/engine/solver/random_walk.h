@@ -9,7 +9,7 @@
 namespace capstan::test {
 
 /// Both ends wander at random, each step from where the cable is: positions by up to `step_m`, tensions by up
-/// to the force that would stretch the whole cable as much, springs by moving their walls and by what is in
+/// to the force that would stretch the complete cable as much, springs by moving their walls and by what is in
 /// them. Each end keeps its way for some steps, so that fronts run far into the cable before they turn.
 class RandomWalk {
   public:
@@ -34,7 +34,7 @@ class RandomWalk {
 
     InputPair pair_;
     double step_m_;
-    double stiffness_N_per_m_;  // of the whole cable
+    double stiffness_N_per_m_;  // of the complete cable
     Way proximal_;
     Way distal_;
     std::mt19937_64 random_;

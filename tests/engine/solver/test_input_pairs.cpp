@@ -13,7 +13,7 @@ namespace {
 
 enum class Pair { position_tension, tension_position, position_spring, spring_position, tension_spring };
 
-class InputPair : public testing::TestWithParam<Pair> {};
+class PrescribedEnds : public testing::TestWithParam<Pair> {};
 
 EndConditions seen_as(Pair pair, const CableState& state) {
     const double near_m = state.displacement_m.front();
@@ -36,7 +36,7 @@ EndConditions seen_as(Pair pair, const CableState& state) {
     return {};
 }
 
-TEST_P(InputPair, GoesTheWayThatPositionsDescribe) {
+TEST_P(PrescribedEnds, GoesTheWayThatPositionsDescribe) {
     CableSpecification specification = test::routed_specification(12);
     specification.static_friction = specification.dynamic_friction;
     const Cable cable(specification);
@@ -67,7 +67,7 @@ TEST_P(InputPair, GoesTheWayThatPositionsDescribe) {
     EXPECT_LT(other_answers, 30);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, InputPair,
+INSTANTIATE_TEST_SUITE_P(All, PrescribedEnds,
                          testing::Values(Pair::position_tension, Pair::tension_position,
                                          Pair::position_spring, Pair::spring_position, Pair::tension_spring));
 

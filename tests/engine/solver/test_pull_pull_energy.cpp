@@ -20,7 +20,7 @@ struct Drive {
     bool goes_slack;
 };
 
-struct Audit {
+struct PairAudit {
     test::EnergyAccount cables;
     double motor_J = 0.0;  // into the pair
     double load_J = 0.0;   // out of it: into a spring, and through it into its wall
@@ -47,7 +47,7 @@ class PullPullEnergy : public testing::TestWithParam<Drive> {};
 
 // Torques at the middle of the step times the angles turned in it (E16); a spring's own energy and its wall.
 void add_step(const PullPull& pair, const PullPullState& before, const PullPullState& after,
-              const PullPullInputs& from, const PullPullInputs& to, Audit& audit) {
+              const PullPullInputs& from, const PullPullInputs& to, PairAudit& audit) {
     const double motor_Nm = 0.5 * (pair.motor_torque_Nm(before) + pair.motor_torque_Nm(after));
     const double load_Nm = 0.5 * (pair.load_torque_Nm(before) + pair.load_torque_Nm(after));
     audit.motor_J += motor_Nm * (after.motor_angle_rad - before.motor_angle_rad);
@@ -70,7 +70,7 @@ TEST_P(PullPullEnergy, OfAFullCycleBalancesToRounding) {
         const double angle = 2.0 * std::numbers::pi * n / steps;
         return GetParam().inputs(std::sin(angle), std::sin(2.0 * angle));
     };
-    Audit audit;
+    PairAudit audit;
     for (int n = 1; n <= 3 * steps; ++n) {
         const PullPullState before = state;
         const PullPullReport report = pair.advance(state, inputs_at(n));

@@ -14,7 +14,7 @@
 namespace capstan {
 namespace {
 
-constexpr std::array halvings{10, 20, 40, 80, 160, 320, 640};  // segments
+constexpr std::array segment_counts{10, 20, 40, 80, 160, 320, 640};  // segments
 constexpr int finest_segments = 2560;
 constexpr double no_stiction = 0.21;
 
@@ -53,7 +53,7 @@ class EndMovedBy : public testing::TestWithParam<double> {};  // proximal displa
 TEST_P(EndMovedBy, NeedsTheTensionThatTheUncutCableWould) {
     const double expected_N = UncutCable{}.end_tension_N(GetParam());
     test::ErrorsByHalving errors;
-    for (const int segments : halvings) {
+    for (const int segments : segment_counts) {
         const Cable cable = cable_of(segments, no_stiction);
         const test::SampledPath one_step{[](double) { return test::EndMotion{GetParam(), 0.0}; }, 1};
         errors.add(std::abs(one_step.states(cable, 1).front().tension_N.front() - expected_N));
@@ -73,7 +73,7 @@ class Cycle : public testing::TestWithParam<test::EndMotion (*)(double)> {
     test::ErrorsByHalving errors(double static_friction) const {
         const auto finest = states(finest_segments, no_stiction);
         test::ErrorsByHalving errors;
-        for (const int segments : halvings) {
+        for (const int segments : segment_counts) {
             errors.add(test::mean_difference_N(states(segments, static_friction), finest,
                                                finest_segments / segments));
         }

@@ -21,7 +21,7 @@ namespace capstan {
 namespace {
 
 constexpr int finest_steps_per_instant = 4096;
-constexpr std::array halvings{1, 2, 4, 8, 16, 32, 64, 128};  // steps per instant
+constexpr std::array steps_per_instant{1, 2, 4, 8, 16, 32, 64, 128};
 
 Cable cable_with_stiction(double static_friction) {
     CableSpecification specification = test::paper_specification(40);
@@ -37,7 +37,8 @@ test::SampledPath sampled(test::EndMotion (*motion)(double)) {
 test::ErrorsByHalving errors_of(const test::SampledPath& path, const Cable& cable) {
     const auto finest = path.states(cable, finest_steps_per_instant);
     test::ErrorsByHalving errors;
-    for (const int steps : halvings) errors.add(test::mean_difference_N(path.states(cable, steps), finest));
+    for (const int steps : steps_per_instant)
+        errors.add(test::mean_difference_N(path.states(cable, steps), finest));
     return errors;
 }
 

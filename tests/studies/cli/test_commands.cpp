@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cli/command.h"
-#include "capstan/cli/command_line.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/help_text.h"
 

@@ -21,7 +21,7 @@ BenchPlan plan_of(const std::string& toml) {
 }
 
 // "2: motor.amplitdue_Nm: unknown key; ..." for each problem; the text begins on line 2.
-std::vector<std::string> problems_in(const std::string& toml) {
+std::vector<std::string> bench_problems_in(const std::string& toml) {
     std::vector<std::string> texts;
     try {
         plan_of(toml);
@@ -47,32 +47,32 @@ TEST(BenchKeys, PrintedDefaultReadsBackAsTheDefault) {
 }
 
 TEST(BenchKeys, UnknownKeysAreNamedWithLineAndNearestName) {
-    EXPECT_THAT(problems_in("[motor]\namplitdue_Nm = 1\n"),
+    EXPECT_THAT(bench_problems_in("[motor]\namplitdue_Nm = 1\n"),
                 ElementsAre("3: motor.amplitdue_Nm: unknown key; did you mean 'amplitude_Nm'?"));
-    EXPECT_THAT(problems_in("[effect.viscuos_friction]\n"),
+    EXPECT_THAT(bench_problems_in("[effect.viscuos_friction]\n"),
                 ElementsAre(HasSubstr("did you mean 'viscous_friction'?")));
 }
 
 TEST(BenchKeys, AnInputsValuesMustBeInItsUnitAndOfItsWaveform) {
     EXPECT_THAT(
-        problems_in("[motor]\ninput = \"angle\"\namplitude_Nm = 0.1\n"),
+        bench_problems_in("[motor]\ninput = \"angle\"\namplitude_Nm = 0.1\n"),
         ElementsAre(HasSubstr("has a meaning only with waveform = \"ramps\" and input = \"torque\"")));
-    EXPECT_THAT(problems_in("[motor]\nwaveform = \"steps\"\ndwell_s = 1\n"),
+    EXPECT_THAT(bench_problems_in("[motor]\nwaveform = \"steps\"\ndwell_s = 1\n"),
                 ElementsAre(HasSubstr("has a meaning only with waveform = \"ramps\"")));
-    EXPECT_THAT(problems_in("[load]\nwaveform = \"sines\"\n"),
+    EXPECT_THAT(bench_problems_in("[load]\nwaveform = \"sines\"\n"),
                 ElementsAre(HasSubstr("has a meaning only with input")));
-    EXPECT_THAT(problems_in("[load]\ninput = \"spring\"\n"),
+    EXPECT_THAT(bench_problems_in("[load]\ninput = \"spring\"\n"),
                 ElementsAre(HasSubstr("stiffness_Nm_per_rad: is missing")));
 }
 
 TEST(BenchKeys, TorqueAtBothPulleysIsRefused) {
-    EXPECT_THAT(problems_in("[load]\ninput = \"torque\"\n"),
+    EXPECT_THAT(bench_problems_in("[load]\ninput = \"torque\"\n"),
                 ElementsAre(StartsWith("3: load.input: is \"torque\"")));
 }
 
 TEST(BenchKeys, EachSineNeedsItsFrequencyAndPhase) {
     EXPECT_THAT(
-        problems_in("[motor]\nwaveform = \"sines\"\namplitudes_Nm = [0.1, 0.1]\nphases_rad = [0, 0]\n"),
+        bench_problems_in("[motor]\nwaveform = \"sines\"\namplitudes_Nm = [0.1, 0.1]\nphases_rad = [0, 0]\n"),
         ElementsAre(HasSubstr("has 1 numbers for 2 amplitudes")));
     EXPECT_THAT(plan_of("[motor]\nwaveform = \"sines\"\namplitudes_Nm = [0.1, 0.1]\nfrequencies_Hz = [1, 2]\n"
                         "phases_rad = [0, 0]\n")
@@ -89,12 +89,12 @@ TEST(BenchKeys, EveryEffectOfTheCatalogueHasItsKeys) {
     EXPECT_EQ(keys, parameters);
     const BenchPlan plan = plan_of("[effect.local_bend_cable_A]\nangle_rad = 0.5\n");
     EXPECT_THAT(effects_there(plan.effects), ElementsAre("local_bend (cable A)"));
-    EXPECT_THAT(problems_in("[effect.backlash_motor]\nhalf_gap_rad = 2\n"),
+    EXPECT_THAT(bench_problems_in("[effect.backlash_motor]\nhalf_gap_rad = 2\n"),
                 ElementsAre(HasSubstr("is 2 rad, but must be 0 to 1")));
 }
 
 TEST(BenchKeys, FrictionAtRestIsAtLeastThatOfSliding) {
-    EXPECT_THAT(problems_in("[cable]\ndynamic_friction = 0.7\n"),
+    EXPECT_THAT(bench_problems_in("[cable]\ndynamic_friction = 0.7\n"),
                 ElementsAre(HasSubstr("below dynamic_friction")));
 }
 

@@ -183,7 +183,7 @@ TEST(ConfigWriter, PrintedDefaultExplainsEveryKey) {
 TEST(ConfigWriter, AwkwardValuesRoundTrip) {
     StudyPlan plan = default_plan();
     plan.name = "a \"quoted\" \\ name\twith\nbreaks and \xc3\xa9";
-    plan.seed = 9007199254740993;  // beyond the whole numbers of double
+    plan.seed = 9007199254740993;  // beyond the integers of double
     plan.transmission.cable.pretension_N = 0.1 + 0.2;
     plan.transmission.cable.axial_stiffness_N = 1e20;
     plan.transmission.cable.curvature.push_back({0.5, straight});

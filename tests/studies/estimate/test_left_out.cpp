@@ -102,7 +102,7 @@ TEST(LeaveOut, OneChannelLeavesNothingToPredictFrom) {
     cable.channels.resize(1);
     for (SensedRun& run : cable.runs) run.reading_N.resize(1);
     EXPECT_THROW(leave_out(cable, {0}, {}), InvalidInput);
-    EXPECT_FALSE(prepare_whole(cable, {}).widening_known);
+    EXPECT_FALSE(tune_estimator(cable, {}).widening_known);
 }
 
 TEST(SensedCable, RefusesARecordingWithoutTensionsAndSaysWhatToDo) {

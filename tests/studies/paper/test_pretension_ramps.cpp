@@ -17,7 +17,7 @@ const CableSetting& setting_named(const std::string& name) {
     throw std::logic_error("no such setting");
 }
 
-const std::vector<RampRun>& reproducing_runs() {
+const std::vector<RampRun>& reproducing_ramps() {
     static const std::vector<RampRun> runs = [] {
         std::vector<RampRun> all;
         const CableSetting& setting = setting_named("reproduces");
@@ -40,16 +40,16 @@ TEST(PretensionRamps, TheTorqueRampsAndDwellsAsThePaperSays) {
 }
 
 TEST(PretensionRamps, EveryStepIsSolved) {
-    for (const RampRun& run : reproducing_runs()) {
+    for (const RampRun& run : reproducing_ramps()) {
         EXPECT_EQ(run.samples.size(), 6000u);
         EXPECT_EQ(run.unsolved_steps, 0) << run.pretension_N;
     }
 }
 
 TEST(PretensionRamps, MorePretensionMeansMoreDeadWidthAndMoreLostTransfer) {
-    for (std::size_t k = 1; k < reproducing_runs().size(); ++k) {
-        const RampRun& less = reproducing_runs()[k - 1];
-        const RampRun& more = reproducing_runs()[k];
+    for (std::size_t k = 1; k < reproducing_ramps().size(); ++k) {
+        const RampRun& less = reproducing_ramps()[k - 1];
+        const RampRun& more = reproducing_ramps()[k];
         EXPECT_GT(more.dead_width_Nm, less.dead_width_Nm + 0.001) << more.pretension_N;
         EXPECT_GT(more.lost_transfer_ratio, less.lost_transfer_ratio) << more.pretension_N;
         EXPECT_GT(more.rms_to_ideal_Nm, less.rms_to_ideal_Nm) << more.pretension_N;
@@ -65,8 +65,8 @@ TEST(PretensionRamps, TheFirstPeakIsThatOfTwoSlidingCables) {
     const double exponent = 0.21 * 2.0 / 0.70;
     const double mean_a = std::expm1(-exponent) / -exponent;  // mean over first tension
     const double mean_b = std::expm1(exponent) / exponent;
-    for (std::size_t k = 0; k + 1 < reproducing_runs().size(); ++k) {
-        const RampRun& run = reproducing_runs()[k];
+    for (std::size_t k = 0; k + 1 < reproducing_ramps().size(); ++k) {
+        const RampRun& run = reproducing_ramps()[k];
         const double difference_N = 0.125 / 0.020;
         const double a_N = (2.0 * run.pretension_N + difference_N * mean_b) / (mean_a + mean_b);
         const double b_N = a_N - difference_N;
@@ -82,7 +82,7 @@ TEST(PretensionRamps, TheFirstPeakIsThatOfTwoSlidingCables) {
 TEST(PretensionRamps, ReproducesTheSettingsPeaks) {
     const double prototype_Nm[] = {0.276, 0.213, 0.151, 0.047};
     for (std::size_t k = 0; k < 4; ++k) {
-        const double peak_Nm = reproducing_runs()[k].peak_load_torque_Nm;
+        const double peak_Nm = reproducing_ramps()[k].peak_load_torque_Nm;
         EXPECT_NEAR(peak_Nm, prototype_Nm[k], 0.15 * prototype_Nm[k]) << k;
         EXPECT_NEAR(peak_Nm, papers_ramps()[k].implied_peak_Nm(), 0.15 * peak_Nm) << k;
     }
@@ -101,7 +101,7 @@ class RampsConverged : public testing::TestWithParam<Resolution> {};
 
 TEST_P(RampsConverged, FinerSegmentsOrStepsChangeLittle) {
     const CableSetting& setting = setting_named("reproduces");
-    for (const RampRun& usual : reproducing_runs()) {
+    for (const RampRun& usual : reproducing_ramps()) {
         const RampRun finer = run_pretension_ramps(setting, usual.pretension_N, GetParam());
         EXPECT_NEAR(finer.peak_load_torque_Nm, usual.peak_load_torque_Nm, 0.0005) << usual.pretension_N;
         EXPECT_NEAR(finer.rms_to_ideal_Nm, usual.rms_to_ideal_Nm, 0.0005) << usual.pretension_N;
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(TwiceAsFine, RampsConverged,
                          testing::Values(Resolution{200, 0.005}, Resolution{100, 0.0025}));
 
 TEST(PretensionRamps, AClosedCycleTakesWorkFromTheMotor) {
-    for (const RampRun& run : reproducing_runs()) {
+    for (const RampRun& run : reproducing_ramps()) {
         double work_J = 0.0;  // of the last cycle: 6 s
         for (std::size_t k = run.samples.size() - 1200; k < run.samples.size(); ++k) {
             work_J += 0.5 * (run.samples[k].motor_torque_Nm + run.samples[k - 1].motor_torque_Nm) *

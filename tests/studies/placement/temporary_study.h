@@ -1,6 +1,7 @@
 #pragma once
 // A results file that lives as long as a test, and its complete content as one value.
 
+#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <algorithm>
@@ -54,5 +55,11 @@ class TemporaryStudy {
     std::filesystem::path folder_;
     storage::Database database_;
 };
+
+/// Table by table: a dump is too long to print.
+inline void expect_same(const Dump& a, const Dump& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (const auto& [table, rows] : a) EXPECT_TRUE(rows == b.at(table)) << "table " << table << " differs";
+}
 
 }  // namespace capstan::test

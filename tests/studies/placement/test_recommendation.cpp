@@ -10,7 +10,7 @@
 namespace capstan {
 namespace {
 
-constexpr int blocks = 40;
+constexpr int error_blocks = 40;
 
 struct HandMadeSet {
     std::vector<int> nodes;  // from 1
@@ -62,8 +62,9 @@ storage::CellRecord cell(int set_index, const std::string& method, double error_
     record.mean_abs_error_N = error_N;
     record.standard_error_N = 0.002;
     record.worst_node = 1;
-    for (int b = 0; b < blocks; ++b) {
-        record.block_mean_abs_error_N.push_back(error_N + 0.001 * ((7 * b + 3 * set_index) % blocks - 19.5));
+    for (int b = 0; b < error_blocks; ++b) {
+        record.block_mean_abs_error_N.push_back(error_N +
+                                                0.001 * ((7 * b + 3 * set_index) % error_blocks - 19.5));
     }
     return record;
 }
@@ -115,7 +116,7 @@ TEST(Recommendation, RecommendsTheCountWhereTheGainFlattens) {
     EXPECT_EQ(mass.method, "w_mean") << "a method that needs the true direction is not a candidate";
     EXPECT_DOUBLE_EQ(mass.error_N, 0.5 + optimism_N) << "of the independent draws";
     EXPECT_DOUBLE_EQ(searched_error_N(mass), 0.5);
-    // Student's t with 39 degrees of freedom; 40 equally spaced blocks.
+    // Student's t with 39 degrees of freedom; 40 equally spaced error_blocks.
     const double standard_error_N = 0.001 * std::sqrt(40.0 * 41.0 / 12.0 / 40.0);
     EXPECT_NEAR(mass.interval_high_N - mass.interval_low_N, 2.0 * 2.0227 * standard_error_N, 1e-6);
     ASSERT_EQ(mass.counts.size(), 3u);

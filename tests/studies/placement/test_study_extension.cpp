@@ -27,11 +27,6 @@ test::Dump both_run(int few, int many) {
     return file.dump();
 }
 
-void expect_same(const test::Dump& a, const test::Dump& b) {
-    ASSERT_EQ(a.size(), b.size());
-    for (const auto& [table, rows] : a) EXPECT_TRUE(rows == b.at(table)) << "table " << table << " differs";
-}
-
 // 57 is not a multiple of 40: neither the first blocks nor the last are those of the smaller study.
 TEST(StudyExtension, HasTheBitsOfAStudyWithThatNumberFromTheStart) {
     for (const int many : {41, 57, 160}) {
@@ -39,7 +34,7 @@ TEST(StudyExtension, HasTheBitsOfAStudyWithThatNumberFromTheStart) {
         const auto outcome = extend_study(file.database(), begun_with(file.database(), 40), many, "test", {});
         EXPECT_EQ(outcome.run.study_id, 2);
         EXPECT_EQ(outcome.repetitions, many);
-        expect_same(file.dump(), both_run(40, many));
+        test::expect_same(file.dump(), both_run(40, many));
     }
 }
 
@@ -54,7 +49,7 @@ TEST(StudyExtension, ResumedAfterAnyStopEndsWithTheSameBits) {
         options.on_progress = [&](const StudyProgress& progress) { stop = progress.units_done >= units; };
         EXPECT_EQ(extend_study(file.database(), study, 80, "test", options).run.end, RunEnd::stopped);
         EXPECT_EQ(extend_study(file.database(), study, 80, "test", {}).run.end, RunEnd::complete);
-        expect_same(file.dump(), expected);
+        test::expect_same(file.dump(), expected);
     }
 }
 
@@ -79,7 +74,7 @@ TEST(UntilResolved, DoublesUntilEveryTargetIsResolvedAndKeepsTheLastStudy) {
     EXPECT_EQ(looked_at[2], 160);
     EXPECT_EQ(outcome.repetitions, looked_at.back());
     EXPECT_LE(*outcome.unresolved_N, resolution.tolerance_N);
-    expect_same(file.dump(), both_run(40, outcome.repetitions));
+    test::expect_same(file.dump(), both_run(40, outcome.repetitions));
 }
 
 TEST(UntilResolved, ResumedAfterAStopEndsWithTheSameStudy) {
@@ -96,7 +91,7 @@ TEST(UntilResolved, ResumedAfterAStopEndsWithTheSameStudy) {
               RunEnd::stopped);
     const auto outcome = extend_until_resolved(file.database(), study, resolution, "test", {});
     EXPECT_EQ(outcome.run.end, RunEnd::complete);
-    expect_same(file.dump(), both_run(40, outcome.repetitions));
+    test::expect_same(file.dump(), both_run(40, outcome.repetitions));
 }
 
 TEST(UntilResolved, ReportsTheUnresolvedDifferenceAtTheLargestNumberOfRepetitions) {

@@ -20,12 +20,6 @@ RunOptions with_jobs(int jobs) {
     return options;
 }
 
-// Table by table: a dump is too long to print.
-void expect_same(const Dump& a, const Dump& b) {
-    ASSERT_EQ(a.size(), b.size());
-    for (const auto& [table, rows] : a) EXPECT_TRUE(rows == b.at(table)) << "table " << table << " differs";
-}
-
 const Dump& uninterrupted() {
     static const Dump dump = [] {
         TemporaryStudy study;
@@ -48,7 +42,7 @@ TEST(StudyRun, AnyNumberOfThreadsGivesTheSameBits) {
         TemporaryStudy study;
         run_study(study.database(), test::small_plan(40), "test", with_jobs(jobs));
         SCOPED_TRACE(std::to_string(jobs) + " jobs");
-        expect_same(study.dump(), uninterrupted());
+        test::expect_same(study.dump(), uninterrupted());
     }
 }
 
@@ -68,7 +62,7 @@ TEST(StudyRun, ResumedAfterAStopEndsWithTheSameBits) {
 
         const RunOutcome rest = resume_study(study.database(), first.study_id, plan, with_jobs(1));
         EXPECT_EQ(rest.end, RunEnd::complete);
-        expect_same(study.dump(), uninterrupted());
+        test::expect_same(study.dump(), uninterrupted());
     }
 }
 
@@ -85,7 +79,7 @@ TEST(StudyRun, ResumedAfterTwoStopsEndsWithTheSameBits) {
     last = 9;
     EXPECT_EQ(resume_study(study.database(), id, plan, options).end, RunEnd::stopped);
     EXPECT_EQ(resume_study(study.database(), id, plan, with_jobs(1)).end, RunEnd::complete);
-    expect_same(study.dump(), uninterrupted());
+    test::expect_same(study.dump(), uninterrupted());
 }
 
 TEST(StudyRun, ReportsProgressUpToTheLastUnit) {

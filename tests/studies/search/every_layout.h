@@ -4,9 +4,24 @@
 #include <numeric>
 
 #include "capstan/search/placement_search.h"
+#include "capstan/search/sensor_placement.h"
 #include "paper_plan.h"
 
 namespace capstan::test {
+
+inline PlacementOptions alone() {
+    PlacementOptions options;
+    options.jobs = 1;
+    return options;
+}
+
+/// How often an interval covered the truth, over so many studies with seeds of their own.
+inline constexpr int coverage_studies = 400;
+struct Tally {
+    int covered = 0;
+    int all = 0;
+    double fraction() const { return static_cast<double>(covered) / all; }
+};
 
 /// A plan's candidates and their errors on its own draws.
 struct EveryLayout {

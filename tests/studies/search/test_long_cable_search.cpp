@@ -14,11 +14,7 @@ const ScopeAnswer& duty_cycle(const PlacementAnswer& answer) {
                          [](const ScopeAnswer& scope) { return scope.scope == "duty_cycle"; });
 }
 
-PlacementOptions alone() {
-    PlacementOptions options;
-    options.jobs = 1;
-    return options;
-}
+using test::alone;
 
 // On a cable short enough for both; they share their draws, so equal layouts have equal errors up to
 // rounding.
@@ -32,7 +28,8 @@ TEST(LongCableSearch, IsNeverBetterThanTheExhaustiveSearchAndBoundsTheGap) {
     ASSERT_EQ(found.size(), best.size());
     for (std::size_t k = 0; k < best.size(); ++k) {
         EXPECT_GE(found[k].optimum.searched_N, best[k].optimum.searched_N - 1e-12);
-        const double to_all_N = found[k].optimum.fresh.value_N - found.back().optimum.fresh.value_N;
+        const double to_all_N =
+            found[k].optimum.independent.value_N - found.back().optimum.independent.value_N;
         EXPECT_NEAR(found[k].at_most_better_N, std::max(0.0, to_all_N), 1e-12);
     }
     EXPECT_NEAR(found[0].optimum.searched_N, best[0].optimum.searched_N, 1e-12);

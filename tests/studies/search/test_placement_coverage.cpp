@@ -15,10 +15,11 @@ namespace {
 
 using test::EveryLayout;
 
-constexpr int studies = 400;
+using test::coverage_studies;
+using test::Tally;
 
 // Without W methods: their weights come from each study's own draws, so each study has a truth of its own.
-StudyPlan plan_of(int repetitions, std::uint64_t seed) {
+StudyPlan placed_plan(int repetitions, std::uint64_t seed) {
     StudyPlan plan = test::short_cable_plan(repetitions, seed);
     plan.fusion_methods = {"mean", "mean_r", "maximum_likelihood", "posterior_mean"};
     return plan;
@@ -27,14 +28,14 @@ StudyPlan plan_of(int repetitions, std::uint64_t seed) {
 class Coverage : public testing::Test {
   protected:
     static void SetUpTestSuite() {
-        truth_plan = new StudyPlan(plan_of(40000, 987654321));
+        truth_plan = new StudyPlan(placed_plan(40000, 987654321));
         truth = new EveryLayout(*truth_plan, 0, 0);
         truth->draws.extend(40, 1000, truth->weights, 0);
-        answers = new std::vector<PlacementAnswer>(studies);
-        parallel_for_each_index(studies, 0, [](int k) {
+        answers = new std::vector<PlacementAnswer>(coverage_studies);
+        parallel_for_each_index(coverage_studies, 0, [](int k) {
             PlacementOptions options;
             options.jobs = 1;
-            (*answers)[k] = place_sensors(plan_of(200, 1000 + k), options);
+            (*answers)[k] = place_sensors(placed_plan(200, 1000 + k), options);
         });
     }
     static void TearDownTestSuite() {
@@ -75,12 +76,6 @@ StudyPlan* Coverage::truth_plan = nullptr;
 EveryLayout* Coverage::truth = nullptr;
 std::vector<PlacementAnswer>* Coverage::answers = nullptr;
 
-struct Tally {
-    int covered = 0;
-    int all = 0;
-    double fraction() const { return static_cast<double>(covered) / all; }
-};
-
 // This includes the optimum, although it was selected by its error: its interval is that of the independent
 // draws.
 TEST_F(Coverage, IntervalsCoverTheTruth93To97Percent) {
@@ -89,7 +84,7 @@ TEST_F(Coverage, IntervalsCoverTheTruth93To97Percent) {
         const auto look = [&](const JudgedLayout& layout) {
             Tally& tally = tallies[layout.how == "optimum" ? "optimum" : "others"];
             const double error_N = true_error_N(scope, layout.nodes, layout.method);
-            tally.covered += layout.fresh.low_N <= error_N && error_N <= layout.fresh.high_N;
+            tally.covered += layout.independent.low_N <= error_N && error_N <= layout.independent.high_N;
             ++tally.all;
         };
         look(count.optimum);
@@ -99,7 +94,7 @@ TEST_F(Coverage, IntervalsCoverTheTruth93To97Percent) {
     for (const auto& [how, tally] : tallies) {
         EXPECT_GE(tally.fraction(), 0.93) << how;
         EXPECT_LE(tally.fraction(), 0.97) << how;
-        EXPECT_GE(tally.all, 10 * studies) << how;
+        EXPECT_GE(tally.all, 10 * coverage_studies) << how;
         RecordProperty(how, std::to_string(tally.fraction()));
     }
 }
@@ -149,7 +144,7 @@ TEST_F(Coverage, IndifferentSetContainsTheTrulyBestAtLeast95PercentOfTheTime) {
     EXPECT_EQ(tallies.size(), 15u);  // two regimes and the duty cycle, 1 to 5 sensors
     for (const auto& [question, tally] : tallies) {
         EXPECT_GE(tally.fraction(), 0.95) << question;
-        EXPECT_EQ(tally.all, studies);
+        EXPECT_EQ(tally.all, coverage_studies);
     }
 }
 

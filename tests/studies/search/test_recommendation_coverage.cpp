@@ -14,7 +14,8 @@
 namespace capstan {
 namespace {
 
-constexpr int studies = 400;
+using test::coverage_studies;
+using test::Tally;
 
 // Without W methods: their weights come from each study's own draws, so each study has a truth of its own.
 StudyPlan plan_of(int repetitions, std::uint64_t seed) {
@@ -35,8 +36,8 @@ class RecommendationCoverage : public testing::Test {
         truth_plan = new StudyPlan(plan_of(40000, 987654321));
         truth = new test::EveryLayout(*truth_plan, 0, 0);
         truth->draws.extend(40, 1000, truth->weights, 0);
-        answers = new std::vector<Recommended>(studies);
-        parallel_for_each_index(studies, 0, [](int k) {
+        answers = new std::vector<Recommended>(coverage_studies);
+        parallel_for_each_index(coverage_studies, 0, [](int k) {
             test::TemporaryStudy file;
             RunOptions options;
             options.jobs = 1;
@@ -82,12 +83,6 @@ StudyPlan* RecommendationCoverage::truth_plan = nullptr;
 test::EveryLayout* RecommendationCoverage::truth = nullptr;
 std::vector<Recommended>* RecommendationCoverage::answers = nullptr;
 
-struct Tally {
-    int covered = 0;
-    int all = 0;
-    double fraction() const { return static_cast<double>(covered) / all; }
-};
-
 // Of one question in 400 studies the share has a standard deviation of 1.1%, so three questions are put
 // together for the narrow limits, and each alone may stray by two more deviations.
 TEST_F(RecommendationCoverage, IntervalsOfRecommendationsCoverTheTruth93To97Percent) {
@@ -107,7 +102,7 @@ TEST_F(RecommendationCoverage, IntervalsOfRecommendationsCoverTheTruth93To97Perc
     for (const auto& [question, tally] : tallies) {
         EXPECT_GE(tally.fraction(), 0.915) << question;
         EXPECT_LE(tally.fraction(), 0.985) << question;
-        EXPECT_EQ(tally.all, studies);
+        EXPECT_EQ(tally.all, coverage_studies);
     }
 }
 

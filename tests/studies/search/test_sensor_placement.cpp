@@ -19,11 +19,7 @@ const ScopeAnswer& scope_of(const PlacementAnswer& answer, std::string_view name
     });
 }
 
-PlacementOptions alone() {
-    PlacementOptions options;
-    options.jobs = 1;
-    return options;
-}
+using test::alone;
 
 // Looks at every layout itself, with the errors that the search had.
 TEST(SensorPlacement, OptimumIsTheBestAllowedLayout) {
@@ -77,8 +73,8 @@ TEST(SensorPlacement, GreedyForwardIsOptimalForOneSensor) {
     }
 }
 
-// The draws that chose the best of many candidates are optimistic about it. Averaged over studies, because the
-// difference in a single study can have either sign.
+// The draws that chose the best of many candidates are optimistic about it. Averaged over studies, because
+// the difference in a single study can have either sign.
 TEST(SensorPlacement, OptimumIsWorseOnIndependentDrawsOnAverage) {
     double optimism_N = 0.0;
     for (int seed = 1; seed <= 40; ++seed) {
@@ -156,7 +152,7 @@ TEST(SensorPlacement, AnswersEveryObjective) {
         for (const ScopeAnswer& scope : answer.scopes) {
             for (const CountAnswer& count : scope.counts) {
                 EXPECT_GE(count.optimum.searched_N, 0.0);
-                EXPECT_LE(count.optimum.fresh.low_N, count.optimum.fresh.value_N);
+                EXPECT_LE(count.optimum.independent.low_N, count.optimum.independent.value_N);
             }
         }
     }

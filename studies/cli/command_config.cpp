@@ -9,6 +9,7 @@
 #include "capstan/config/config_file.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/config/config_reader.h"
+#include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
 
 namespace capstan::cli {
@@ -16,6 +17,34 @@ namespace capstan::cli {
 namespace {
 
 using reports::Data;
+
+ExitCode run_config_default(const Invocation& invocation) {
+    deliver(invocation, invocation.has("bench")
+                            ? config::config_text(config::default_bench(), config::Comments::every_key)
+                            : config::config_text(config::default_plan(), config::Comments::every_key));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command config_default_command() {
+    return {
+        .name = "config default",
+        .summary = "Print a complete configuration with every key explained.",
+        .description =
+            "Prints a complete configuration: every key with its meaning, unit, limits and default. It "
+            "can be run without changes.",
+        .options = {{.name = "bench",
+                     .kind = OptionKind::flag,
+                     .meaning =
+                         "Print the configuration of a bench, for `capstan simulate`, instead of a study's."},
+                    output_option,
+                    help_option},
+        .examples = {"capstan config default -o my.toml", "capstan config default --bench -o bench.toml"},
+        .run = run_config_default};
+}
+
+namespace {
 
 // The size of a plan.
 struct PlanSize {
@@ -124,7 +153,7 @@ Data problems_data(const config::ConfigError& error) {
     return json;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_config_check(const Invocation& invocation) {
     const std::string& file = invocation.argument("CONFIG");
     try {
         if (config::content_of_config(file) == config::ConfigContent::bench) {
@@ -155,7 +184,7 @@ Command config_check_command() {
             .arguments = {config_argument},
             .options = {output_option, json_option, help_option},
             .examples = {"capstan config check my.toml"},
-            .run = run};
+            .run = run_config_check};
 }
 
 }  // namespace capstan::cli

@@ -1,4 +1,4 @@
-#ifndef CAPSTAN_EFFECTS_CABLE_STIFFNESS_NONLINEAR_H
+#ifndef CAPSTAN_EFFECTS_NONLINEAR_STIFFNESS_H
 #include "capstan/effects/effect_row.h"
 #include "capstan/effects/law.h"
 
@@ -45,8 +45,8 @@ struct ToeStrain {
 }  // namespace capstan
 #endif
 
-#if !defined(CAPSTAN_EFFECTS_CABLE_STIFFNESS_NONLINEAR_H) || defined(CAPSTAN_LAWS_FOR_LANES)
-#define CAPSTAN_EFFECTS_CABLE_STIFFNESS_NONLINEAR_H
+#if !defined(CAPSTAN_EFFECTS_NONLINEAR_STIFFNESS_H) || defined(CAPSTAN_LAWS_FOR_LANES)
+#define CAPSTAN_EFFECTS_NONLINEAR_STIFFNESS_H
 CAPSTAN_LAWS_BEGIN
 
 /// The strain beyond T / EA. With a toe strain in metres the result is an elongation.

@@ -7,8 +7,6 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cli/paper_experiment.h"
-#include "capstan/paper/viscous_tunnel.h"
 #include "capstan/reports/plain_tables.h"
 
 namespace capstan::cli {
@@ -16,6 +14,126 @@ namespace capstan::cli {
 namespace {
 
 using reports::Data;
+
+// Where an experiment's trajectories go; see deliver_experiment.
+const Option trajectories_option = {
+    .name = "output",
+    .letter = 'o',
+    .value = "FILE",
+    .meaning =
+        "Also write the trajectories to FILE as CSV; - writes them to standard output instead of the "
+        "table."};
+
+// The trajectories as CSV to where the option says; then the answer on standard output, unless they went
+// there.
+ExitCode deliver_experiment(const Invocation& invocation, const std::string& trajectories_csv,
+                            const reports::Answer& answer) {
+    deliver_page(invocation, answer);
+    if (invocation.has("output")) {
+        if (invocation.text("output") == "-") {
+            write_standard_output(trajectories_csv);
+            return ExitCode::success;
+        }
+        write_file(invocation.text("output"), trajectories_csv);
+    }
+    write_standard_output(invocation.has("json") ? reports::answer_json(answer)
+                                                 : reports::answer_text(answer));
+    return ExitCode::success;
+}
+
+// `run(setting, pretension_N)` for each cable setting of the paper's bench: settings x pretensions.
+template <typename Run>
+auto run_every_setting(const Run& run) {
+    using Result = decltype(run(paper::cable_settings().front(), 0.0));
+    std::vector<std::vector<Result>> runs;
+    for (const paper::CableSetting& setting : paper::cable_settings()) {
+        runs.emplace_back();
+        for (const double pretension_N : setting.pretensions_N)
+            runs.back().push_back(run(setting, pretension_N));
+    }
+    return runs;
+}
+
+ExitCode run_paper_solver(const Invocation& invocation) {
+    std::vector<answers::RatesOfCable> rates;
+    for (const int segments : {1, 2, 3, 5, 10, 20, 40, 60}) {
+        rates.push_back(
+            {segments, paper::race({paper::ComparedMotion::partial, segments, invocation.number("seconds")},
+                                   {paper::linear_assumed_peer(), paper::generic_peer()})});
+    }
+    deliver_answer(invocation, answers::solver_answer(paper::compare_with_generic_solver(), rates));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command paper_solver_command() {
+    return {.name = "paper solver",
+            .summary = "Repeat the paper's comparison of solvers (Sec. III.B, Fig. 7).",
+            .description =
+                "Compares the closed-form step with a generic root finder on the same equations, step by "
+                "step: the fraction of steps in which the root finder converges and the largest difference "
+                "of tension, in mass, partial, mono- and bidirectional motion with 1 to 60 segments. Then "
+                "prints steps per second against the number of segments, beside the paper's figures.",
+            .options = {{.name = "seconds",
+                         .kind = OptionKind::number,
+                         .value = "S",
+                         .meaning = "Time per solver and number of segments.",
+                         .default_value = "0.1",
+                         .low = 0.01,
+                         .high = 60},
+                        output_option,
+                        page_option,
+                        json_option,
+                        help_option},
+            .examples = {"capstan paper solver", "capstan paper solver --html solver.html",
+                         "capstan paper solver --json -o solver.json"},
+            .run = run_paper_solver};
+}
+
+namespace {
+
+std::string trajectories_csv(const std::vector<std::vector<paper::RampRun>>& runs) {
+    std::string text = reports::csv_head({"setting", "pretension_N", "time_s", "motor_torque_Nm",
+                                          "motor_angle_rad", "load_torque_Nm", "ideal_load_torque_Nm"});
+    for (const auto& setting : runs) {
+        for (const paper::RampRun& run : setting) {
+            for (const auto& sample : run.samples)
+                text += reports::csv_line({run.setting, run.pretension_N, sample.time_s,
+                                           sample.motor_torque_Nm, sample.motor_angle_rad,
+                                           sample.load_torque_Nm, sample.ideal_load_torque_Nm});
+        }
+    }
+    return text;
+}
+
+ExitCode run_paper_exp1(const Invocation& invocation) {
+    const auto runs = run_every_setting([](const paper::CableSetting& setting, double pretension_N) {
+        return paper::run_pretension_ramps(setting, pretension_N, {});
+    });
+    return deliver_experiment(invocation, trajectories_csv(runs), answers::exp1_answer(runs));
+}
+
+}  // namespace
+
+Command paper_exp1_command() {
+    return {.name = "paper exp1",
+            .summary = "Repeat the paper's Exp. 1: torque ramps against a locked load.",
+            .description =
+                "Simulates the pull-pull bench of the paper's Exp. 1 with our model: the load is locked, the "
+                "motor torque ramps up and down, and the pretension varies. Prints peak load torque, dead "
+                "width and lost torque transfer beside the paper's numbers. Two cable settings are run, "
+                "because no torque reaches the load with Table I as printed: table_1, and reproduces with "
+                "less wrap and pretension. Each cable has 100 segments and each step takes 5 ms: the "
+                "stiction rule depends on the length of a segment, so fewer segments would change the "
+                "numbers.",
+            .options = {trajectories_option, page_option, json_option, help_option},
+            .examples = {"capstan paper exp1", "capstan paper exp1 --html exp1.html",
+                         "capstan paper exp1 --json -o ramps.csv"},
+            .run = run_paper_exp1};
+}
+
+namespace {
 
 constexpr double motor_step_rad = 7.85e-4;  // an encoder of 8000 steps a turn
 
@@ -83,7 +201,7 @@ std::string trajectories_csv(const std::vector<std::vector<paper::TunnelRun>>& r
     return text;
 }
 
-ExitCode run(const Invocation& invocation) {
+ExitCode run_paper_exp2(const Invocation& invocation) {
     const auto runs = run_every_setting([](const paper::CableSetting& setting, double pretension_N) {
         return paper::run_error_reduction_tunnel(setting, pretension_N, {});
     });
@@ -122,7 +240,6 @@ const Option remainder_option{
 
 const Option recording_option{
     .name = "recording",
-    .kind = OptionKind::string,
     .value = "FILE",
     .meaning =
         "Also write the simulated bench of Fig. 6 to FILE (CSV) as a recording with its sidecar, for "
@@ -148,7 +265,7 @@ Command paper_exp2_command() {
                     json_option, help_option},
         .examples = {"capstan paper exp2", "capstan paper exp2 --html exp2.html",
                      "capstan paper exp2 --json -o tunnel.csv", "capstan paper exp2 --recording fig6.csv"},
-        .run = run};
+        .run = run_paper_exp2};
 }
 
 }  // namespace capstan::cli

@@ -1,4 +1,4 @@
-#include "capstan/placement/fresh_errors.h"
+#include "capstan/placement/independent_errors.h"
 
 #include <algorithm>
 
@@ -72,8 +72,8 @@ std::vector<PlacementCandidate> errors_on_independent_draws(storage::Database& d
 
 }  // namespace
 
-FreshErrors fresh_errors(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
-                         int jobs) {
+IndependentErrors independent_errors(storage::Database& database, std::int64_t study_id,
+                                     const StudyPlan& plan, int jobs) {
     return
         [&database, study_id, &plan, jobs](int noise_index, const std::vector<PlacementCandidate>& chosen) {
             return errors_on_independent_draws(database, study_id, plan, jobs, noise_index, chosen);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/plan/study_plan.h"
+#include "capstan/storage/diagnosis_records.h"
+
+namespace capstan {
+
+/// What a diagnosis found, as the truth that worlds lie about: the fitted nominal numbers, and the causes
+/// that are of the cable with the probability of the verdict.
+struct DiagnosedWorld {
+    TrueCable truth;
+    double probability = 1.0;
+    std::vector<std::string> left_out;  ///< causes of other parts of a bench
+};
+DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis);
+
+}  // namespace capstan
