@@ -7,6 +7,7 @@
 #include "capstan/bench/bench_run.h"
 #include "capstan/paper/error_reduction_tunnel.h"
 #include "capstan/paper/pretension_ramps.h"
+#include "capstan/paper/ramp_readings.h"
 #include "capstan/paper/solver_comparison.h"
 #include "capstan/paper/viscous_tunnel.h"
 #include "capstan/reports/answer.h"
@@ -14,7 +15,8 @@
 namespace capstan::answers {
 
 /// Exp. 1; `runs`: settings x pretensions, settings as in paper::cable_settings().
-reports::Answer exp1_answer(const std::vector<std::vector<paper::RampRun>>& runs);
+reports::Answer exp1_answer(const std::vector<std::vector<paper::RampRun>>& runs,
+                            const paper::RampReadings& readings);
 
 /// Exp. 2 and its Fig. 6; `runs` as for exp1_answer.
 reports::Answer exp2_answer(const std::vector<std::vector<paper::TunnelRun>>& runs,
