@@ -8,6 +8,7 @@
 #include "capstan/paper/error_reduction_tunnel.h"
 #include "capstan/paper/pretension_ramps.h"
 #include "capstan/paper/ramp_readings.h"
+#include "capstan/paper/reading_ablations.h"
 #include "capstan/paper/solver_comparison.h"
 #include "capstan/paper/viscous_tunnel.h"
 #include "capstan/reports/answer.h"
@@ -30,6 +31,9 @@ struct RatesOfCable {
 /// Sec. III.B and Fig. 7.
 reports::Answer solver_answer(const std::vector<paper::Agreement>& agreements,
                               const std::vector<RatesOfCable>& rates);
+
+/// Sec. III.C with each reading changed by itself.
+reports::Answer paper_estimation_answer(const paper::AblatedTable& table);
 
 /// A simulated bench, collected sample by sample and thinned on the way.
 class BenchAnswer {

@@ -5,6 +5,7 @@
 #include "capstan/answers/placement_answers.h"
 #include "capstan/placement/recommendation.h"
 #include "capstan/storage/error.h"
+#include "capstan/storage/paper_agreement.h"
 #include "capstan/storage/statement.h"
 #include "capstan/storage/study_store.h"
 
@@ -124,6 +125,7 @@ Data comparison_data(const std::vector<storage::PaperComparisonRecord>& rows) {
 reports::AnswerSection comparison_section(const Data& rows) {
     return {.id = "paper",
             .heading = "The paper's numbers and ours",
+            .prose = storage::paper_matched_words,
             .tables = {{"paper_comparison",
                         "",
                         {{"quantity", "quantity"},
@@ -132,7 +134,8 @@ reports::AnswerSection comparison_section(const Data& rows) {
                          {"ours_N", "ours", "N", ".3f"},
                          {"standard_error_N", "standard error", "N", ".3f"},
                          {"reason", "reason"}},
-                        rows}}};
+                        rows}},
+            .note = storage::paper_agreement_words()};
 }
 
 std::string headline_of(const Conclusions& conclusions) {

@@ -36,6 +36,7 @@ Command gap_trial_command();
 Command config_default_command();
 Command config_check_command();
 Command paper_solver_command();
+Command paper_estimation_command();
 Command paper_exp1_command();
 Command paper_exp2_command();
 
