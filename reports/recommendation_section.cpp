@@ -39,11 +39,10 @@ std::string alternatives(const StudyTables& tables, std::int64_t recommendation_
             newtons_between(row.number("interval_low_N"), row.number("interval_high_N")));
     }
     if (count == 0)
-        return "<p class=\"quiet\">No other choice with this many sensors comes close: the draws tell them "
-               "all apart.</p>\n";
+        return "<p class=\"quiet\">All other compared choices with this many sensors are significantly worse.</p>\n";
     return fmt::format(
-        R"(<details class="alternatives"><summary>{} other {} equally good within the statistical error</summary>
-<div class="scroll" tabindex="0" role="region" aria-label="Choices as good as the recommended one"><table><thead><tr><th scope="col">Layout</th><th scope="col">Nodes</th><th scope="col">Fusion method</th><th scope="col">Difference [N]</th><th scope="col">95% interval</th></tr></thead><tbody>
+        R"(<details class="alternatives"><summary>{} other {} not significantly worse</summary>
+<div class="scroll" tabindex="0" role="region" aria-label="Choices that are not significantly worse than the recommended one"><table><thead><tr><th scope="col">Layout</th><th scope="col">Nodes</th><th scope="col">Fusion method</th><th scope="col">Difference [N]</th><th scope="col">95% interval</th></tr></thead><tbody>
 {}</tbody></table></div></details>
 )",
         count, count == 1 ? "choice" : "choices", rows);

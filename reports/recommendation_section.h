@@ -1,5 +1,5 @@
 #pragma once
-// One card per recommendation, with the cable, the numbers and the layouts that perform equally well.
+// One card per recommendation, with the cable, the numbers and the choices that are not significantly worse.
 
 #include <string>
 

@@ -5,6 +5,7 @@
 #include "capstan/reports/recommendation_section.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/reports/table.h"
+#include "capstan/storage/paper_agreement.h"
 
 namespace capstan::reports {
 namespace {
@@ -60,7 +61,7 @@ std::string paper_markdown(const StudyTables& tables) {
                         paper_N ? plain_number(*paper_N) : "", plain_number(row.number("ours_N")),
                         difference_N ? plain_number(*difference_N) : "", escape_markdown(row.text("reason")));
     }
-    return text + "\n";
+    return text + "\n" + storage::paper_matched_words + " " + storage::paper_agreement_words() + "\n\n";
 }
 
 }  // namespace

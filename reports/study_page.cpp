@@ -9,6 +9,7 @@
 #include "capstan/reports/recommendation_section.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/reports/table.h"
+#include "capstan/storage/paper_agreement.h"
 
 namespace capstan::reports {
 namespace {
@@ -69,13 +70,15 @@ std::string paper_section(const StudyTables& tables) {
     const std::string html =
         each_figure(tables, "paper") +
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"The paper and this study\">"
-        "<table><caption>Mean absolute tension error, with the half width of its 95% interval"
-        "</caption><thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Paper [N]</th>"
-        "<th scope=\"col\">Here [N]</th><th scope=\"col\">Difference [N]</th><th scope=\"col\">Why</th>"
+        "<table><caption>Mean absolute tension error</caption><thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Paper [N]</th>"
+        "<th scope=\"col\">Here [N] &plusmn; half width of the 95% interval</th><th scope=\"col\">Difference [N]</th>"
+        "<th scope=\"col\">Why</th>"
         "</tr></thead><tbody>\n" +
         rows + "</tbody></table></div>\n";
-    return section_html("paper", "The paper's numbers and ours",
-                        "Nothing was tuned to agree; where the two differ, the table says why.", html);
+    return section_html(
+        "paper", "The paper's numbers and ours",
+        escape_html(std::string(storage::paper_matched_words) + " " + storage::paper_agreement_words()),
+        html);
 }
 
 std::string method_list(const StudyTables& tables) {

@@ -35,13 +35,15 @@ SensorBranch previous_state_branch(const CableState& previous, int segments) {
     return branch;
 }
 
-std::vector<DirectionPattern> by_distance_from(const DirectionBits& previous, int segments) {
+std::vector<DirectionPattern> by_distance_from(const DirectionBits& previous, int segments,
+                                               PatternOrder order) {
     std::vector<DirectionPattern> patterns = admissible_patterns(segments);
     std::stable_sort(patterns.begin(), patterns.end(),
                      [&](const DirectionPattern& a, const DirectionPattern& b) {
                          return hamming_distance(direction_bits(a, segments), previous) <
                                 hamming_distance(direction_bits(b, segments), previous);
                      });
+    if (order == PatternOrder::farthest_first) std::reverse(patterns.begin(), patterns.end());
     return patterns;
 }
 
@@ -60,7 +62,8 @@ DirectionPattern pattern_of(const MotionPattern& truth, int segments) {
 
 }  // namespace
 
-SingleSensorEstimator::SingleSensorEstimator(const EstimationProblem& problem, DistalSide distal_side) {
+SingleSensorEstimator::SingleSensorEstimator(const EstimationProblem& problem, DistalSide distal_side,
+                                             PatternOrder order) {
     const int segments = problem.model.cable().segments();
     if (segments > max_estimated_segments) {
         throw InvalidInput({"segments is " + std::to_string(segments) +
@@ -68,7 +71,7 @@ SingleSensorEstimator::SingleSensorEstimator(const EstimationProblem& problem, D
                             std::to_string(max_estimated_segments) + "; use fewer segments"});
     }
     const std::vector<DirectionPattern> patterns =
-        by_distance_from(direction_bits(problem.previous.last_motion, segments), segments);
+        by_distance_from(direction_bits(problem.previous.last_motion, segments), segments, order);
     branches_.resize(segments + 1);
     for (int sensor = 0; sensor <= segments; ++sensor) {
         for (const DirectionPattern& pattern : patterns) {

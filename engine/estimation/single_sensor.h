@@ -26,16 +26,23 @@ struct SensorBranch {
 /// on the distal one). The paper's experiment blocks the output, and its figures come out only without.
 enum class DistalSide { excluded, admitted };
 
+/// In which order patterns are tried; the first that verifies counts. The paper does not say it.
+enum class PatternOrder {
+    nearest_first,   ///< by Hamming distance from the previous pattern
+    farthest_first,  ///< the reverse, to see what the order does
+};
+
 /// State estimation from one reading and the proximal displacement, direction unknown (paper Sec. II.C).
 ///
-/// The previous pattern is tried first, then the others by Hamming distance from it; the first that verifies
-/// is the estimate. A reading at a moving node takes the place of the boundary condition E3; a pattern in
-/// which the sensor's node rests would leave the reading unused, so it is not a candidate. When none verifies
-/// the estimate is the previous state.
+/// The first pattern that verifies is the estimate: the previous one, then the others by Hamming distance
+/// from it. A reading at a moving node takes the place of the boundary condition E3; a pattern in which the
+/// sensor's node rests would leave the reading unused, so it is not a candidate. When none verifies the
+/// estimate is the previous state.
 class SingleSensorEstimator {
   public:
     /// Throws InvalidInput beyond `max_estimated_segments`.
-    SingleSensorEstimator(const EstimationProblem& problem, DistalSide distal_side);
+    SingleSensorEstimator(const EstimationProblem& problem, DistalSide distal_side,
+                          PatternOrder order = PatternOrder::nearest_first);
 
     struct Choice {
         int branch = 0;              ///< index into branches(sensor)

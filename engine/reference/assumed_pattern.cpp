@@ -118,29 +118,12 @@ class Search {
         }
         if (near + far < nodes()) return verified();
         if (proximal != Direction::none && distal == opposite(proximal)) return opposed(proximal);
-        if (assume(mass(proximal != Direction::none ? proximal : distal)) && verified()) return true;
-        return proximal == distal && held_middle(proximal);
-    }
-
-    // E8: of several segments that could hold, the one furthest from giving way.
-    bool held_middle(Direction direction) {
-        std::optional<CableState> best;
-        double best_reserve = 0.0;
-        for (int near = 1; near < nodes(); ++near) {
-            if (!assume({MotionKind::partial, direction, direction, near, nodes() - near, 0.0}) ||
-                !verified()) {
-                continue;
-            }
-            const double a_N = tried_.tension_N[near - 1];
-            const double b_N = tried_.tension_N[near];
-            const double reserve =
-                problem_.cable.sliding_ratio[near - 1] * std::min(a_N, b_N) / std::max(a_N, b_N);
-            if (reserve <= best_reserve) continue;
-            best = tried_;
-            best_reserve = reserve;
+        // E8: the middle of the segment that stops both fronts.
+        if (proximal == distal && near + far == nodes() &&
+            assume({MotionKind::partial, proximal, distal, near, far, 0.0}) && verified()) {
+            return true;
         }
-        if (best) tried_ = *best;
-        return best.has_value();
+        return assume(mass(proximal != Direction::none ? proximal : distal)) && verified();
     }
 
     // How far the point assumed to have no velocity moved along the proximal side's direction.

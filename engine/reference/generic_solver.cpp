@@ -82,6 +82,20 @@ bool admissible(const SignSystem& system, const Eigen::VectorXd& y_N) {
     return true;
 }
 
+// A lone middle rests between sides that go one way (E8); its node pair slides, so mu_d must hold it.
+std::optional<int> held_segment(const MotionPattern& motion, int nodes) {
+    const bool one_way =
+        motion.kind == MotionKind::partial && motion.proximal_direction == motion.distal_direction;
+    if (!one_way || motion.proximal_moving_nodes + motion.distal_moving_nodes != nodes) return std::nullopt;
+    return motion.proximal_moving_nodes - 1;
+}
+bool sliding_friction_holds(const SignSystem& system, const Eigen::VectorXd& y_N, double sliding_ratio,
+                            int s) {
+    const double a_N = system.tension_N(y_N, s);
+    const double b_N = system.tension_N(y_N, s + 1);
+    return std::max(a_N, b_N) <= sliding_ratio * std::min(a_N, b_N) * (1.0 + tension_rounding);
+}
+
 // What friction is to remember. A run of sliding segments begins at an end; where none does, the end node may
 // have moved alone.
 MotionPattern motion_of(const SignSystem& system, const Eigen::VectorXd& y_N) {
@@ -133,17 +147,12 @@ ReferenceReport GenericSolver::advance(CableState& state, const EndConditions& e
         system.set_opposed(direction_of(system.increment_m(y_N, *change)), *change);
         if (!find_root(system, y_N, report)) return report;
     }
-    // E8 counts only where mass motion does not verify.
     const MotionPattern found = motion_of(system, y_N);
-    if (found.kind == MotionKind::partial && found.proximal_direction == found.distal_direction &&
-        found.proximal_moving_nodes + found.distal_moving_nodes == problem.nodes()) {
-        SignSystem mass = system;
-        mass.set_mass(found.proximal_direction);
-        Eigen::VectorXd mass_N = y_N;
-        if (find_root(mass, mass_N, report) && admissible(mass, mass_N)) {
-            system = mass;
-            y_N = mass_N;
-        }
+    const auto held = held_segment(found, problem.nodes());
+    if (held && !(admissible(system, y_N) &&
+                  sliding_friction_holds(system, y_N, constants_.sliding_ratio[*held], *held))) {
+        system.set_mass(found.proximal_direction);
+        if (!find_root(system, y_N, report)) return report;
     }
     if (!admissible(system, y_N)) return report;
     CableState after = state;

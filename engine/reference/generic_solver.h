@@ -29,8 +29,8 @@ namespace capstan::reference {
 /// (|d_i| + |d_{i+1}|). All other segments then slide, each its side's way, and the segment is moved on until
 /// the nodes' increments change sign in it.
 ///
-/// **E8 after mass motion.** Where a lone middle rests and both sides go one way, mass motion is solved for
-/// too, and taken if every node moves its way: the rules ask in that order.
+/// **E8.** A lone middle that rests between sides that go one way must be held by mu_d, and its nodes must
+/// move their side's way; where they do not, all slides.
 ///
 /// Started from the previous solution plus the input's increment: the ends where their inputs put them, the
 /// middles where they were. Where MINPACK stalls at a kink it is started anew from there, then from middles

@@ -242,7 +242,10 @@ struct LaneStep {
         const Which meet = hn::Ge(hn::Add(near.count, far.count), all_nodes);
         const Which against = hn::Lt(hn::Mul(near_way, far_way), zero);
         const Lanes way = hn::IfThenElse(hn::Ne(near_way, zero), near_way, far_way);
-        Which good = hn::Not(hn::And(meet, against));
+        // Fronts that meet in one segment may leave its middle at rest (E8): rare, and left to the search.
+        const Which one_way = hn::Gt(hn::Mul(near_way, far_way), zero);
+        const Which in_one_segment = hn::And(one_way, hn::Eq(hn::Add(near.count, far.count), all_nodes));
+        Which good = hn::AndNot(in_one_segment, hn::Not(hn::And(meet, against)));
         if (!hn::AllFalse(d, meet)) {
             const Which grows = grows_outward<1>(way);
             Lanes ratio = lanes_of(1.0);

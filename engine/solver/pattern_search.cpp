@@ -9,30 +9,9 @@ namespace capstan {
 
 namespace {
 
-// The middle of a segment where the sides meet rests (E8). Where more than one segment could hold, the one
-// that is furthest from giving way does: the same one whichever end is called proximal.
-std::optional<Candidate> best_held_middle(const StepView& view, const EndConditions& ends,
-                                          const SideMotion& proximal, const SideMotion& distal,
-                                          int& patterns_tried) {
-    std::optional<Candidate> best;
-    double best_reserve = 0.0;
-    const int most = std::min(proximal.moving_nodes, view.segments());
-    for (int nodes = std::max(view.nodes() - distal.moving_nodes, 1); nodes <= most; ++nodes) {
-        const Candidate held = partial_motion(
-            side_motion(CableEnd<End::proximal>(view, ends), proximal.direction, nodes),
-            side_motion(CableEnd<End::distal>(view, ends), distal.direction, view.nodes() - nodes));
-        ++patterns_tried;
-        const double reserve = holding_reserve(view, held);
-        if (reserve > best_reserve && verifies(view, held)) {
-            best = held;
-            best_reserve = reserve;
-        }
-    }
-    return best;
-}
-
 // Sides that meet leave no node at rest. Driven against each other: the zero-velocity point is where it falls
-// (E7). Else all slides.
+// (E7). Driven one way and met in one segment: its middle rests as long as friction holds it (E8). Else all
+// slides.
 Candidate from_sides(const StepView& view, const EndConditions& ends, const Sides& sides,
                      int& patterns_tried) {
     if (sides.rest() && view.before.last_motion.kind == MotionKind::slack) return slack(ends);
@@ -40,26 +19,21 @@ Candidate from_sides(const StepView& view, const EndConditions& ends, const Side
     if (sides.driven_against_each_other()) {
         return opposed_motion(view, ends, sides.proximal.direction, patterns_tried);
     }
+    if (sides.meet_in_one_segment(view)) {
+        const Candidate held = partial_motion(sides.proximal, sides.distal);
+        if (verifies(view, held)) return held;
+    }
     ++patterns_tried;
     return mass_motion(view, ends, sides.common_direction());
-}
-
-// Where sides driven one way meet and not all slides: the middle of a segment between them still rests (E8).
-std::optional<Candidate> instead_of_mass(const StepView& view, const EndConditions& ends, const Sides& sides,
-                                         int& patterns_tried) {
-    if (!sides.meet(view) || !sides.driven_one_way()) return std::nullopt;
-    return best_held_middle(view, ends, sides.proximal, sides.distal, patterns_tried);
 }
 
 // The first candidate did not verify: a remembered front can be too far on, and the ends' own increments can
 // mislead about the complete pattern.
 std::optional<Candidate> another_that_verifies(const StepView& view, const EndConditions& ends,
-                                               const Sides& sides, int& patterns_tried) {
-    if (auto held = instead_of_mass(view, ends, sides, patterns_tried)) return held;
+                                               int& patterns_tried) {
     const Sides anew = find_sides(view, ends, FrontStart::end_of_cable, patterns_tried);
     const Candidate again = from_sides(view, ends, anew, patterns_tried);
     if (verifies(view, again)) return again;
-    if (auto held = instead_of_mass(view, ends, anew, patterns_tried)) return held;
     for (const Direction direction : {Direction::forward, Direction::backward}) {
         const Candidate mass = mass_motion(view, ends, direction);
         if (verifies(view, mass)) return mass;
@@ -94,7 +68,7 @@ PatternSearch search_pattern(const StepView& view, const EndConditions& ends) {
     const Sides sides = find_sides(view, ends, FrontStart::remembered, patterns_tried);
     const Candidate likely = from_sides(view, ends, sides, patterns_tried);
     if (verifies(view, likely)) return {likely, true, patterns_tried};
-    const std::optional<Candidate> other = another_that_verifies(view, ends, sides, patterns_tried);
+    const std::optional<Candidate> other = another_that_verifies(view, ends, patterns_tried);
     if (!other) return {without_compression(view, ends, likely), false, patterns_tried};
     return {*other, true, patterns_tried};
 }

@@ -16,6 +16,10 @@ struct AngleSearch {
     double torque_residual_Nm = 0.0;  ///< torque at the angle less the torque asked for
     int iterations = 0;               ///< trials; 0: the angle was prescribed, nothing to search
     bool converged = true;            ///< the residual is within torque_tolerance_Nm
+    /// Not converged because the torque jumps over the one asked for at this angle: with mu_s above mu_d,
+    /// where an end has just stopped or a front breaks away, static friction holds any torque within the
+    /// jump.
+    bool at_jump = false;
 };
 
 /// Where a search starts and what it knows beforehand.
@@ -26,8 +30,8 @@ struct AngleSearchStart {
 };
 
 /// The angle at which `torque_error_Nm(angle)` is zero (E17). The error is piecewise linear in the angle and
-/// monotone but for jumps where a front gives way or an end reverses, so: bracket from the start with a
-/// growing step, then a secant within the bracket that halves it when the secant is slow. Where the error
+/// monotone but for jumps where static friction gives way (mu_s above mu_d), so: bracket from the start with
+/// a growing step, then a secant within the bracket that halves it when the secant is slow. Where the error
 /// jumps over zero the search ends at the bracket's better side and says so. The last trial is always at the
 /// angle returned.
 template <std::invocable<double> TorqueError>
@@ -51,7 +55,7 @@ AngleSearch search_angle(const AngleSearchStart& start, TorqueError&& torque_err
     };
     const auto done = [&](const Trial& t) { return std::abs(t.error_Nm) <= start.stop_at_Nm; };
     const auto answer = [&](const Trial& t) -> AngleSearch {
-        return {t.angle_rad, t.error_Nm, trials, std::abs(t.error_Nm) <= torque_tolerance_Nm};
+        return {t.angle_rad, t.error_Nm, trials, std::abs(t.error_Nm) <= torque_tolerance_Nm, false};
     };
 
     const Trial first = trial(start.angle_rad);
@@ -108,7 +112,9 @@ AngleSearch search_angle(const AngleSearchStart& start, TorqueError&& torque_err
         }
     }
     const Trial& better = std::abs(near.error_Nm) < std::abs(far.error_Nm) ? near : far;
-    return answer(better.angle_rad == last.angle_rad ? last : trial(better.angle_rad));
+    AngleSearch search = answer(better.angle_rad == last.angle_rad ? last : trial(better.angle_rad));
+    search.at_jump = !search.converged && trials < max_trials;
+    return search;
 }
 
 }  // namespace capstan

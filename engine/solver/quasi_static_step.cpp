@@ -27,9 +27,9 @@ namespace {
 QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
     : cable_(cable), rules_(rules), tables_(cable_, rules) {}
 
-// Nearly every step takes the first candidate pattern: two sides that do not meet, or mass motion where they
-// do. That way is laid out in one piece and writes as soon as it knows; any other begins anew with the
-// search.
+// Nearly every step takes the first candidate pattern: two sides that do not meet or that meet in one
+// segment, else mass motion. That way is laid out in one piece and writes as soon as it knows; any other
+// begins anew with the search.
 [[gnu::flatten]] StepReport QuasiStaticStep::advance(CableState& state, const EndConditions& ends) const {
     if (!solvable(ends)) refuse(ends);
     const StepView view{tables_, rules_, state};
@@ -40,6 +40,8 @@ QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
         if (sides.rest() && state.last_motion.kind == MotionKind::slack) {
             return take_what_verifies(view, ends, state);
         }
+        likely = partial_motion(sides.proximal, sides.distal);
+    } else if (sides.meet_in_one_segment(view)) {
         likely = partial_motion(sides.proximal, sides.distal);
     } else {
         if (sides.driven_against_each_other()) return take_what_verifies(view, ends, state);

@@ -12,6 +12,12 @@ struct Sides {
     bool meet(const StepView& view) const {
         return proximal.moving_nodes + distal.moving_nodes >= view.nodes();
     }
+    /// Driven one way, each front stopped by the same segment, whose middle may rest (E8). No other segment's
+    /// middle can: a front has passed it because friction did not hold it against a neighbour at rest, and a
+    /// neighbour that moves the same way loads it more.
+    bool meet_in_one_segment(const StepView& view) const {
+        return driven_one_way() && proximal.moving_nodes + distal.moving_nodes == view.nodes();
+    }
     bool rest() const { return proximal.moving_nodes + distal.moving_nodes == 0; }
     /// Of sides not driven against each other.
     Direction common_direction() const {

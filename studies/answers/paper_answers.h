@@ -8,6 +8,8 @@
 #include "capstan/bench/bench_run.h"
 #include "capstan/paper/error_reduction_tunnel.h"
 #include "capstan/paper/pretension_ramps.h"
+#include "capstan/paper/ramp_readings.h"
+#include "capstan/paper/reading_ablations.h"
 #include "capstan/paper/solver_comparison.h"
 #include "capstan/paper/viscous_tunnel.h"
 #include "capstan/reports/answer.h"
@@ -19,7 +21,8 @@ inline double degrees(double angle_rad) {
 }
 
 /// Exp. 1; `runs`: settings x pretensions, settings as in paper::cable_settings().
-reports::Answer exp1_answer(const std::vector<std::vector<paper::RampRun>>& runs);
+reports::Answer exp1_answer(const std::vector<std::vector<paper::RampRun>>& runs,
+                            const paper::RampReadings& readings);
 
 /// Exp. 2 and its Fig. 6; `runs` as for exp1_answer.
 reports::Answer exp2_answer(const std::vector<std::vector<paper::TunnelRun>>& runs,
@@ -33,6 +36,9 @@ struct RatesOfCable {
 /// Sec. III.B and Fig. 7.
 reports::Answer solver_answer(const std::vector<paper::Agreement>& agreements,
                               const std::vector<RatesOfCable>& rates);
+
+/// Sec. III.C with each reading changed by itself.
+reports::Answer paper_estimation_answer(const paper::AblatedTable& table);
 
 /// A simulated bench, collected sample by sample and thinned on the way.
 class BenchAnswer {

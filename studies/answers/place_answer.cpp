@@ -130,7 +130,7 @@ AnswerTable scope_table(const ScopeAnswer& scope, const Data& data, SearchKind s
                        {"optimum.error_after_worst_loss_N", "1 lost", "N", ".3f"}},
                       *data.find("counts")};
     table.columns.push_back(search == SearchKind::exhaustive
-                                ? Column{"equal_layouts", "equally good"}
+                                ? Column{"equal_layouts", "not worse"}
                                 : Column{"none_better_by_more_than_N", "gap", "N", ".3f"});
     for (const char* how : compared)
         table.columns.push_back({std::string("excess_N.") + how, title_of_choice(how), "", "+.3f"});
@@ -153,8 +153,9 @@ std::string d_optimal_words(const PlacementAnswer& found) {
 std::string note_of(const StudyPlan& plan, const PlacementAnswer& found) {
     const std::string reliability =
         found.search == SearchKind::exhaustive
-            ? "Equally good: other layouts that these draws do not distinguish from the best (all comparisons "
-              "together at 95%)."
+            ? "Not worse: how many other layouts of the count are not significantly worse than the best (paired t test "
+              "on the search's draws at the 5% level, Bonferroni-corrected over all allowed choices of layout and "
+              "fusion method of the count)."
             : "Gap: no layout of that count is better by more than this, if a further sensor never increases the "
               "error. " +
                   d_optimal_words(found);

@@ -5,6 +5,7 @@
 #include "capstan/answers/placement_answers.h"
 #include "capstan/placement/recommendation.h"
 #include "capstan/storage/error.h"
+#include "capstan/storage/paper_agreement.h"
 #include "capstan/storage/statement.h"
 #include "capstan/storage/study_store.h"
 
@@ -92,13 +93,14 @@ Data recommendation_data(const StudyDescription& study, const RecommendationReco
     return data;
 }
 
-// The first few of the equally good choices, so that a designer can pick by other reasons.
+// The first few of the choices that are not significantly worse, so that a designer can pick by other
+// reasons.
 std::string alternatives_words(const StudyDescription& study, const RecommendationRecord& r) {
     constexpr std::size_t shown = 4;
     std::string text;
     for (std::size_t k = 0; k < std::min(shown, r.alternatives.size()); ++k) {
         const auto& other = r.alternatives[k];
-        text += fmt::format("{}{} [{}] by {}", k == 0 ? " Equally good: " : "; ",
+        text += fmt::format("{}{} [{}] by {}", k == 0 ? " Not significantly worse: " : "; ",
                             fmt::format("{}", fmt::join(labels_of(study, other.set_index), " or ")),
                             fmt::join(nodes_of(study, other.set_index), ", "), title_of_method(other.method));
     }
@@ -123,6 +125,7 @@ Data comparison_data(const std::vector<storage::PaperComparisonRecord>& rows) {
 reports::AnswerSection comparison_section(const Data& rows) {
     return {.id = "paper",
             .heading = "The paper's numbers and ours",
+            .prose = storage::paper_matched_words,
             .tables = {{"paper_comparison",
                         "",
                         {{"quantity", "quantity"},
@@ -131,7 +134,8 @@ reports::AnswerSection comparison_section(const Data& rows) {
                          {"ours_N", "ours", "N", ".3f"},
                          {"standard_error_N", "standard error", "N", ".3f"},
                          {"reason", "reason"}},
-                        rows}}};
+                        rows}},
+            .note = storage::paper_agreement_words()};
 }
 
 std::string headline_of(const Conclusions& conclusions) {
@@ -222,7 +226,7 @@ reports::Answer recommendation_answer(const Conclusions& conclusions) {
                                      {"error_N", "error", "N", ".3f"},
                                      {"interval_95_N", "95% interval", "N", ".3f"},
                                      {"optimism_N", "optimism", "N", "+.4f"},
-                                     {"indistinguishable_count", "equally good"}},
+                                     {"indistinguishable_count", "not worse"}},
                                     answer.values["recommendations"]}}}};
     for (const auto& each : conclusions.recommendations)
         answer.sections.push_back(
@@ -262,8 +266,9 @@ reports::Answer truth_answer(storage::Database& database, std::int64_t model_id,
                            .kind = "Advice where the true cable is not the model",
                            .title = model.study.study.name};
     answer.headline =
-        changes == 0 ? "the advice stays; no other choice is significantly better with the true cable."
-                     : fmt::format("the advice changes in {} of {} cases.", changes, rows.items().size());
+        changes == 0
+            ? "the advice stays; no choice with as many sensors is significantly better with the true cable."
+            : fmt::format("the advice changes in {} of {} cases.", changes, rows.items().size());
     answer.values = rows;
     answer.sections = {
         {.id = "advice",
@@ -284,8 +289,9 @@ reports::Answer truth_answer(storage::Database& database, std::int64_t model_id,
                      rows}},
          .note =
              "Expected: the error that the model promises. True error: of the same sensors and method with the "
-             "true cable. The advice stays where no other choice is significantly better (all comparisons "
-             "together at 95%). The last columns: the best choice with the true cable, its error on "
+             "true cable. The advice stays where it is the best choice with the true cable, or has as many sensors and "
+             "is not significantly worse (paired t test at the 5% level, Bonferroni-corrected over all choices with "
+             "as many sensors). The last columns: the best choice with the true cable, its error on "
              "independent draws."}};
     return answer;
 }

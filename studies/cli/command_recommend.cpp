@@ -35,32 +35,33 @@ ExitCode run_recommend(const Invocation& invocation) {
 }  // namespace
 
 Command recommend_command() {
-    return {.name = "recommend",
-            .summary = "Recommend which sensors to use, where, and how to fuse them.",
-            .description =
-                "Prints the recommendations of a study for each noise level: for each motion regime, across "
-                "all regimes (minimax regret), and over the duty cycle. Each has a 95% interval and lists "
-                "the layouts that perform equally well. The study's draws are optimistic about the best of "
-                "many layouts, so its error is re-estimated on independent draws, and the optimism is "
-                "stated. Studies of the paper's experiment also show the paper's numbers beside ours.",
-            .arguments = {study_argument},
-            .options =
-                {{.name = "worthwhile-gain",
-                  .kind = OptionKind::number,
-                  .value = "N",
-                  .meaning =
-                      "One more sensor must lower the error by at least N newtons; replaces the study's own "
-                      "threshold.",
-                  .low = 0,
-                  .high = 1e6},
-                 database_option,
-                 jobs_option,
-                 output_option,
-                 json_option,
-                 help_option},
-            .examples = {"capstan recommend", "capstan recommend paper --worthwhile-gain 0.05",
-                         "capstan recommend --json -o recommendation.json"},
-            .run = run_recommend};
+    return {
+        .name = "recommend",
+        .summary = "Recommend which sensors to use, where, and how to fuse them.",
+        .description =
+            "Prints the recommendations of a study for each noise level: for each motion regime, across "
+            "all regimes (minimax regret), and over the duty cycle. Each has a 95% interval and lists "
+            "the choices with as many sensors that are not significantly worse. The study's draws are optimistic about the best of "
+            "many layouts, so its error is re-estimated on independent draws, and the optimism is "
+            "stated. Studies of the paper's experiment also show the paper's numbers beside ours.",
+        .arguments = {study_argument},
+        .options =
+            {{.name = "worthwhile-gain",
+              .kind = OptionKind::number,
+              .value = "N",
+              .meaning =
+                  "One more sensor must lower the error by at least N newtons; replaces the study's own "
+                  "threshold.",
+              .low = 0,
+              .high = 1e6},
+             database_option,
+             jobs_option,
+             output_option,
+             json_option,
+             help_option},
+        .examples = {"capstan recommend", "capstan recommend paper --worthwhile-gain 0.05",
+                     "capstan recommend --json -o recommendation.json"},
+        .run = run_recommend};
 }
 
 }  // namespace capstan::cli

@@ -35,6 +35,7 @@
     COMMAND(paper_exp1)           \
     COMMAND(paper_exp2)           \
     COMMAND(paper_solver)         \
+    COMMAND(paper_estimation)     \
     COMMAND(doctor)               \
     COMMAND(completion)           \
     COMMAND(man)

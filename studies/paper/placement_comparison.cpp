@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "capstan/storage/paper_agreement.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::paper {
@@ -35,6 +36,13 @@ class ErrorsByLayout {
             errors_[{row.regime, row.family, row.sensor_count, row.method}] = {row.mean_abs_error_N,
                                                                                row.standard_error_N};
             largest_count_ = std::max(largest_count_, row.sensor_count);
+        }
+    }
+
+    // One sensor of Even and Both in mass motion, whatever the method.
+    void put_one_sensor(const Ours& error) {
+        for (const char* family : {"even", "both"}) {
+            for (const std::string& method : unknown_methods) errors_[{"mass", family, 1, method}] = error;
         }
     }
 
@@ -108,27 +116,42 @@ MaybeOurs single_sensor(storage::Database& database, std::int64_t study_id,
     return Ours{sum.value_N / instants, sum.standard_error_N / instants};
 }
 
+// Why a number of ours parts from the paper's.
+struct Reason {
+    std::string words;
+    std::string evidence;  // "a guess", or the ablation of `paper estimation` that accounts for it
+
+    std::string text() const { return evidence.empty() ? words : words + " (" + evidence + ")"; }
+};
+
 // A number of the paper, ours beside it, and why they part if they do.
 struct Row {
     std::string quantity;
     double paper_N;
     std::string relation;
     MaybeOurs ours;
-    std::string reason;
+    Reason reason;
 };
 
-// The paper rounds to 0.01 N, and reads some numbers off single draws of its own.
-constexpr double rounding_N = 0.03;
-
-const std::string agrees = "agrees";
-const std::string order_of_trial =
-    "several direction patterns often verify (see the ambiguous fraction), and the paper does not say in which order they are tried: ours by Hamming distance from the previous direction";
-const std::string instants_unknown =
-    "the paper does not say which instants it used; those of the configuration were found by matching its figures";
-const std::string even_unclear =
-    "at one sensor, Even and Both are averaged over both ends here; the proximal sensor's error carries the gain";
-const std::string weights_sum_to_one =
-    "weights that sum to one cannot give errors of the size of the tension itself; dropping sensors at rest without sharing out their weight would, and we take the paper's numbers for that slip";
+const Reason order_of_trial{
+    "several direction patterns often verify (see the ambiguous fraction), and the paper does not say in which order "
+    "they are tried: ours by Hamming distance from the previous direction",
+    "ablation: farthest_first"};
+const Reason instants_unknown{
+    "the paper does not say which instants it used; those of the configuration were found by matching its figures",
+    "ablation: other_instants"};
+const Reason even_unclear{
+    "at one sensor, Even and Both are averaged over both ends here; the paper does not say where that sensor is",
+    "ablation: one_sensor_proximal"};
+const Reason both_unclear{even_unclear.words, "ablation: one_sensor_distal"};
+const Reason blocked_end{
+    "the paper does not say whether an estimate may let the blocked end move; here it may not",
+    "ablation: distal_side_admitted"};
+const Reason unknown{"unknown", ""};
+const Reason weights_sum_to_one{
+    "weights that sum to one cannot give errors of the size of the tension itself; dropping sensors at rest without "
+    "sharing out their weight would",
+    "a guess"};
 
 std::vector<Row> rows(storage::Database& database, std::int64_t study_id,
                       const storage::StudyDescription& study, const ErrorsByLayout& errors) {
@@ -150,35 +173,36 @@ std::vector<Row> rows(storage::Database& database, std::int64_t study_id,
         return difference(mass({family}, every, unknown_methods), mass({"distal"}, every, unknown_methods));
     };
     return {
-        {"direction known: largest difference between layouts", 0.01, "<",
-         largest_spread(errors, "mass", "mean_known"), "more repetitions bring it down"},
+        {"direction known: largest difference between layouts",
+         0.01,
+         "<",
+         largest_spread(errors, "mass", "mean_known"),
+         {"too few repetitions", "a guess"}},
         {"single sensor at the proximal node", 1.6, "=", single_sensor(database, study_id, study, 1),
-         order_of_trial},
+         instants_unknown},
         {"single sensor at the distal node", 0.37, "=",
-         single_sensor(database, study_id, study, study.study.segments + 1), instants_unknown},
+         single_sensor(database, study_id, study, study.study.segments + 1), blocked_end},
         {"mass motion, all layouts and counts: W Mean", 0.42, "=", mass(all_families, every, {"w_mean"}),
          instants_unknown},
         {"mass motion, all layouts and counts: Mean-R", 0.47, "=", mass(all_families, every, {"mean_r"}),
-         "the paper does not say what agreement at a node is; here both segments beside it must agree, and "
-         "where nobody agrees the mean stands in"},
+         order_of_trial},
         {"mass motion, all layouts and counts: Mean", 0.49, "=", mass(all_families, every, {"mean"}),
          order_of_trial},
         {"mass motion, all layouts and counts: W Mean-R", 0.57, "=", mass(all_families, every, {"w_mean_r"}),
          order_of_trial},
         {"Distal, 2 to 5 sensors: Mean", 0.38, "=", mass({"distal"}, {2, 5}, {"mean"}), instants_unknown},
         {"Distal, 2 to 5 sensors: W Mean", 0.38, "=", mass({"distal"}, {2, 5}, {"w_mean"}), instants_unknown},
-        {"Distal, 6 sensors to all: Mean", 0.33, "=", mass({"distal"}, {6, all}, {"mean"}),
-         "Distal with many sensors contains the proximal ones, whose patterns the order of trial decides"},
+        {"Distal, 6 sensors to all: Mean", 0.33, "=", mass({"distal"}, {6, all}, {"mean"}), unknown},
         {"Distal, 6 sensors to all: W Mean", 0.35, "=", mass({"distal"}, {6, all}, {"w_mean"}),
          instants_unknown},
         {"gain from one sensor to all: Even", 0.67, "=", gain({"even"}), even_unclear},
-        {"gain from one sensor to all: Distal", 0.02, "=", gain({"distal"}), instants_unknown},
+        {"gain from one sensor to all: Distal", 0.02, "=", gain({"distal"}), unknown},
         {"gain from one sensor to all: Both", 0.37, "=", gain({"both"}), even_unclear},
         {"gain from one sensor to all: average", 0.35, "=", gain(all_families), even_unclear},
-        {"Distal is better than Even by", 0.20, "=", distal_better_than("even"), order_of_trial},
-        {"Distal is better than Both by", 0.07, "=", distal_better_than("both"), order_of_trial},
-        {"partial motion, Even and Both: Mean", 0.54, "=", partial("mean"), instants_unknown},
-        {"partial motion, Even and Both: Mean-R", 0.52, "=", partial("mean_r"), instants_unknown},
+        {"Distal is better than Even by", 0.20, "=", distal_better_than("even"), even_unclear},
+        {"Distal is better than Both by", 0.07, "=", distal_better_than("both"), both_unclear},
+        {"partial motion, Even and Both: Mean", 0.54, "=", partial("mean"), order_of_trial},
+        {"partial motion, Even and Both: Mean-R", 0.52, "=", partial("mean_r"), order_of_trial},
         {"partial motion, Even and Both: W Mean", 4.7, "=", partial("w_mean"), weights_sum_to_one},
         {"partial motion, Even and Both: W Mean-R", 5.9, "=", partial("w_mean_r"), weights_sum_to_one},
     };
@@ -187,21 +211,32 @@ std::vector<Row> rows(storage::Database& database, std::int64_t study_id,
 bool agree(const Row& row) {
     const double apart_N =
         row.relation == "<" ? row.ours->value_N - row.paper_N : std::abs(row.ours->value_N - row.paper_N);
-    const double slack_N = row.relation == "<" ? 0.0 : rounding_N;
-    return apart_N <= slack_N + 2.0 * row.ours->standard_error_N;
+    const double slack_N = row.relation == "<" ? 0.0 : storage::paper_agreement_N;
+    return apart_N <= slack_N + storage::paper_agreement_standard_errors * row.ours->standard_error_N;
 }
 
 }  // namespace
 
 std::vector<storage::PaperComparisonRecord> compare_placement(storage::Database& database,
                                                               std::int64_t study_id) {
+    return compare_placement_with(OneSensor::both_ends, database, study_id);
+}
+
+std::vector<storage::PaperComparisonRecord> compare_placement_with(OneSensor one_sensor,
+                                                                   storage::Database& database,
+                                                                   std::int64_t study_id) {
     const storage::StudyDescription study = storage::load_study(database, study_id);
-    const ErrorsByLayout errors(storage::read_errors_by_layout(database, study_id, 0));
+    ErrorsByLayout errors(storage::read_errors_by_layout(database, study_id, 0));
+    if (one_sensor != OneSensor::both_ends) {
+        const int node = one_sensor == OneSensor::proximal_end ? 1 : study.study.segments + 1;
+        if (const MaybeOurs error = single_sensor(database, study_id, study, node))
+            errors.put_one_sensor(*error);
+    }
     std::vector<storage::PaperComparisonRecord> records;
     for (const Row& row : rows(database, study_id, study, errors)) {
         if (!row.ours) continue;
         records.push_back({row.quantity, row.paper_N, row.ours->value_N, row.ours->standard_error_N,
-                           row.relation, agree(row) ? agrees : row.reason});
+                           row.relation, agree(row) ? agrees : row.reason.text()});
     }
     return records;
 }

@@ -38,7 +38,7 @@ PreparedScenario prepare_scenario(const QuasiStaticStep& step, const StudyPlan& 
             sample,
             at.previous,
             at.truth,
-            SingleSensorEstimator(problem, plan.distal_side),
+            SingleSensorEstimator(problem, plan.distal_side, plan.pattern_order),
             std::move(known),
             FeasibleCurve(problem, {plan.largest_distal_increment_m, plan.curve_points})};
 }

@@ -46,7 +46,8 @@ std::vector<storage::RecommendationCountRecord> count_records(
     return records;
 }
 
-// The candidates with the recommended count that are not significantly worse than the recommended one.
+// The candidates with the recommended count that paired t tests at the 5% level, Bonferroni-corrected over
+// all of them, do not find worse than the recommended one.
 std::vector<storage::RecommendationAlternativeRecord> indifferent_set(
     const std::vector<PlacementCandidate>& candidates, const std::vector<Score>& scores, int recommended) {
     std::vector<int> others;

@@ -17,7 +17,7 @@ struct RecommendationPolicy {
 
 /// Reads the cells of a study and recommends, per noise level, for each regime, by minimax regret across
 /// regimes and for the duty cycle: the number of sensors, their nodes and the fusion method, with the
-/// alternatives that are not significantly worse in paired differences on the same draws. The draws that
+/// alternatives that are not significantly worse in paired t tests on the same draws. The draws that
 /// chose the best of many make it look better than it is, so a recommendation's error and interval are those
 /// of `independent_errors`, on independent draws; the best of each count keeps the study's own draws, with an
 /// interval that holds for all candidates of the count together.
@@ -32,7 +32,8 @@ double searched_error_N(const storage::RecommendationRecord& recommendation);
 std::string place_words(const storage::StudyDescription& study, const std::vector<int>& nodes);
 
 /// The recommendation in sentences: first which sensors to use and the expected error, then the settings, the
-/// interval, the optimism of the search, the gain of one more sensor and the equally good layouts.
+/// interval, the optimism of the search, the gain of one more sensor, and which other
+/// choices were compared by which test.
 std::string recommendation_sentence(const storage::StudyDescription& study,
                                     const storage::RecommendationRecord& recommendation,
                                     double worthwhile_gain_N);

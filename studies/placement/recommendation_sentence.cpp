@@ -126,10 +126,19 @@ std::string gain_words(const storage::RecommendationRecord& r, double worthwhile
     const std::string more = added == 1 ? "One more sensor" : std::to_string(added) + " more sensors";
     const std::string objective = r.scope == "minimax_regret" ? "excess" : "error";
     if (gain_N < smallest_shown_N) return more + " would not lower the " + objective + ".";
-    return more + " would lower the " + objective + " by " + newtons(gain_N) +
+    const std::string each = added == 1 ? "" : ", " + newtons(gain_N / added) + " for each";
+    return more + " would lower the " + objective + " by " + newtons(gain_N) + each +
            " (threshold for adding a sensor: " + newtons(worthwhile_gain_N) + ").";
 }
 
+// How many sets of `chosen` of `nodes` nodes there are.
+double possible_layouts(int nodes, int chosen) {
+    double sets = 1.0;
+    for (int k = 0; k < chosen; ++k) sets = sets * (nodes - k) / (k + 1);
+    return std::round(sets);
+}
+
+// Which choices the recommended one was compared with, by which test, and what the test found.
 std::string alternative_words(const storage::StudyDescription& study,
                               const storage::RecommendationRecord& r) {
     std::set<int> layouts;
@@ -141,26 +150,34 @@ std::string alternative_words(const storage::StudyDescription& study,
             layouts.insert(other.set_index);
         }
     }
-    const auto tested =
+    const auto compared =
         std::count_if(study.sensor_sets.begin(), study.sensor_sets.end(),
                       [&](const auto& set) { return static_cast<int>(set.nodes.size()) == r.sensor_count; });
-    const std::string with_sensors = " with " + sensors(r.sensor_count);
-    std::string text;
-    if (tested == 1) {
-        text = "No other layout" + with_sensors + " was tested.";
+    const auto fusion_methods = std::count_if(study.fusion_methods.begin(), study.fusion_methods.end(),
+                                              [](const auto& m) { return m.knowledge != "direction_known"; });
+    const auto comparisons = compared * fusion_methods - 1;
+    if (comparisons < 1) return "No other choice with " + sensors(r.sensor_count) + " was compared.";
+    const double possible = possible_layouts(study.study.segments + 1, r.sensor_count);
+    std::string text = "The study compared " + std::to_string(compared) + " of the " +
+                       with_digits(possible, 0) + (possible == 1.0 ? " layout" : " layouts") + " with " +
+                       sensors(r.sensor_count) + ": ";
+    if (compared == 1) {
+        text += methods > 0 ? "this one" : "this one, which is worse with every other fusion method";
     } else if (layouts.empty()) {
-        text = "All other tested layouts" + with_sensors + " are significantly worse (family-wise 95%).";
-    } else if (layouts.size() == 1) {
-        text = "One other layout" + with_sensors + " performs equally well within the statistical error.";
+        text += compared == 2 ? "the other is worse" : "all others are worse";
+    } else if (compared == 2) {
+        text += "the other is not significantly worse";
     } else {
-        text = std::to_string(layouts.size()) + " other layouts" + with_sensors +
-               " perform equally well within the statistical error.";
+        text += std::to_string(layouts.size()) + " of the others " + (layouts.size() == 1 ? "is" : "are") +
+                " not significantly worse";
     }
-    if (methods == 0) return text;
-    return text + " With the recommended layout, " +
-           (methods == 1 ? "one other fusion method performs"
-                         : std::to_string(methods) + " other fusion methods perform") +
-           " equally well within the statistical error.";
+    if (methods > 0) {
+        text += "; with the recommended layout, " + std::to_string(methods) + " other fusion " +
+                (methods == 1 ? "method is" : "methods are") + " not significantly worse";
+    }
+    return text + " (paired t test on the study's draws at the 5% level, Bonferroni-corrected over the " +
+           std::to_string(comparisons) + (comparisons == 1 ? " other choice" : " other choices") +
+           " of layout and fusion method with as many sensors).";
 }
 
 }  // namespace

@@ -115,6 +115,7 @@ struct StudyPlan {
     std::vector<std::string> fusion_methods;         ///< names of fusion_methods()
 
     DistalSide distal_side = DistalSide::excluded;
+    PatternOrder pattern_order = PatternOrder::nearest_first;  ///< no key: only to see what the order does
     WeightSource weight_source = WeightSource::mass_motion;
     /// Feasible curve: flat prior of the distal end's motion in a sample.
     double largest_distal_increment_m = 0.0;

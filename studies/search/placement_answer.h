@@ -21,7 +21,7 @@ struct JudgedLayout {
     std::vector<std::string> breaks;  ///< keys of the constraints that it violates
 };
 
-/// A candidate that performs as well as the optimum within the statistical error.
+/// A candidate that is not significantly worse than the optimum of its count.
 struct IndifferentLayout {
     std::vector<int> nodes;  // from 0
     std::string method;
@@ -36,8 +36,9 @@ struct CountAnswer {
     double optimism_N = 0.0;               ///< error on independent draws less that of the search
     std::vector<JudgedLayout> runners_up;  ///< the next best sets, best first
     std::vector<JudgedLayout> beside;      ///< families, greedy choices, D-optimal
-    /// Candidates that are not significantly worse (family-wise 95%); the truly best is one of these or the
-    /// optimum. Best first.
+    /// Candidates that are not significantly worse: paired t tests at the 5% level, Bonferroni-corrected over
+    /// all candidates of the count. With 95% certainty the truly best is one of these or the optimum. Best
+    /// first.
     std::vector<IndifferentLayout> indifferent;
     /// With 95% certainty no candidate is better than the optimum by more than this [N].
     double at_most_better_N = 0.0;

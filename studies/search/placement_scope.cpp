@@ -34,8 +34,8 @@ std::size_t worst_slot(const BlockErrors& errors, std::size_t row, std::size_t f
 
 // The quantile q of all repetitions; block values q + (fraction above q - 5%) / density at q.
 void summarise_quantile(const BlockErrors& errors, std::size_t candidates, std::size_t candidate,
-                        const EqualBlocks& blocks, ScenarioErrors& result) {
-    const int repetitions = blocks.repetitions();
+                        const DrawBlocks& blocks, ScenarioErrors& result) {
+    const int repetitions = blocks.repetitions;
     std::vector<double> error_N(repetitions);
     for (int r = 0; r < repetitions; ++r) error_N[r] = errors.quantile_of[r * candidates + candidate];
     std::vector<double> sorted_N = error_N;
@@ -47,11 +47,11 @@ void summarise_quantile(const BlockErrors& errors, std::size_t candidates, std::
                              quantile(sorted_N, judged_quantile - half_fraction);
     const double per_fraction_N = spacing_N / (2.0 * half_fraction);
     result.error_N[candidate] = q_N;
-    for (int b = 0; b < blocks.count; ++b) {
+    for (int b = 0; b < blocks.count(); ++b) {
         int above = 0;
-        for (int r = b * blocks.size; r < (b + 1) * blocks.size; ++r) above += error_N[r] > q_N;
-        const double fraction_above = static_cast<double>(above) / blocks.size;
-        result.block_error_N[candidate * blocks.count + b] =
+        for (int r = blocks.first(b); r < blocks.end(b); ++r) above += error_N[r] > q_N;
+        const double fraction_above = static_cast<double>(above) / blocks.size(b);
+        result.block_error_N[candidate * blocks.count() + b] =
             q_N + (fraction_above - (1.0 - judged_quantile)) * per_fraction_N;
     }
 }
@@ -59,11 +59,11 @@ void summarise_quantile(const BlockErrors& errors, std::size_t candidates, std::
 }  // namespace
 
 ScenarioErrors summarise(const BlockErrors& errors, const CandidateList& candidates,
-                         PlacementObjective objective, const EqualBlocks& blocks) {
+                         PlacementObjective objective, const DrawBlocks& blocks) {
     const auto count = static_cast<std::size_t>(candidates.count());
     const std::size_t row = count * errors.width;
-    ScenarioErrors result{blocks.count, std::vector<double>(count),
-                          std::vector<double>(count * blocks.count)};
+    ScenarioErrors result{blocks.count(), std::vector<double>(count),
+                          std::vector<double>(count * blocks.count())};
     for (std::size_t c = 0; c < count; ++c) {
         if (candidates.subset(static_cast<int>(c)) == 0 || !candidates.wants(static_cast<int>(c))) {
             result.error_N[c] = std::numeric_limits<double>::infinity();
@@ -74,10 +74,10 @@ ScenarioErrors summarise(const BlockErrors& errors, const CandidateList& candida
             continue;
         }
         const std::size_t slot =
-            errors.width == 1 ? c : worst_slot(errors, row, c * errors.width, blocks.count);
-        result.error_N[c] = sum_over_blocks(errors, row, slot, blocks.count) / blocks.repetitions();
-        for (int b = 0; b < blocks.count; ++b) {
-            result.block_error_N[c * blocks.count + b] = errors.sum_N[b * row + slot] / blocks.size;
+            errors.width == 1 ? c : worst_slot(errors, row, c * errors.width, blocks.count());
+        result.error_N[c] = sum_over_blocks(errors, row, slot, blocks.count()) / blocks.repetitions;
+        for (int b = 0; b < blocks.count(); ++b) {
+            result.block_error_N[c * blocks.count() + b] = errors.sum_N[b * row + slot] / blocks.size(b);
         }
     }
     return result;

@@ -24,7 +24,7 @@ struct ScenarioErrors {
 /// What each objective makes of the sums: a mean; the mean at the node where it is largest; a quantile, whose
 /// block values are its influence function's (a quantile of a few repetitions would be biased).
 ScenarioErrors summarise(const BlockErrors& errors, const CandidateList& candidates,
-                         PlacementObjective objective, const EqualBlocks& blocks);
+                         PlacementObjective objective, const DrawBlocks& blocks);
 
 /// One question: how the errors of a candidate in all scenarios become one score. Smaller is better.
 class PlacementScope {

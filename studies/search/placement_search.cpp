@@ -193,7 +193,7 @@ JudgedLayout PlacementSearch::judged(const std::vector<double>& objective_N, con
     layout.after_loss_N = after_loss_N(objective_N, candidate);
     layout.cost = constraints_.cost(layout.nodes);
     layout.breaks = constraints_.broken_by(layout.nodes);
-    if (!survives_loss(objective_N, candidate)) layout.breaks.push_back("largest_error_after_loss_N");
+    if (!survives_loss(objective_N, candidate)) layout.breaks.emplace_back("largest_error_after_loss_N");
     return layout;
 }
 
@@ -211,7 +211,7 @@ void PlacementSearch::compare_all(const PlacementScope& scope, const std::vector
         }
     }
     if (others.empty()) return;
-    const SimultaneousIntervals intervals(draws_.blocks().count, others.size(), alpha_);
+    const SimultaneousIntervals intervals(draws_.blocks().count(), others.size(), alpha_);
     const Score best = scope.score(draws_.scenarios(), optimum);
     for (const int other : others) {
         const IntervalEstimate difference =

@@ -33,15 +33,15 @@ std::vector<std::vector<double>> ScoredDraws::weights(const PreparedStudy& study
     return weights;
 }
 
-void ScoredDraws::extend(int blocks, int block_size, const std::vector<std::vector<double>>& weights,
+void ScoredDraws::extend(const DrawBlocks& blocks, const std::vector<std::vector<double>>& weights,
                          int jobs) {
-    const int first_block = blocks_.count;
-    blocks_ = {blocks, block_size};
+    const int first_block = blocks_.count();
+    blocks_ = blocks;
     for (int s = 0; s < static_cast<int>(errors_.size()); ++s) {
         const StudyPoint point{s, noise_index_, first_draw_};
         double processor_time_s = 0.0;
         const SolvedReadings solved =
-            solve_readings(study_, point, blocks_.repetitions(), jobs, processor_time_s);
+            solve_readings(study_, point, blocks_.repetitions, jobs, processor_time_s);
         score_blocks({study_, point, weights[s], candidates_, objective_, blocks_}, solved, first_block, jobs,
                      errors_[s]);
         scenarios_[s] = summarise(errors_[s], candidates_, objective_, blocks_);

@@ -18,10 +18,11 @@ class ScoredDraws {
     /// Weights of the W methods, from the single-sensor errors of the study's own draws. scenarios x nodes.
     static std::vector<std::vector<double>> weights(const PreparedStudy& study, int noise_index, int jobs);
 
-    /// Draws, solves and scores until there are so many blocks of `block_size` repetitions.
-    void extend(int blocks, int block_size, const std::vector<std::vector<double>>& weights, int jobs);
+    /// Draws, solves and scores until there are all of these blocks. Those that are there already must be
+    /// full.
+    void extend(const DrawBlocks& blocks, const std::vector<std::vector<double>>& weights, int jobs);
 
-    const EqualBlocks& blocks() const { return blocks_; }
+    const DrawBlocks& blocks() const { return blocks_; }
     const std::vector<ScenarioErrors>& scenarios() const { return scenarios_; }
 
   private:
@@ -30,7 +31,7 @@ class ScoredDraws {
     std::uint32_t first_draw_;
     const CandidateList& candidates_;
     PlacementObjective objective_;
-    EqualBlocks blocks_;
+    DrawBlocks blocks_;
     std::vector<BlockErrors> errors_;        // scenarios
     std::vector<ScenarioErrors> scenarios_;  // scenarios
 };

@@ -27,8 +27,8 @@ std::vector<const FusionMethod*> fusable_methods(const PreparedStudy& study) {
 
 double score_bytes(const PreparedStudy& study, int nodes, int max_sensors, std::size_t methods) {
     const double candidates = SensorSubsets::how_many(nodes, max_sensors) * static_cast<double>(methods);
-    const EqualBlocks blocks = EqualBlocks::for_repetitions(study.plan.repetitions);
-    const double kept = sizeof(double) * candidates * (blocks.count + 1.0);
+    const DrawBlocks blocks = DrawBlocks::for_repetitions(study.plan.repetitions);
+    const double kept = sizeof(double) * candidates * (blocks.count() + 1.0);
     return static_cast<double>(study.scenarios.size()) *
            (kept + block_error_bytes(candidates, study.plan.placement.objective, blocks, study.nodes()));
 }
@@ -119,14 +119,15 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
     CandidateList candidates{*subsets, methods, {}};
     const auto weights = ScoredDraws::weights(study, options.noise_index, options.jobs);
     ScoredDraws searched(study, options.noise_index, 0, candidates, plan.placement.objective);
-    EqualBlocks blocks = EqualBlocks::for_repetitions(plan.repetitions);
+    DrawBlocks blocks = DrawBlocks::for_repetitions(plan.repetitions);
+    if (options.resolve_to_N) blocks = blocks.filled_up();
     PlacementAnswer answer;
     std::vector<PlacementScope> scopes;
     // Each look at the draws has half the error probability of the one before: together they keep 95%.
     double alpha = options.resolve_to_N ? 0.025 : 0.05;
-    for (;; alpha /= 2.0, blocks.count *= 2) {
+    for (;; alpha /= 2.0, blocks = blocks.doubled()) {
         const double score_start_s = wall_time_s();
-        searched.extend(blocks.count, blocks.size, weights, options.jobs);
+        searched.extend(blocks, weights, options.jobs);
         answer.times.score_s += wall_time_s() - score_start_s;
         const PlacementSearch search(study, options.noise_index, candidates, searched, alpha);
         scopes = search.scopes();
@@ -138,9 +139,9 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
         const double left_N = min_resolved_N(answer.scopes);
         char text[120];
         std::snprintf(text, sizeof text, "%d repetitions: some layout may still be better by %.4f N",
-                      blocks.repetitions(), left_N);
+                      blocks.repetitions, left_N);
         progress(text);
-        if (left_N <= *options.resolve_to_N || 2 * blocks.repetitions() > options.max_repetitions) break;
+        if (left_N <= *options.resolve_to_N || 2 * blocks.repetitions > options.max_repetitions) break;
     }
 
     const double independent_start_s = wall_time_s();
@@ -152,7 +153,7 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
         }
     }
     ScoredDraws independent(study, options.noise_index, independent_draws, chosen, plan.placement.objective);
-    independent.extend(blocks.count, blocks.size, weights, options.jobs);
+    independent.extend(blocks, weights, options.jobs);
     for (std::size_t k = 0; k < scopes.size(); ++k) {
         for (CountAnswer& count : answer.scopes[k].counts)
             judge_again(scopes[k], independent.scenarios(), count);
@@ -162,7 +163,7 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
     answer.noise = plan.noise_levels[options.noise_index].label;
     answer.layouts = subsets->count() - 1;
     answer.candidates = answer.layouts * static_cast<int>(methods.size());
-    answer.repetitions = blocks.repetitions();
+    answer.repetitions = blocks.repetitions;
     answer.times.wall_s = wall_time_s() - start_s;
     return answer;
 }

@@ -39,9 +39,8 @@ bool is_quantile(PlacementObjective objective) {
 
 }  // namespace
 
-EqualBlocks EqualBlocks::for_repetitions(int repetitions) {
-    const RepetitionBlocks blocks{repetitions};
-    return {blocks.count(), blocks.block_size()};
+DrawBlocks DrawBlocks::for_repetitions(int repetitions) {
+    return {repetitions, RepetitionBlocks{repetitions}.block_size()};
 }
 
 void score_blocks(const ScoringTask& task, const SolvedReadings& solved, int first_block, int jobs,
@@ -55,17 +54,17 @@ void score_blocks(const ScoringTask& task, const SolvedReadings& solved, int fir
                                      task.study.plan.noise_levels[task.point.noise_index].level);
     errors.width = measure.width;
     const std::size_t row = candidates * errors.width;
-    errors.sum_N.resize(task.blocks.count * row, 0.0);
-    if (is_quantile(task.objective)) errors.quantile_of.resize(task.blocks.repetitions() * candidates);
+    errors.sum_N.resize(task.blocks.count() * row, 0.0);
+    if (is_quantile(task.objective)) errors.quantile_of.resize(task.blocks.repetitions * candidates);
 
-    parallel_for_each_index(task.blocks.count - first_block, jobs, [&](int later) {
+    parallel_for_each_index(task.blocks.count() - first_block, jobs, [&](int later) {
         const int block = first_block + later;
         RepetitionProfiles profiles(scenario, nodes);
         SubsetMeans means(task.candidates, task.weight, measure);
         SubsetCurves curves(task.candidates, scenario.curve, likelihood, measure);
         std::vector<double> error_N(row);
         double* const sum_N = errors.sum_N.data() + block * row;
-        for (int r = block * task.blocks.size; r < (block + 1) * task.blocks.size; ++r) {
+        for (int r = task.blocks.first(block); r < task.blocks.end(block); ++r) {
             profiles.fill(solved, r);
             means.score(profiles.unknown(), error_N);
             curves.score({solved.reading_N.data() + solved.at(r, 0), static_cast<std::size_t>(nodes)},
@@ -78,10 +77,10 @@ void score_blocks(const ScoringTask& task, const SolvedReadings& solved, int fir
     });
 }
 
-double block_error_bytes(double candidates, PlacementObjective objective, const EqualBlocks& blocks,
+double block_error_bytes(double candidates, PlacementObjective objective, const DrawBlocks& blocks,
                          int nodes) {
-    const double sums = sizeof(double) * candidates * blocks.count * width_of(objective, nodes);
-    const double each = is_quantile(objective) ? sizeof(float) * candidates * blocks.repetitions() : 0.0;
+    const double sums = sizeof(double) * candidates * blocks.count() * width_of(objective, nodes);
+    const double each = is_quantile(objective) ? sizeof(float) * candidates * blocks.repetitions : 0.0;
     return sums + each;
 }
 

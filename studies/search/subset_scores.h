@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,15 +27,22 @@ struct CandidateList {
     bool wants(int candidate) const { return wanted.empty() || wanted[candidate] != 0; }
 };
 
-/// Consecutive repetitions of one size: the unit of threads, of sums and of paired differences. More
-/// repetitions are more blocks, and the old ones stay what they were.
-struct EqualBlocks {
-    int count = 0;
-    int size = 0;
-    int repetitions() const { return count * size; }
+/// Consecutive repetitions: the unit of threads, of sums and of paired differences. All blocks have one size,
+/// but the last one is shorter where the repetitions do not divide evenly.
+struct DrawBlocks {
+    int repetitions = 0;
+    int block_size = 1;
 
-    /// At least so many repetitions, in the blocks of a study.
-    static EqualBlocks for_repetitions(int repetitions);
+    /// So many repetitions, in the blocks of a study.
+    static DrawBlocks for_repetitions(int repetitions);
+    /// With the last block filled up, so that more blocks can follow and the old ones stay what they were.
+    DrawBlocks filled_up() const { return {count() * block_size, block_size}; }
+    DrawBlocks doubled() const { return {2 * repetitions, block_size}; }
+
+    int count() const { return (repetitions + block_size - 1) / block_size; }
+    int first(int block) const { return block * block_size; }
+    int end(int block) const { return std::min(first(block) + block_size, repetitions); }
+    int size(int block) const { return end(block) - first(block); }
 };
 
 /// Errors of all candidates in one scenario, block by block [N].
@@ -51,7 +59,7 @@ struct ScoringTask {
     std::span<const double> weight;  // nodes: of the W methods
     const CandidateList& candidates;
     PlacementObjective objective;
-    EqualBlocks blocks;
+    DrawBlocks blocks;
 };
 
 /// Scores blocks `first_block` on; those before stay in `errors`. Each reading is solved once and every set's
@@ -60,7 +68,7 @@ void score_blocks(const ScoringTask& task, const SolvedReadings& solved, int fir
                   BlockErrors& errors);
 
 /// Bytes that the errors of one scenario take.
-double block_error_bytes(double candidates, PlacementObjective objective, const EqualBlocks& blocks,
+double block_error_bytes(double candidates, PlacementObjective objective, const DrawBlocks& blocks,
                          int nodes);
 
 }  // namespace capstan

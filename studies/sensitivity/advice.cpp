@@ -125,10 +125,10 @@ std::optional<AdviceThere> AdviceQuestion::ask(const std::vector<double>& ratio,
     }
     const PlacementScope scope("regime", "", fractions_of(study));
     const auto weights = ScoredDraws::weights(study, noise_index_, 1);
-    const EqualBlocks blocks = EqualBlocks::for_repetitions(plan->repetitions);
+    const DrawBlocks blocks = DrawBlocks::for_repetitions(plan->repetitions);
     const PlacementObjective objective = plan->placement.objective;
     ScoredDraws searched(study, noise_index_, 0, candidates, objective);
-    searched.extend(blocks.count, blocks.size, weights, 1);
+    searched.extend(blocks, weights, 1);
     int best = allowed.front();
     double best_N = scope.objective_N(searched.scenarios(), best);
     for (const int candidate : allowed) {
@@ -141,7 +141,7 @@ std::optional<AdviceThere> AdviceQuestion::ask(const std::vector<double>& ratio,
     std::fill(candidates.wanted.begin(), candidates.wanted.end(), 0);
     candidates.wanted[best] = candidates.wanted[other] = 1;
     ScoredDraws independent(study, noise_index_, independent_draws, candidates, objective);
-    independent.extend(blocks.count, blocks.size, weights, 1);
+    independent.extend(blocks, weights, 1);
     const Score best_score = scope.score(independent.scenarios(), best);
     const Score other_score = scope.score(independent.scenarios(), other);
     return AdviceThere{advice_of(candidates, best), interval_of(best_score),

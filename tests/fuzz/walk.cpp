@@ -24,7 +24,7 @@ double friction_exponent(const Cable& cable) {
     return cable.dynamic_friction() * wrap_rad;
 }
 
-// One answer and no other (engine/README.md, departure 3): consistent rules, mu_s = mu_d, within rounding.
+// Some pattern verifies (engine/README.md, departure 3): consistent rules, mu_s = mu_d, within rounding.
 bool must_verify(const QuasiStaticStep& step) {
     return step.rules().elongation == ElongationRule::mean_tension &&
            step.cable().static_friction() == step.cable().dynamic_friction() &&

@@ -92,12 +92,10 @@ bool spreads_from_the_ends(const std::vector<int>& segment) {
     return std::find(end, segment.end(), 0) == segment.end();
 }
 
-// A segment that does not slide between two nodes that move: its middle rests (E8) if they move one way, it
-// holds the zero-velocity point (E7) if they move against each other.
-enum class LoneSegment { not_considered, considered };
-
-// Which nodes move under a sign vector; nothing if the vector contradicts itself.
-std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segment, LoneSegment lone) {
+// Which nodes move under a sign vector; nothing if the vector contradicts itself. A segment that does not
+// slide between two nodes that move: its middle rests (E8) if they move one way, it holds the zero-velocity
+// point (E7) if they move against each other.
+std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segment) {
     const int n = p.segments();
     Pattern pattern{segment, std::vector<int>(n + 1, 0), std::vector<bool>(n + 1, false), -1, -1};
     for (int node = 0; node <= n; ++node) {
@@ -116,7 +114,6 @@ std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segm
     if (!spreads_from_the_ends(segment)) return std::nullopt;
     for (int s = 0; s < n; ++s) {
         if (segment[s] != 0 || !pattern.moves[s] || !pattern.moves[s + 1]) continue;
-        if (lone == LoneSegment::not_considered) return std::nullopt;
         (pattern.node[s] == pattern.node[s + 1] ? pattern.held_segment : pattern.opposed_segment) = s;
     }
     return pattern;
@@ -228,7 +225,11 @@ bool same(const CableState& a, const CableState& b, double tolerance_N) {
     return true;
 }
 
-std::vector<CableState> verified_states(const Problem& problem, LoneSegment lone, double tolerance_N) {
+}  // namespace
+
+std::vector<CableState> all_verified_states(const Cable& cable, const CableState& before,
+                                            const EndConditions& ends, double tolerance_N) {
+    const Problem problem{cable, before, ends};
     std::vector<CableState> found;
     long patterns = 1;
     for (int s = 0; s < problem.segments(); ++s) patterns *= 3;
@@ -237,7 +238,7 @@ std::vector<CableState> verified_states(const Problem& problem, LoneSegment lone
         for (long rest = code; static_cast<int>(segment.size()) < problem.segments(); rest /= 3) {
             segment.push_back(static_cast<int>(rest % 3) - 1);
         }
-        const auto pattern = pattern_of(problem, segment, lone);
+        const auto pattern = pattern_of(problem, segment);
         if (!pattern) continue;
         const auto state =
             pattern->opposed_segment >= 0 ? solve_opposed(problem, *pattern) : solve(problem, *pattern, 0.0);
@@ -246,16 +247,6 @@ std::vector<CableState> verified_states(const Problem& problem, LoneSegment lone
         for (const CableState& other : found) is_new = is_new && !same(*state, other, tolerance_N);
         if (is_new) found.push_back(*state);
     }
-    return found;
-}
-
-}  // namespace
-
-std::vector<CableState> all_verified_states(const Cable& cable, const CableState& before,
-                                            const EndConditions& ends, double tolerance_N) {
-    const Problem problem{cable, before, ends};
-    auto found = verified_states(problem, LoneSegment::not_considered, tolerance_N);
-    if (found.empty()) found = verified_states(problem, LoneSegment::considered, tolerance_N);
     return found;
 }
 

@@ -12,6 +12,7 @@ TEST(AngleSearch, EndsAtAJumpWithTheResidual) {
     const auto jumps = [](double angle_rad) { return angle_rad < 0.3 ? -1.0 : 2.0; };
     const AngleSearch search = search_angle({0.0, 10.0}, jumps);
     EXPECT_FALSE(search.converged);
+    EXPECT_TRUE(search.at_jump);
     EXPECT_NEAR(search.angle_rad, 0.3, 1e-12);
     EXPECT_EQ(search.torque_residual_Nm, -1.0) << "the side that is less wrong";
 }
@@ -23,6 +24,7 @@ TEST(AngleSearch, StopsWhereTheTorqueCannotBeReached) {
         return -1.0;
     });
     EXPECT_FALSE(search.converged);
+    EXPECT_FALSE(search.at_jump);
     EXPECT_EQ(search.angle_rad, 0.5);
     EXPECT_EQ(last_tried_rad, 0.5);
 }

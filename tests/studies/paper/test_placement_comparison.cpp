@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/paper/placement_comparison.h"
+#include "capstan/paper/reading_ablations.h"
 #include "paper_plan.h"
 #include "temporary_study.h"
 
@@ -59,6 +60,35 @@ TEST(PaperComparison, SaysAgreesExactlyWhereTheNumbersAreWithinRounding) {
     }
     EXPECT_GT(agreeing, 3);
     EXPECT_LT(agreeing, 21) << "the paper's W numbers in partial motion cannot be reproduced";
+}
+
+// A reason that names an ablation is not taken on trust.
+TEST(PaperComparison, AnAblationThatAReasonNamesAccountsForTheRow) {
+    const paper::AblatedTable table = paper::ablate_readings(papers_methods(400), {});
+    int shown = 0;
+    for (const auto& row : table.as_configured) {
+        const auto at = row.reason.find("(ablation: ");
+        if (at == std::string::npos) continue;
+        const auto first = at + std::string("(ablation: ").size();
+        const std::string name = row.reason.substr(first, row.reason.find(')', first) - first);
+        const auto ablation = std::find_if(table.ablations.begin(), table.ablations.end(),
+                                           [&](const auto& each) { return each.name == name; });
+        ASSERT_NE(ablation, table.ablations.end()) << row.reason;
+        const auto* changed = find(ablation->rows, row.quantity);
+        ASSERT_NE(changed, nullptr) << row.quantity;
+        EXPECT_TRUE(paper::accounts_for(*changed, row)) << row.quantity << ": " << changed->ours_N;
+        ++shown;
+    }
+    EXPECT_GT(shown, 5);
+}
+
+TEST(PaperComparison, ARowThatDiffersNamesAnAblationOrCallsItsReasonAGuessOrUnknown) {
+    for (const auto& row : papers_rows()) {
+        const bool stated = row.reason == "agrees" || row.reason == "unknown" ||
+                            row.reason.find("(a guess)") != std::string::npos ||
+                            row.reason.find("(ablation: ") != std::string::npos;
+        EXPECT_TRUE(stated) << row.quantity << ": " << row.reason;
+    }
 }
 
 TEST(PaperComparison, LayoutsTieWhenTheDirectionIsKnown) {

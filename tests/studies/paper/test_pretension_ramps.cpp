@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "capstan/paper/pretension_ramps.h"
+#include "capstan/paper/ramp_readings.h"
 
 namespace capstan::paper {
 namespace {
@@ -111,6 +113,65 @@ TEST_P(RampsConverged, FinerSegmentsOrStepsChangeLittle) {
 
 INSTANTIATE_TEST_SUITE_P(TwiceAsFine, RampsConverged,
                          testing::Values(Resolution{200, 0.005}, Resolution{100, 0.0025}));
+
+const ReadingResult& reading_named(const std::string& name) {
+    static const RampReadings readings = compare_ramp_readings();
+    for (const ReadingResult& result : readings.results) {
+        if (result.reading.name == name) return result;
+    }
+    throw std::logic_error("no such reading");
+}
+
+TEST(RampReadings, ThePrintedTorqueReproducesNoneOfThePapersFourErrors) {
+    for (const ReadAtLevel& level : reading_named("as printed").levels) {
+        ASSERT_TRUE(level.rms_to_ideal_Nm);
+        EXPECT_FALSE(level.reproduced()) << level.paper_Nm;
+    }
+    EXPECT_FALSE(reading_named("as printed, dwells left out").reproduces_all());
+}
+
+TEST(RampReadings, AnIdealPeakOfHalfANewtonMetreReproducesAllFour) {
+    EXPECT_TRUE(reading_named("peak torque 0.1 N m, ratio 5").reproduces_all());
+    EXPECT_TRUE(reading_named("ratio 4").reproduces_all());
+}
+
+// A reading scales loops that were made with other torques and pulleys; here its own are simulated.
+TEST(RampReadings, AreThoseOfABenchWithTheirTorqueAndRatio) {
+    const ReadingResult& reading = reading_named("peak torque 0.1 N m, ratio 5");
+    CableSpecification specification;
+    specification.curvature = {{2.0, reading.bend_radius_m}};
+    specification.segments = 100;
+    specification.axial_stiffness_N = 2000.0;
+    specification.dynamic_friction = 0.21;
+    specification.static_friction = 0.63;
+    double low_N = 0.5;
+    double high_N = 10.0;
+    double rms_Nm = 0.0;
+    for (int halving = 0; halving < 20; ++halving) {  // to a peak of 46 mN m, the highest pretension
+        specification.pretension_N = 0.5 * (low_N + high_N);
+        const Cable cable(specification);
+        const PullPull bench(cable, cable, {0.020, 0.100});
+        PullPullState state = bench.at_rest();
+        double peak_Nm = 0.0;
+        double squares = 0.0;
+        for (int step = 1; step <= 1250; ++step) {  // 10 ms; two periods of 5 s after a first one
+            const double quarter = std::fmod(0.01 * step, 5.0);
+            const double up = quarter < 1.0   ? quarter
+                              : quarter < 1.5 ? 1.0
+                              : quarter < 3.5 ? 2.5 - quarter
+                              : quarter < 4.0 ? -1.0
+                                              : quarter - 5.0;
+            bench.advance(state, {MotorTorque{0.1 * up}, LoadAngle{0.0}});
+            if (step <= 250) continue;
+            const double error_Nm = bench.load_torque_Nm(state) - 0.5 * up;
+            peak_Nm = std::max(peak_Nm, std::abs(bench.load_torque_Nm(state)));
+            squares += error_Nm * error_Nm;
+        }
+        (peak_Nm > 0.046 ? low_N : high_N) = specification.pretension_N;
+        rms_Nm = std::sqrt(squares / 1000.0);
+    }
+    EXPECT_NEAR(*reading.levels.back().rms_to_ideal_Nm, rms_Nm, 0.003);
+}
 
 TEST(PretensionRamps, AClosedCycleTakesWorkFromTheMotor) {
     for (const RampRun& run : reproducing_ramps()) {

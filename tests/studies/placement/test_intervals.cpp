@@ -6,6 +6,7 @@
 
 #include "capstan/placement/candidate_scores.h"
 #include "capstan/placement/intervals.h"
+#include "capstan/placement/placement_questions.h"
 
 namespace capstan {
 namespace {
@@ -155,6 +156,26 @@ TEST(SimultaneousDifferences, HoldTogetherInAtLeast95PercentOfStudies) {
         all_held += held;
     }
     EXPECT_GE(all_held, (0.95 - 2 * 0.01) * trials);
+}
+
+int count_where(const std::vector<CountError>& by_count) {
+    return count_where_gain_flattens(by_count, 0.02);
+}
+
+TEST(CountWhereGainFlattens, MeasuresTheGainOfEachSensorWhereSeveralAreAdded) {
+    EXPECT_EQ(count_where({{1, 1.0}, {4, 0.95}}), 1) << "0.017 N for each of three";
+    EXPECT_EQ(count_where({{1, 1.0}, {4, 0.93}}), 4) << "0.023 N for each of three";
+    EXPECT_EQ(count_where({{2, 1.0}, {3, 0.97}, {11, 0.82}}), 3) << "0.019 N for each of eight";
+}
+
+TEST(CountWhereGainFlattens, LooksBeyondACountThatGainsLittle) {
+    EXPECT_EQ(count_where({{1, 1.0}, {2, 0.99}, {3, 0.93}}), 3) << "0.035 N for each of two";
+    EXPECT_EQ(count_where({{1, 1.0}, {2, 0.99}, {3, 0.97}}), 1) << "0.015 N for each of two";
+}
+
+TEST(CountWhereGainFlattens, IsTheOnlyCountOrNone) {
+    EXPECT_EQ(count_where({{5, 1.0}}), 5);
+    EXPECT_EQ(count_where({}), 0);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ class Coverage : public testing::Test {
     static void SetUpTestSuite() {
         truth_plan = new StudyPlan(placed_plan(40000, 987654321));
         truth = new EveryLayout(*truth_plan, 0, 0);
-        truth->draws.extend(40, 1000, truth->weights, 0);
+        truth->draws.extend({40000, 1000}, truth->weights, 0);
         answers = new std::vector<PlacementAnswer>(coverage_studies);
         parallel_for_each_index(coverage_studies, 0, [](int k) {
             PlacementOptions options;

@@ -35,7 +35,7 @@ class RecommendationCoverage : public testing::Test {
     static void SetUpTestSuite() {
         truth_plan = new StudyPlan(plan_of(40000, 987654321));
         truth = new test::EveryLayout(*truth_plan, 0, 0);
-        truth->draws.extend(40, 1000, truth->weights, 0);
+        truth->draws.extend({40000, 1000}, truth->weights, 0);
         answers = new std::vector<Recommended>(coverage_studies);
         parallel_for_each_index(coverage_studies, 0, [](int k) {
             test::TemporaryStudy file;

@@ -28,7 +28,7 @@ TEST(SensorPlacement, OptimumIsTheBestAllowedLayout) {
     plan.placement.minimum_spacing = 2;
     const PlacementAnswer answer = place_sensors(plan, alone());
     EveryLayout every(plan);
-    every.draws.extend(40, 1, every.weights, 1);
+    every.draws.extend({40, 1}, every.weights, 1);
     const PlacementConstraints constraints(plan.placement, every.study.nodes());
     const auto& mass = every.draws.scenarios()[0].error_N;
     for (const CountAnswer& count : scope_of(answer, "regime", "mass").counts) {
@@ -42,6 +42,19 @@ TEST(SensorPlacement, OptimumIsTheBestAllowedLayout) {
         EXPECT_TRUE(count.optimum.breaks.empty());
     }
     EXPECT_EQ(scope_of(answer, "regime", "mass").counts.back().sensors, 3);  // 1, 3, 5
+}
+
+// 50 repetitions in at most 40 blocks leave a last block that is not full.
+TEST(SensorPlacement, UsesExactlyTheRepetitionsOfThePlan) {
+    for (const int repetitions : {50, 77, 100}) {
+        const StudyPlan plan = test::short_cable_plan(repetitions);
+        const PlacementAnswer answer = place_sensors(plan, alone());
+        EXPECT_EQ(answer.repetitions, repetitions);
+        EveryLayout every(plan);
+        every.draws.extend({repetitions, 1}, every.weights, 1);
+        const JudgedLayout& optimum = scope_of(answer, "regime", "mass").counts.front().optimum;
+        EXPECT_NEAR(optimum.searched_N, every.draws.scenarios()[0].error_N[optimum.candidate], 1e-12);
+    }
 }
 
 TEST(SensorPlacement, NoComparedLayoutIsBetterOnTheDrawsOfTheSearch) {
@@ -90,7 +103,7 @@ TEST(SensorPlacement, ErrorAfterALossIsThatOfTheRemainingLayout) {
     const StudyPlan plan = test::short_cable_plan(40);
     const PlacementAnswer answer = place_sensors(plan, alone());
     EveryLayout every(plan);
-    every.draws.extend(40, 1, every.weights, 1);
+    every.draws.extend({40, 1}, every.weights, 1);
     const auto& mass_N = every.draws.scenarios()[0].error_N;
     for (const CountAnswer& count : scope_of(answer, "regime", "mass").counts) {
         if (count.sensors == 1) {

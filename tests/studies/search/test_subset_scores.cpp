@@ -33,14 +33,14 @@ class SubsetScores : public testing::TestWithParam<Judged> {};
 // and sums a few dozen terms, so 1e-12 N is their rounding; repetitions' errors behind a quantile are kept as
 // float.
 TEST_P(SubsetScores, EveryLayoutHasTheErrorOfAStudy) {
-    StudyPlan plan = test::paper_plan(80);
+    StudyPlan plan = test::paper_plan(75);  // the last block is shorter
     plan.noise_levels.push_back({"all kinds", {0.05, 0.2, 0.1}});
     plan.layout_families.clear();
     plan.explicit_layouts = some_layouts();
     plan.placement.objective = GetParam().objective;
     for (int noise = 0; noise < 2; ++noise) {
         EveryLayout every(plan, noise);
-        every.draws.extend(40, 2, every.weights, 1);
+        every.draws.extend(DrawBlocks::for_repetitions(75), every.weights, 1);
         for (int s = 0; s < static_cast<int>(every.study.scenarios.size()); ++s) {
             double processor_time_s = 0.0;
             FusionTimes times;
@@ -74,8 +74,8 @@ TEST(SubsetMeans, AMethodWithoutSumsHasTheErrorsOfItsOwnFuse) {
     CandidateList one_by_one{every.subsets, {}, {}};
     for (const FusionMethod& method : slow) one_by_one.methods.push_back(&method);
     ScoredDraws draws(every.study, 0, 0, one_by_one, plan.placement.objective);
-    draws.extend(20, 2, every.weights, 1);
-    every.draws.extend(20, 2, every.weights, 1);
+    draws.extend({40, 2}, every.weights, 1);
+    every.draws.extend({40, 2}, every.weights, 1);
     for (std::size_t scenario = 0; scenario < every.study.scenarios.size(); ++scenario) {
         for (int subset = 1; subset < every.subsets.count(); ++subset) {
             for (int m = 0; m < 4; ++m) {
@@ -93,7 +93,7 @@ TEST(SubsetMeans, RefusesAMethodThatMustKnowTheDirection) {
     EveryLayout every(plan);
     const CandidateList known{every.subsets, {&mean_known_direction}, {}};
     ScoredDraws draws(every.study, 0, 0, known, plan.placement.objective);
-    EXPECT_THROW(draws.extend(2, 2, every.weights, 1), std::logic_error);
+    EXPECT_THROW(draws.extend({4, 2}, every.weights, 1), std::logic_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -113,10 +113,10 @@ TEST(ScoredDraws, MoreRepetitionsKeepTheFirstOnes) {
     const StudyPlan plan = test::short_cable_plan(40);
     EveryLayout twice(plan);
     EveryLayout once(plan);
-    twice.draws.extend(10, 2, twice.weights, 1);
+    twice.draws.extend({20, 2}, twice.weights, 1);
     const std::vector<ScenarioErrors> first = twice.draws.scenarios();
-    twice.draws.extend(20, 2, twice.weights, 1);
-    once.draws.extend(20, 2, once.weights, 1);
+    twice.draws.extend({40, 2}, twice.weights, 1);
+    once.draws.extend({40, 2}, once.weights, 1);
     for (std::size_t s = 0; s < first.size(); ++s) {
         EXPECT_EQ(twice.draws.scenarios()[s].block_error_N, once.draws.scenarios()[s].block_error_N);
         for (int c = once.candidates.of(1, 0); c < once.candidates.count(); ++c) {
@@ -131,7 +131,7 @@ TEST(ScoredDraws, AnyNumberOfThreadsGivesTheSameBits) {
     std::vector<std::vector<double>> errors_N;
     for (const int jobs : {1, 2, 7}) {
         EveryLayout every(plan, 0, jobs);
-        every.draws.extend(30, 2, every.weights, jobs);
+        every.draws.extend({60, 2}, every.weights, jobs);
         errors_N.emplace_back();
         for (const ScenarioErrors& scenario : every.draws.scenarios()) {
             errors_N.back().insert(errors_N.back().end(), scenario.block_error_N.begin(),
@@ -151,8 +151,8 @@ TEST(ScoredDraws, UnwantedCandidatesDoNotChangeTheOthers) {
                                few.candidate({4}, "maximum_likelihood"),
                                few.candidate({0, 1, 4}, "w_mean_r")};
     for (const int candidate : wanted) few.candidates.wanted[candidate] = 1;
-    all.draws.extend(10, 2, all.weights, 1);
-    few.draws.extend(10, 2, few.weights, 1);
+    all.draws.extend({20, 2}, all.weights, 1);
+    few.draws.extend({20, 2}, few.weights, 1);
     for (std::size_t s = 0; s < all.draws.scenarios().size(); ++s) {
         for (const int candidate : wanted) {
             EXPECT_EQ(few.draws.scenarios()[s].error_N[candidate],
