@@ -5,7 +5,7 @@
 #include "capstan/reports/cable_drawing.h"
 #include "capstan/reports/figure_html.h"
 #include "capstan/reports/html_text.h"
-#include "capstan/storage/node_list.h"
+#include "capstan/storage/records.h"
 
 namespace capstan::reports {
 namespace {

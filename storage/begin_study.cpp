@@ -2,7 +2,6 @@
 #include <string>
 
 #include "capstan/storage/error.h"
-#include "capstan/storage/node_list.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/study_ids.h"
 #include "capstan/storage/study_store.h"

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace capstan::storage {
@@ -76,6 +77,10 @@ struct FusionMethodRecord {  // its position is its method_index
     std::string meaning;
     bool operator==(const FusionMethodRecord&) const = default;
 };
+
+// Sensor nodes as the database keeps them: '[1,6,11]', which SQLite's json_each can take apart in a query.
+std::string node_list_text(const std::vector<int>& nodes);
+std::vector<int> parse_node_list(std::string_view text);
 
 struct SensorSetRecord {  // its position is its set_index
     std::vector<int> nodes;

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/estimation/ensemble_rows.h"
 #include "capstan/estimation/recursive_sums.h"
 #include "capstan/estimation/stratified_scores.h"
 #include "capstan/sensing/random_stream.h"

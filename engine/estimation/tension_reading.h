@@ -38,6 +38,11 @@ struct TensionReading {
     NoiseLevel noise;
 };
 
+/// A correlation between few members counts by how far it is beyond this many variances of chance: 4 is two
+/// standard deviations. Without, chance correlations shrink the spread of what rests a little in every step,
+/// until the band there is far too narrow.
+inline constexpr double chance_variances = 4.0;
+
 /// A slack node's multiplicative noise has no width; a tenth of a millinewton keeps its likelihood finite.
 inline constexpr double smallest_deviation_N = 1e-4;
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "capstan/estimation/ensemble_filter.h"
+#include "capstan/ensemble/ensemble_filter.h"
 #include "capstan/plan/study_plan.h"
 
 namespace capstan {

@@ -45,7 +45,9 @@ TEST_F(MeasuredGap, TheTrueModelLeavesNothingAndClosesTheGap) {
     for (const ChannelGap& channel : gap.channels) {
         EXPECT_GT(channel.before_rms, 0.0) << channel.channel;
         EXPECT_EQ(channel.after_rms, 0.0) << channel.channel;
-        if (!std::isnan(channel.closed)) EXPECT_EQ(channel.closed, 1.0) << channel.channel;
+        if (!std::isnan(channel.closed)) {
+            EXPECT_EQ(channel.closed, 1.0) << channel.channel;
+        }
     }
 }
 

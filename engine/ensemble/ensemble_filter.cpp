@@ -1,10 +1,10 @@
-#include "capstan/estimation/ensemble_filter.h"
+#include "capstan/ensemble/ensemble_filter.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/estimation/ensemble_rows.h"
+#include "capstan/ensemble/ensemble_rows.h"
 
 namespace capstan {
 

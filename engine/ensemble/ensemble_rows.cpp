@@ -1,11 +1,11 @@
-#include "capstan/estimation/ensemble_rows.h"
+#include "capstan/ensemble/ensemble_rows.h"
 
 #include <cmath>
 
 // foreach_target.h comes before highway.h.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "capstan/estimation/ensemble_rows.cpp"
+#define HWY_TARGET_INCLUDE "capstan/ensemble/ensemble_rows.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 #include <hwy/contrib/math/math-inl.h>

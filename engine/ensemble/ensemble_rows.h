@@ -4,11 +4,6 @@
 
 namespace capstan {
 
-/// A correlation between few members counts by how far it is beyond this many variances of chance: 4 is two
-/// standard deviations. Without, chance correlations shrink the spread of what rests a little in every step,
-/// until the band there is far too narrow.
-inline constexpr double chance_variances = 4.0;
-
 /// Rows of numbers, one for each member of an ensemble, in SIMD lanes (Highway, chosen at run time). All rows
 /// of a call have as many members, a multiple of 8.
 struct RowMoments {

@@ -1,4 +1,4 @@
-#include "capstan/estimation/uncertain_cable.h"
+#include "capstan/ensemble/uncertain_cable.h"
 
 #include <cmath>
 

@@ -3,11 +3,11 @@
 #include <span>
 #include <vector>
 
-#include "capstan/estimation/ensemble_draws.h"
-#include "capstan/estimation/ensemble_rows.h"
-#include "capstan/estimation/far_end_process.h"
+#include "capstan/ensemble/ensemble_draws.h"
+#include "capstan/ensemble/ensemble_rows.h"
+#include "capstan/ensemble/far_end_process.h"
+#include "capstan/ensemble/uncertain_cable.h"
 #include "capstan/estimation/tension_reading.h"
-#include "capstan/estimation/uncertain_cable.h"
 #include "capstan/sensing/sensor.h"
 #include "capstan/solver/cable_ensemble.h"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/estimation/ensemble_filter.h"
+#include "capstan/ensemble/ensemble_filter.h"
 #include "capstan/sensing/random_stream.h"
 #include "capstan/solver/quasi_static_step.h"
 

@@ -1,4 +1,4 @@
-#include "capstan/estimation/ensemble_draws.h"
+#include "capstan/ensemble/ensemble_draws.h"
 
 #include <cmath>
 
