@@ -10,8 +10,6 @@ namespace capstan::paper {
 namespace {
 
 constexpr double highest_torque_Nm = 0.125;
-constexpr double slope_Nm_per_s = 0.1;
-constexpr double dwell_s = 0.5;
 constexpr double duration_s = 30.0;
 // Below this the load torque has not changed: rounding is 1e-13 N m, a front that arrives brings 1e-4.
 constexpr double unchanged_Nm = 1e-6;

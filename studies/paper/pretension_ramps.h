@@ -19,6 +19,10 @@ struct CableSetting {
 /// `reproduces`: less wrap and less pretension, fitted to the peaks that the paper's figures imply.
 const std::vector<CableSetting>& cable_settings();
 
+/// The motor torque of Exp. 1 rises and falls with this slope, and dwells at its peaks.
+inline constexpr double slope_Nm_per_s = 0.1;
+inline constexpr double dwell_s = 0.5;
+
 /// How finely the bench is computed. The stiction rule (E4) depends on the length of a segment; from 100
 /// segments on the peaks move by less than 0.1%.
 struct Resolution {

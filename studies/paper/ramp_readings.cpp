@@ -10,8 +10,6 @@ namespace capstan::paper {
 
 namespace {
 
-constexpr double slope_Nm_per_s = 0.1;
-constexpr double dwell_s = 0.5;
 constexpr double table_1_ratio = 5.2;
 
 // Steps of a ramp; tensions follow the torque and not the time, so a loop needs few.
