@@ -5,7 +5,7 @@
 #include "capstan/reports/recommendation_section.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/reports/table.h"
-#include "capstan/storage/paper_agreement.h"
+#include "capstan/storage/report_queries.h"
 
 namespace capstan::reports {
 namespace {

@@ -3,6 +3,8 @@
 // A table's name is its name everywhere: in JSON, in the page, and in the figures' specs.
 
 #include <cstdint>
+#include <cstdio>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,5 +52,27 @@ WHERE w.study_id = ?1 ORDER BY w.unit_index)sql";
 inline constexpr std::string_view cable_query =
     "SELECT segment, start_m, length_m, bend_radius_m, wrap_angle_rad FROM cable_segment "
     "WHERE study_id = ?1 ORDER BY segment";
+
+// When a number of ours agrees with the paper's, for those who compare them and those who show the result.
+
+// The paper rounds to 0.01 N, and reads some numbers off single draws of its own.
+inline constexpr double paper_agreement_N = 0.03;
+inline constexpr double paper_agreement_standard_errors = 2.0;
+
+inline std::string paper_agreement_words() {
+    char text[400];
+    std::snprintf(
+        text, sizeof text,
+        "A row agrees where ours is within %g N (the paper's rounding and single draws) plus %g of our standard "
+        "errors of the paper's number; with a bound, where ours is at most %g standard errors above it.",
+        paper_agreement_N, paper_agreement_standard_errors, paper_agreement_standard_errors);
+    return text;
+}
+
+// The configuration of the paper's experiment was partly fitted to its figures.
+inline constexpr const char* paper_matched_words =
+    "The instants, the reading of Table I's stiffness and the rule that an estimate may not move the blocked end were "
+    "chosen by matching the paper's figures, so agreement is partly fitted. A reason is shown by an ablation, which "
+    "`capstan paper estimation` prints, or is a guess.";
 
 }  // namespace capstan::storage

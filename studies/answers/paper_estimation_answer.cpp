@@ -2,7 +2,7 @@
 
 #include "capstan/answers/paper_answers.h"
 #include "capstan/paper/placement_comparison.h"
-#include "capstan/storage/paper_agreement.h"
+#include "capstan/storage/report_queries.h"
 
 namespace capstan::answers {
 

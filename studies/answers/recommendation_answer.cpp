@@ -5,7 +5,7 @@
 #include "capstan/answers/placement_answers.h"
 #include "capstan/placement/recommendation.h"
 #include "capstan/storage/error.h"
-#include "capstan/storage/paper_agreement.h"
+#include "capstan/storage/report_queries.h"
 #include "capstan/storage/statement.h"
 #include "capstan/storage/study_store.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "capstan/storage/paper_agreement.h"
+#include "capstan/storage/report_queries.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::paper {
