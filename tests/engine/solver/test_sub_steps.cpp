@@ -25,7 +25,7 @@ constexpr int finest = 1000;
 constexpr int fine = 200;
 
 // Largest difference of a node's tension, relative to the larger of the two.
-double apart(const CableState& a, const CableState& b) {
+double apart_N(const CableState& a, const CableState& b) {
     double largest = 0.0;
     for (std::size_t node = 0; node < a.tension_N.size(); ++node) {
         const double size_N = std::max(a.tension_N[node], b.tension_N[node]);
@@ -51,9 +51,9 @@ struct Convergence {
     void add(const QuasiStaticStep& step, const CableState& before, const EndConditions& ends,
              const CableState& after, const CableState& limit) {
         ++steps;
-        const std::array<double, 3> distance{apart(after, limit),
-                                             apart(test::in_sub_steps(step, before, ends, 10).after, limit),
-                                             apart(test::in_sub_steps(step, before, ends, 100).after, limit)};
+        const std::array<double, 3> distance{
+            apart_N(after, limit), apart_N(test::in_sub_steps(step, before, ends, 10).after, limit),
+            apart_N(test::in_sub_steps(step, before, ends, 100).after, limit)};
         for (int k = 0; k < 3; ++k) {
             largest[k] = std::max(largest[k], distance[k]);
             all[k].push_back(distance[k]);
@@ -72,7 +72,7 @@ struct Convergence {
     }
 };
 
-struct Tally {
+struct SubStepTally {
     int steps = 0;
     int several = 0;             // more than one state verifies
     int none = 0;                // no state verifies
@@ -124,7 +124,7 @@ class Walks {
         EXPECT_EQ(tally.failures(), 0);
     }
 
-    Tally tally;
+    SubStepTally tally;
 
   private:
     enum class Conduit { bent_evenly, bends_differ };
@@ -174,8 +174,8 @@ class Walks {
         double spread = 0.0;
         for (const CableState& state : verified) {
             fewest = std::min(fewest, moved_nodes(before, state));
-            nearest = std::min(nearest, apart(state, after));
-            for (const CableState& other : verified) spread = std::max(spread, apart(state, other));
+            nearest = std::min(nearest, apart_N(state, after));
+            for (const CableState& other : verified) spread = std::max(spread, apart_N(state, other));
         }
         tally.not_among += nearest > 1e-6;
         tally.not_least += fewest < moved_nodes(before, after);
@@ -203,7 +203,7 @@ TEST(SubSteps, ReachTheStepsAnswerAlsoWhereSeveralStatesPassEveryCheck) {
     walks.in_every_mode(2e-5, 17);
     walks.in_every_mode(1e-4, 7);
     walks.of_both_positions(4, 4e-4, 3000, 11);
-    Tally& tally = walks.tally;
+    SubStepTally& tally = walks.tally;
     tally.tell();
     EXPECT_GT(tally.several, tally.steps / 20);
     EXPECT_GT(tally.opposed.steps, tally.steps / 20);
@@ -219,7 +219,7 @@ TEST(SubSteps, ReachTheStepsAnswerAlsoWhereSeveralStatesPassEveryCheck) {
 TEST(SubSteps, WithStictionReachTheStepsAnswerWhichMovesTheFewestNodes) {
     Walks walks(0.63);
     walks.in_every_mode(1e-4, 13);
-    Tally& tally = walks.tally;
+    SubStepTally& tally = walks.tally;
     tally.tell();
     EXPECT_EQ(tally.not_least, 0);
     EXPECT_GT(tally.several, tally.steps / 2);
@@ -245,7 +245,7 @@ void on_long_cables(double static_friction, const Visit& visit) {
                     if (!test::moderately_stretched(after)) continue;
                     const test::SubSteps limit = test::in_sub_steps(step, before, ends, 50);
                     if (!limit.zero_velocity_point && report.pattern.kind != MotionKind::opposed)
-                        visit(before, report.pattern, apart(after, limit.after));
+                        visit(before, report.pattern, apart_N(after, limit.after));
                 }
             }
         }
