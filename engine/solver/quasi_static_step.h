@@ -18,7 +18,12 @@ struct StepReport {
 ///
 /// Each sliding side has one unknown scale (E1-E3). A side's front starts where it was if its direction has
 /// not changed, else at the end, and moves on while the neighbour at rest cannot hold (E4). When no resting
-/// node is left, mass motion is tried, then the zero-velocity point inside a segment (E7). O(nodes).
+/// node is left, the middle of the segment between rests if friction holds it (E8); else all slides, or the
+/// zero-velocity point lies inside a segment (E7). O(nodes).
+///
+/// Several states can pass every check of a step. The answer is the one that continuous motion from the
+/// previous state reaches, the limit of sub-steps: to rounding, and with a zero-velocity point to first order
+/// in the step (engine/README.md has where stiction makes an exception).
 ///
 /// The answer that comes out is checked node by node; one that fails is still written and reported as not
 /// verified, never dropped.
