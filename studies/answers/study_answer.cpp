@@ -4,6 +4,7 @@
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/study_answers.h"
+#include "capstan/storage/statement.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::answers {
@@ -60,8 +61,50 @@ std::string description_of(const StudyDescription& study) {
 
 }  // namespace
 
+namespace {
+
+// A study over worlds: how many trials of each condition are stored.
+reports::Answer world_study_answer(storage::Database& database, std::int64_t study_id,
+                                   const StudyDescription& study) {
+    const auto& head = study.study;
+    storage::Statement statement(
+        database,
+        "SELECT condition, count(DISTINCT candidate_index), count(*) FROM world_error WHERE "
+        "study_id = ?1 GROUP BY condition ORDER BY condition");
+    statement.bind(1, study_id);
+    Data conditions = Data::list();
+    while (statement.step())
+        conditions.push_back({{"condition", statement.get<std::string>(0)},
+                              {"sets", statement.get<std::int64_t>(1)},
+                              {"trials", statement.get<std::int64_t>(2)}});
+    reports::Answer answer{
+        .id = "study_description",
+        .kind = "A stored study over worlds",
+        .title = fmt::format("Study {} ({})", study_id, head.name),
+        .headline = fmt::format("{}; {} sets of sensors.", head.status, study.world_candidates.size() - 1)};
+    answer.values = {{"study_id", study_id},      {"name", head.name},
+                     {"status", head.status},     {"program_version", head.program_version},
+                     {"seed", head.seed},         {"repetitions", head.repetitions},
+                     {"segments", head.segments}, {"candidates", study.world_candidates.size()},
+                     {"conditions", conditions},  {"config_toml", head.config_toml}};
+    answer.sections = {
+        {.id = "trials",
+         .heading = "Trials that are stored",
+         .prose =
+             fmt::format("Draws: {} worlds to choose and as many to judge, seed {}. Program: capstan {}.",
+                         head.repetitions, head.seed, head.program_version),
+         .tables = {{"trials",
+                     "",
+                     {{"condition", "condition"}, {"sets", "sets"}, {"trials", "sets times worlds"}},
+                     conditions}}}};
+    return answer;
+}
+
+}  // namespace
+
 reports::Answer study_answer(storage::Database& database, std::int64_t study_id) {
     const StudyDescription study = storage::load_study(database, study_id);
+    if (!study.world_candidates.empty()) return world_study_answer(database, study_id, study);
     const std::size_t units = study.work_units.size();
     const std::size_t done = units - storage::pending_units(database, study_id).size();
     const auto& head = study.study;

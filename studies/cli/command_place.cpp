@@ -58,6 +58,8 @@ ExitCode run_place(const Invocation& invocation) {
     if (invocation.has("repetitions"))
         config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
     if (config.plan.uncertainty.is_stated) {
+        for (const char* option : {"noise", "duty", "until-resolved"})
+            if (invocation.has(option)) refuse_worlds(config.plan, std::string("--") + option);
         if (invocation.has("from-diagnosis")) return place_with_diagnosis(invocation, config);
         config::require_runnable(config);
         return run_watched_worlds(invocation, nullptr, 0, config.plan);

@@ -4,10 +4,13 @@
 #include <charconv>
 #include <cstdio>
 
+#include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/watched_run.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"
@@ -58,6 +61,10 @@ std::string chosen_report(const Invocation& invocation, storage::Database& datab
         return answer_in(answers::stored_diagnosis_answer(stored), format);
     }
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
+    const StoredStudy stored = load_stored_study(database, id);
+    if (invocation.has("compare")) refuse_worlds(stored.plan, "--compare");
+    if (stored.plan.uncertainty.is_stated)
+        return answer_in(answers::conclusions_answer(database, id), format);
     if (!invocation.has("compare")) return study_report(database, id, format);
     const std::int64_t other = storage::find_study(database, invocation.text("compare"));
     return answer_in(reports::study_comparison(database, {other, id}), format);

@@ -17,6 +17,8 @@ ExitCode run_sensitivity(const Invocation& invocation) {
     if (invocation.has("sensors"))
         config.plan.sensitivity.sensors = static_cast<int>(invocation.integer("sensors"));
     config::require_runnable(config);
+    for (const char* option : {"noise", "sensors"})
+        if (invocation.has(option)) refuse_worlds(config.plan, std::string("--") + option);
     // The answer of a study over worlds says how it fares with other widths.
     if (config.plan.uncertainty.is_stated) return run_watched_worlds(invocation, nullptr, 0, config.plan);
     sensitivity::SensitivityOptions options;

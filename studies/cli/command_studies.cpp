@@ -4,6 +4,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/watched_run.h"
 #include "capstan/placement/replay.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/platform/standard_streams.h"
@@ -91,6 +92,7 @@ ExitCode run_study_replay(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     const StoredStudy stored = load_stored_study(database, id);
+    refuse_worlds(stored.plan, "capstan study replay");
     const auto& study = stored.description;
     const ReplayAddress address{
         position(invocation, "scenario", study.scenarios.size()),

@@ -11,6 +11,7 @@
 #include "capstan/placement/study_extension.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
+#include "capstan/worlds/stored_worlds.h"
 
 namespace capstan::cli {
 
@@ -62,6 +63,19 @@ std::string extension_message(const Invocation& invocation, const StudyToExtend&
     return words;
 }
 
+// A new study beside the one that is there: which sets were left out, and when, depends on the number of
+// worlds.
+ExitCode extend_worlds(const Invocation& invocation, storage::Database& database,
+                       const StudyToExtend& study) {
+    if (invocation.has("until-resolved")) refuse_worlds(study.plan, "--until-resolved");
+    const StudyPlan larger = study.with_repetitions(static_cast<int>(invocation.integer("repetitions")));
+    if (larger.repetitions <= study.plan.repetitions)
+        throw UsageError(fmt::format("--repetitions is {}, but study {} has {} worlds already; ask for more",
+                                     larger.repetitions, study.study_id, study.plan.repetitions));
+    const std::int64_t id = begin_worlds(database, larger, program_version());
+    return run_watched_worlds(invocation, &database, id, larger);
+}
+
 ExitCode run_study_extend(const Invocation& invocation) {
     if (invocation.has("repetitions") == invocation.has("until-resolved")) {
         throw UsageError(
@@ -71,6 +85,7 @@ ExitCode run_study_extend(const Invocation& invocation) {
     storage::Database database = storage::Database::open_existing(invocation.text("db"));
     refuse_shard_file(database);
     const StudyToExtend study = study_to_extend(invocation, database);
+    if (study.plan.uncertainty.is_stated) return extend_worlds(invocation, database, study);
     ExtensionOutcome outcome;
     const ExitCode code = watch(invocation, study.plan.name, [&](const RunOptions& options) -> WatchedEnd {
         if (invocation.has("repetitions")) {

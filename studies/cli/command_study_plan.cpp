@@ -4,6 +4,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/watched_run.h"
 #include "capstan/config/plan_checks.h"
 #include "capstan/placement/study_cost.h"
 #include "capstan/placement/study_shard.h"
@@ -21,6 +22,7 @@ int sensible_shards(const StudyCost& cost) {
 ExitCode run_study_plan(const Invocation& invocation) {
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
+    refuse_worlds(config.plan, "capstan study plan");
     if (invocation.has("shards")) require_useful(plans, {1, static_cast<int>(invocation.integer("shards"))});
     const StudyCost cost = predict_cost(plans, {invocation.number("seconds")});
     const int shards =

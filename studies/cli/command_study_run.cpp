@@ -103,9 +103,7 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
 }
 
 ExitCode run_all_worlds(const Invocation& invocation, const std::vector<StudyPlan>& plans) {
-    if (invocation.has("shard"))
-        throw UsageError(
-            "--shard is for studies without [uncertainty]; a study over worlds runs as one part");
+    if (invocation.has("shard")) refuse_worlds(plans.front(), "--shard");
     storage::Database database = storage::Database::open_or_create(invocation.text("db"));
     refuse_shard_file(database);
     std::vector<std::int64_t> ids;

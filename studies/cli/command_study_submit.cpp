@@ -5,6 +5,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/watched_run.h"
 #include "capstan/cluster/slurm_queue.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
@@ -94,6 +95,7 @@ ExitCode run_study_submit(const Invocation& invocation) {
     }
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
+    refuse_worlds(config.plan, "capstan study submit");
     StudyDirectory directory;
     directory.path = absolute_directory(invocation.text("directory"));
     directory.name = config.plan.name;

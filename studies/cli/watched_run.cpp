@@ -151,6 +151,13 @@ ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* dat
     return ExitCode::success;
 }
 
+void refuse_worlds(const StudyPlan& plan, const std::string& what) {
+    if (!plan.uncertainty.is_stated) return;
+    throw UsageError(what +
+                     " is for studies at instants; a study with [uncertainty] compares sets of sensors over "
+                     "complete motions in one part");
+}
+
 const Option from_diagnosis_option{
     .name = "from-diagnosis",
     .value = "ID",

@@ -38,6 +38,10 @@ ExitCode run_watched(const Invocation& invocation, storage::Database& database, 
 std::optional<WorldAnswer> watch_worlds(const Invocation& invocation, storage::Database* database,
                                         std::int64_t study_id, const StudyPlan& plan);
 
+/// Throws UsageError where the plan is one with [uncertainty], which has neither instants nor shards. `what`
+/// is a command or an option.
+void refuse_worlds(const StudyPlan& plan, const std::string& what);
+
 extern const Option from_diagnosis_option;
 /// The truth of the plan's worlds is what the diagnosis of --from-diagnosis found, in the database of --db.
 void take_diagnosis(const Invocation& invocation, StudyPlan& plan);

@@ -125,6 +125,17 @@ std::string section_text(const ConfigSection<Plan>& section, const Plan& plan, i
     return text;
 }
 
+// A list of tables of which the plan has none, as comments to fill in.
+template <class Plan>
+std::string unused_section_text(const ConfigSection<Plan>& section) {
+    std::string text = "\n" + comment(section.help) + fmt::format("# [[{}]]\n", section.path);
+    for (const ConfigKey<Plan>& key : config_schema<Plan>().keys) {
+        if (key.section != section.path) continue;
+        text += "\n" + comment(key.help) + comment(facts_of(key)) + fmt::format("# {} =\n", key.name);
+    }
+    return text;
+}
+
 }  // namespace
 
 template <class Plan>
@@ -135,6 +146,7 @@ std::string config_text(const Plan& plan, Comments comments) {
         const bool is_used = section.is_used == nullptr || section.is_used(plan);
         if (!is_used && comments == Comments::none) continue;
         const int rows = section.is_repeated() ? section.rows(plan) : 1;
+        if (rows == 0 && comments == Comments::every_key) text += unused_section_text(section);
         for (int row = 0; row < rows; ++row) text += section_text(section, plan, row, comments);
     }
     return text;

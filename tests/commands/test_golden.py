@@ -24,11 +24,14 @@ STUDIES = {
     "quick": (),
     "paper": ("--repetitions", "100"),
     "noise-sweep": ("--repetitions", "20"),
+    "wrist-instants": ("--repetitions", "20"),
     "wrist-exosuit": ("--repetitions", "20"),
     "atlas": ("--repetitions", "2", "--shard", "1/800"),
 }
 SHORT = sorted(set(STUDIES) - {"atlas"})
-SHARDED = ("noise-sweep", "wrist-exosuit")  # enough parts for four shards
+# Its estimator's patterns may fall either way by the rounding of an exponential, so two widths agree in distribution only.
+WORLDS = ("wrist-exosuit",)
+SHARDED = ("noise-sweep", "wrist-instants")  # enough parts for four shards
 BENCHES = ("bench-handle", "bench-ramps", "bench-slack")
 # Between widths, compilers and degrees of optimisation only the order of sums differs. Errors are of the order of 0.1 N.
 BOUND_N = 1e-11
@@ -88,7 +91,7 @@ class Golden(CapstanTest):
         """Each width is the same to the bit every time; from one width to another, within the bound."""
         widths = self.widths()
         self.assertIn("SCALAR", widths)
-        for config in SHORT:
+        for config in sorted(set(SHORT) - set(WORLDS)):
             first = self.run_study(config, f"{config}.db", width=widths[0])
             for width in widths[1:]:
                 tables = self.run_study(config, f"{config}-{width}.db", width=width)

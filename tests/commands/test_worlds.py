@@ -1,0 +1,132 @@
+"""Placement for a cable that is not exactly known, as its user runs it."""
+
+import json
+import signal
+import unittest
+
+from capstan_program import CONFIGS, CapstanTest
+
+ARM = """
+name = "arm"
+repetitions = 24
+
+[transmission]
+segments = 8
+axial_stiffness_N = 9000
+dynamic_friction = 0.12
+static_friction = 0.16
+pretension_N = 15
+
+[[transmission.curvature]]
+length_m = 0.4
+
+[[transmission.curvature]]
+length_m = 0.4
+bend_radius_m = 0.15
+
+[motion]
+sample_rate_Hz = 100
+samples = 60
+
+[motion.proximal]
+amplitude_m = 0.002
+
+[uncertainty]
+far_end_range_m = 0.001
+members = 32
+
+[[sensor]]
+kind = "tension"
+noise_ratio = 0.03
+noise_N = 0.1
+
+[[sensor]]
+kind = "load_displacement"
+noise_m = 0.0001
+price = 2.0
+
+[layouts]
+families = "all"
+counts = [1, 2]
+"""
+
+
+class Worlds(CapstanTest):
+    def setUp(self):
+        super().setUp()
+        self.write("arm.toml", ARM)
+
+    def test_every_way_to_ask_gives_the_same_sensors_and_the_same_bits(self):
+        run = json.loads(self.run_capstan("study", "run", "arm.toml", "--db", "arm.db", "--json").stdout)
+        recommended = json.loads(self.run_capstan("recommend", "--db", "arm.db", "--json").stdout)
+        self.assertEqual(run, recommended)
+        for command in ("place", "sensitivity"):
+            placed = json.loads(self.run_capstan(command, "arm.toml", "--json").stdout)
+            self.assertEqual(placed["recommendations"], run["recommendations"])
+            self.assertEqual(placed["prices"], run["prices"])
+
+    def test_a_recommendation_says_what_a_buyer_asks(self):
+        answer = json.loads(self.run_capstan("place", "arm.toml", "--json").stdout)
+        recommendation = answer["recommendations"][0]
+        for key in ("objective", "sensors", "estimator", "expected_error_N", "error_95_N", "monte_carlo_interval_N",
+                    "no_sensor_error_N", "beats_no_sensor", "gains"):
+            self.assertIn(key, recommendation)
+        for sensor in recommendation["sensors"]:
+            self.assertEqual(sorted(sensor), ["kind", "node", "place_m"])
+        low, high = recommendation["monte_carlo_interval_N"]
+        self.assertTrue(low < recommendation["expected_error_N"] < high < recommendation["no_sensor_error_N"])
+        gains = {gain["of"] for gain in recommendation["gains"]}
+        self.assertIn("calibrating friction", gains)
+        words = self.run_capstan("place", "arm.toml").stdout
+        self.assertIn("Without any sensor it is", words)
+
+    def test_constraints_are_obeyed_and_named_where_they_clash(self):
+        self.write("near.toml", ARM + '\n[placement]\nsearch = "all"\nmax_sensors = 2\nforbidden_m = [0.0, 0.3]\nrequired_m = [0.8]\n')
+        answer = json.loads(self.run_capstan("place", "near.toml", "--json").stdout)
+        for price in answer["prices"]:
+            places = [sensor["place_m"] for sensor in price["sensors"] if sensor["kind"] == "tension"]
+            if price["sensors"]:
+                self.assertIn(0.8, [round(place, 9) for place in places])
+            self.assertTrue(all(place > 0.3 for place in places))
+        self.write("clash.toml", ARM + "\n[placement]\nforbidden_m = [0.7, 0.8]\nrequired_m = [0.8]\n")
+        clash = self.run_capstan("place", "clash.toml", expect=2)
+        self.assertIn("no set of sensors satisfies all constraints", clash.stderr)
+
+    def test_rows_are_there_to_be_queried(self):
+        self.run_capstan("study", "run", "arm.toml", "--db", "arm.db")
+        rows = json.loads(self.run_capstan("query", "SELECT words, worlds, mean_abs_error_N FROM v_world_error WHERE condition = "
+                                           "'as_stated' ORDER BY mean_abs_error_N", "--db", "arm.db", "--json").stdout)
+        self.assertGreater(len(rows), 5)
+        self.assertEqual(rows[-1]["words"], "no sensor")
+        stored = json.loads(self.run_capstan("query", "SELECT * FROM world_recommendation", "--db", "arm.db", "--json").stdout)
+        answer = json.loads(self.run_capstan("recommend", "--db", "arm.db", "--json").stdout)
+        self.assertEqual(stored[0]["sentence"], answer["recommendations"][0]["sentence"])
+
+    def test_a_stopped_study_goes_on_to_the_same_bits(self):
+        self.run_capstan("study", "run", "arm.toml", "--repetitions", "60", "--db", "whole.db")
+        process = self.start_capstan("study", "run", "arm.toml", "--repetitions", "60", "--db", "stopped.db", "--jobs", "1",
+                                     "--progress", "json")
+        process.stderr.readline()  # the first block of worlds is stored
+        process.send_signal(signal.SIGINT)
+        process.wait(60)
+        self.run_capstan("study", "resume", "--db", "stopped.db")
+        self.assert_same_bits(self.tables("whole.db"), self.tables("stopped.db"))
+
+    def test_bad_values_are_refused_with_their_line(self):
+        for key, wrong, message in (("friction_fraction", "-0.1", "friction_fraction"),
+                                    ("members", "33", "multiple of 8"),
+                                    ("far_end_bandwidth_Hz", "0", "far_end_bandwidth_Hz")):
+            self.write("bad.toml", ARM.replace("members = 32", f"{key} = {wrong}"))
+            refused = self.run_capstan("place", "bad.toml", expect=2)
+            self.assertIn(message, refused.stderr)
+            self.assertIn("bad.toml:", refused.stderr)
+        self.write("beyond.toml", ARM.replace('noise_ratio = 0.03', 'noise_ratio = 0.03\nplaces_m = [0.9]'))
+        self.assertIn("beyond the cable", self.run_capstan("place", "beyond.toml", expect=2).stderr)
+
+    def test_the_shipped_configurations_are_valid(self):
+        for name in ("wrist-exosuit", "elbow-exosuit", "flexible-endoscope"):
+            self.run_capstan("config", "check", CONFIGS / f"{name}.toml")
+
+
+if __name__ == "__main__":
+    unittest.main()
