@@ -237,12 +237,34 @@ Table place_table(const WorldAnswer& found) {
 
 }  // namespace
 
+namespace {
+
+// The answer in one line; sentence_of() has the rest.
+std::string headline_of(const StudyPlan& plan, const WorldAnswer& found) {
+    const Estimated& none = found.no_sensor.objective;
+    if (!found.recommended)
+        return fmt::format("no set of sensors is better than none; the error is then {:.3f} N.",
+                           none.value_N);
+    const Expected& expected = found.best().expected;
+    return fmt::format("use {}: {} {:.3f} N{}; without any sensor {:.3f} N.", found.words(expected.candidate),
+                       plan.placement.objective == PlacementObjective::quantile_95
+                           ? "error in 95% of the worlds below"
+                           : "expected error",
+                       expected.objective.value_N,
+                       plan.placement.objective == PlacementObjective::quantile_95
+                           ? std::string()
+                           : fmt::format(", in 95% of the worlds below {:.3f} N", expected.error_95_N),
+                       none.value_N);
+}
+
+}  // namespace
+
 reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, std::int64_t study_id) {
     reports::Answer answer;
     answer.id = "worlds";
     answer.kind = "Sensor placement";
     answer.title = study_id > 0 ? fmt::format("Study {} ({})", study_id, plan.name) : plan.name;
-    answer.headline = sentence_of(plan, found);
+    answer.headline = headline_of(plan, found);
     answer.values = {{"study_id", study_id > 0 ? Data(study_id) : Data()},
                      {"name", plan.name},
                      {"seed", plan.seed},
@@ -308,7 +330,8 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
                                                    {"loss_N", "recommended is worse by", "N", ".3f"},
                                                    {"advice_flips", "advice changes"}},
                                                   answer.values["robustness"]}}};
-    answer.sections = {std::move(prices),
+    answer.sections = {{.id = "advice", .prose = sentence_of(plan, found)},
+                       std::move(prices),
                        {.id = "places", .heading = "Where the sensors go"},
                        std::move(gains),
                        std::move(robustness)};

@@ -13,7 +13,7 @@ namespace {
 // A task draws its world once; with this many candidates that costs nothing beside the trials.
 constexpr std::size_t candidates_at_once = 32;
 // Tasks whose entries are kept together: progress and stopping come no more often.
-constexpr std::size_t tasks_at_once = 16;
+constexpr std::size_t tasks_at_once = 32;
 
 constexpr std::string_view condition_names[] = {
     "as_stated",     "friction_known", "wrap_known",   "stiffness_known", "pretension_known",

@@ -140,13 +140,14 @@ class TrueMover {
 WorldQuestion world_question(const StudyPlan& plan, int segments) {
     CableSpecification nominal = plan.transmission.cable;
     if (segments > 0) nominal.segments = segments;
-    WorldQuestion question{UncertainCable(nominal),
-                           plan.transmission.rules,
-                           plan.motion,
-                           plan.uncertainty,
-                           {},
-                           sensor_offers(plan),
-                           plan.seed};
+    WorldQuestion question{.cable = UncertainCable(nominal),
+                           .rules = plan.transmission.rules,
+                           .motion = plan.motion,
+                           .uncertainty = plan.uncertainty,
+                           .belief = {},
+                           .offers = sensor_offers(plan),
+                           .truth = plan.truth,
+                           .seed = plan.seed};
     const Uncertainty& unknown = plan.uncertainty;
     CableBelief& belief = question.belief;
     belief.uncertainty = {.friction = deviation_of(unknown, unknown.friction_fraction),

@@ -59,6 +59,31 @@ TEST(SensorChoice, IsTheSameForEveryNumberOfThreads) {
     expect_the_same_answer(run_worlds(arm_plan(), {.jobs = 1}), run_worlds(arm_plan(), {.jobs = 3}));
 }
 
+TEST(SensorChoice, WorldsAreThoseOfTheSeedAndOfTheTruth) {
+    const StudyPlan plan = arm_plan();
+    const World world = draw_world(world_question(plan), 3);
+    StudyPlan other = plan;
+    other.seed = 12;
+    EXPECT_NE(draw_world(world_question(other), 3).factors.log_friction, world.factors.log_friction);
+    StudyPlan rough = plan;
+    rough.truth.friction_ratio = 1.5;
+    const World about_truth = draw_world(world_question(rough), 3);
+    EXPECT_EQ(about_truth.factors.log_friction,
+              world.factors.log_friction);  // the draw is about another centre
+    EXPECT_NE(about_truth.tensions_N(60).back(), world.tensions_N(60).back());
+    StudyPlan soft = plan;
+    soft.transmission.cable.segments = 4;
+    const std::size_t creep = [] {
+        std::size_t at = 0;
+        while (effect_catalogue()[at].name != "creep") ++at;
+        return at;
+    }();
+    soft.truth.effects[creep][0] = 0.5;
+    EXPECT_TRUE(draw_world(world_question(soft), 3).has_effects);
+    soft.uncertainty.truth_probability = 0.0;
+    EXPECT_FALSE(draw_world(world_question(soft), 3).has_effects);
+}
+
 TEST(SensorChoice, NothingThatIsRecommendedIsWorseThanNoSensor) {
     for (const std::uint64_t seed : {1, 2, 3}) {
         StudyPlan plan = arm_plan();
