@@ -301,7 +301,7 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
                      {"not_told_apart", "as good"}},
                     answer.values["prices"]}},
         .note = fmt::format(
-            "All numbers are from {} worlds that had no part in choosing. Error: {}. 95% of worlds: the error stays below this in "
+            "All numbers are from {} worlds that had no part in choosing the set of a price; the price was chosen on them. Error: {}. 95% of worlds: the error stays below this in "
             "95% of them. In band: true tensions within the estimator's 95% band; 95% if it is honest. As good: other sets of "
             "the price that a paired t test does not tell from the best (5% over all sets and looks). {}",
             found.worlds, objective_words(plan.placement.objective), grid_words(found))};
@@ -371,7 +371,7 @@ reports::Answer world_truth_answer(const StudyPlan& told, const WorldAnswer& nom
     answer.kind = "Sensor placement with and without what was found";
     answer.title = told.name;
     answer.headline = !changes ? "the advice does not change."
-                      : is_tie ? "the advice changes only among sets that the worlds do not tell apart."
+                      : is_tie ? "the advice changes only among sets that the worlds cannot distinguish."
                                : "the advice changes.";
     answer.values = {{"name", told.name},
                      {"effects", effects},
