@@ -92,7 +92,7 @@ ExitCode run_study_replay(const Invocation& invocation) {
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const std::int64_t id = storage::find_study(database, invocation.argument("STUDY"));
     const StoredStudy stored = load_stored_study(database, id);
-    refuse_worlds(stored.plan, "capstan study replay");
+    refuse_worlds(stored.plan, "study replay");
     const auto& study = stored.description;
     const ReplayAddress address{
         position(invocation, "scenario", study.scenarios.size()),

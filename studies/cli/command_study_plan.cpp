@@ -22,7 +22,7 @@ int sensible_shards(const StudyCost& cost) {
 ExitCode run_study_plan(const Invocation& invocation) {
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
-    refuse_worlds(config.plan, "capstan study plan");
+    refuse_worlds(config.plan, "study plan");
     if (invocation.has("shards")) require_useful(plans, {1, static_cast<int>(invocation.integer("shards"))});
     const StudyCost cost = predict_cost(plans, {invocation.number("seconds")});
     const int shards =

@@ -95,7 +95,7 @@ ExitCode run_study_submit(const Invocation& invocation) {
     }
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
-    refuse_worlds(config.plan, "capstan study submit");
+    refuse_worlds(config.plan, "study submit");
     StudyDirectory directory;
     directory.path = absolute_directory(invocation.text("directory"));
     directory.name = config.plan.name;

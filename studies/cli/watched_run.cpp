@@ -153,7 +153,7 @@ ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* dat
 
 void refuse_worlds(const StudyPlan& plan, const std::string& what) {
     if (!plan.uncertainty.is_stated) return;
-    throw UsageError(what +
+    throw UsageError("capstan: " + what +
                      " is for studies at instants; a study with [uncertainty] compares sets of sensors over "
                      "complete motions in one part");
 }
@@ -167,15 +167,16 @@ const Option from_diagnosis_option{
 
 void take_diagnosis(const Invocation& invocation, StudyPlan& plan) {
     if (!plan.uncertainty.is_stated)
-        throw UsageError("--from-diagnosis needs a CONFIG with [uncertainty], whose worlds it changes");
+        throw UsageError(
+            "capstan: --from-diagnosis needs a CONFIG with [uncertainty], whose worlds it changes");
     const std::string& text = invocation.text("from-diagnosis");
     std::int64_t id = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
     if (problem != std::errc{} || end != text.data() + text.size())
-        throw UsageError(
-            fmt::format("--from-diagnosis is '{}', but must be the number of a diagnosis; `capstan query "
-                        "\"SELECT * FROM v_diagnosis\"` lists them",
-                        text));
+        throw UsageError(fmt::format(
+            "capstan: --from-diagnosis is '{}', but must be the number of a diagnosis; `capstan query "
+            "\"SELECT * FROM v_diagnosis\"` lists them",
+            text));
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
     const DiagnosedWorld found = world_of(storage::load_diagnosis(database, id));
     for (const std::string& cause : found.left_out)
