@@ -38,7 +38,7 @@ struct CableBelief {
 /// tensions and compliances, back from the distal end (E2).
 class EnsembleFilter {
   public:
-    /// `cable` and `draws` must outlive the filter. `sensors` are indices into `offers`, which also count the
+    /// `cable` and `draws` must outlive the filter. `sensors` are indices into `offers`, and their ranks count the
     /// draws of zero and gain. Throws InvalidInput where a sensor is beyond the cable.
     EnsembleFilter(const UncertainCable& cable, const CableBelief& belief,
                    std::span<const SensorOffer> offers, std::span<const int> sensors,

@@ -168,8 +168,9 @@ TEST(SensorChoice, ObeysEveryConstraint) {
             const double place_m = offers[static_cast<std::size_t>(sensors[s])].place_m;
             EXPECT_TRUE(place_m < 0.35 || place_m > 0.65);
             has_required = has_required || std::abs(place_m - 1.0) < 1e-9;
-            if (s > 0)
+            if (s > 0) {
                 EXPECT_GE(place_m - offers[static_cast<std::size_t>(sensors[s - 1])].place_m, 0.25 - 1e-6);
+            }
         }
         EXPECT_TRUE(has_required);
     }
