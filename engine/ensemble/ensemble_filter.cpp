@@ -26,7 +26,7 @@ EnsembleFilter::EnsembleFilter(const UncertainCable& cable, const CableBelief& b
       members_(Cable(cable.nominal()), draws.members()),
       support_(belief.support),
       far_end_(belief.far_end, belief.interval_s),
-      nominal_compliance_m_per_N_(Cable(cable.nominal()).segment_compliance_m_per_N()),
+      nominal_compliance_m_per_N_(Cable(cable.nominal()).mean_segment_compliance_m_per_N()),
       nominal_pretension_N_(cable.nominal().pretension_N) {
     begin(belief, offers, sensors);
 }
@@ -216,9 +216,10 @@ void EnsembleFilter::take_displacements() {
         const auto next_m = members_.displacement_m(node + 1);
         const auto here_N = members_.tension_N(node);
         const auto next_N = members_.tension_N(node + 1);
+        const double half = 0.5 * members_.relative_length()[node];
         for (std::size_t j = 0; j < here_m.size(); ++j) {
             if (members_.is_slack(static_cast<int>(j))) continue;
-            here_m[j] = next_m[j] - 0.5 * compliance[j] * (here_N[j] + next_N[j]);
+            here_m[j] = next_m[j] - half * compliance[j] * (here_N[j] + next_N[j]);
         }
     }
 }

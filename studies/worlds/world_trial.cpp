@@ -88,7 +88,7 @@ WorldError paper_error(const WorldQuestion& question, const World& world, std::s
         for (std::size_t s = 0; s < sensors.size(); ++s) {
             const SensorOffer& offer = question.offers[static_cast<std::size_t>(sensors[s])];
             if (!measures_tension(offer.kind)) continue;
-            const int node = static_cast<int>(std::lround(offer.place_m / cable.segment_length_m()));
+            const int node = cable.nearest_node(offer.place_m);
             const bool is_new = std::none_of(readings.begin(), readings.end(),
                                              [&](const NodeReading& other) { return other.node == node; });
             if (is_new) readings.push_back({node, std::max(all[s], 0.0)});
