@@ -74,6 +74,10 @@ std::string title_of(Condition condition) {
             return "the paper's Mean";
         case Condition::paper_mean_r:
             return "the paper's Mean-R";
+        case Condition::paper_w_mean:
+            return "the paper's W Mean";
+        case Condition::paper_w_mean_r:
+            return "the paper's W Mean-R";
         case Condition::as_stated:
         case Condition::finer_grid:
         case Condition::finest_grid:
@@ -345,7 +349,9 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
                           {"error_N", "error", "N", ".3f"},
                           {"interval_95_N", "95% interval", "N", ".3f"}},
                          answer.values["paper_estimators"]}},
-             .note = "Over time, each from its own last estimate, with the nominal cable."});
+             .note =
+                 "Over time, each from its own last estimate, with the nominal cable. The W methods weigh a sensor by 1 / the "
+                 "mean error of its own estimate in 10 other worlds."});
     answer.drawn = {front_table(found), place_table(found)};
     answer.config_text = config::config_text(plan, config::Comments::none);
     return answer;

@@ -213,6 +213,26 @@ TEST(SensorChoice, SensorsOfOtherKindsComeWithEverySet) {
     EXPECT_GT(with_encoder, 2);
 }
 
+// From their own estimates and with the nominal cable, they know neither friction nor the far end.
+TEST(SensorChoice, ThePapersFourMethodsRunOverTimeAndErrMoreThanTheFilter) {
+    const WorldAnswer answer = run_worlds(arm_plan(), {});
+    ASSERT_EQ(answer.paper.size(), 4U);
+    EXPECT_EQ(answer.paper[2].condition, Condition::paper_w_mean);
+    for (const PaperComparison& each : answer.paper) {
+        EXPECT_TRUE(std::isfinite(each.error.value_N));
+        EXPECT_GT(each.error.value_N, answer.best().expected.objective.value_N) << name_of(each.condition);
+    }
+    EXPECT_NE(answer.paper[0].error.value_N, answer.paper[2].error.value_N);
+}
+
+TEST(SensorChoice, ASensorWithMoreNoiseWeighsLess) {
+    StudyPlan plan = arm_plan();
+    plan.sensors = {{SensorKind::tension, {1.0}, {0.03, 0.1, 0.0, 0.0}, 1.0},
+                    {SensorKind::tension, {1.0}, {0.5, 5.0, 0.0, 0.0}, 1.0}};
+    const WorldQuestion question = world_question(plan);
+    EXPECT_GT(paper_weight(question, 0), 1.2 * paper_weight(question, 1));
+}
+
 class StoredWorlds : public ::testing::Test {
   protected:
     void SetUp() override {
