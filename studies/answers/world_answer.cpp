@@ -243,6 +243,15 @@ Table place_table(const WorldAnswer& found) {
 
 namespace {
 
+std::string far_end_words(const Uncertainty& unknown) {
+    if (unknown.far_end != FarEndKind::recorded) return {};
+    return fmt::format(
+        " The far end moves as recorded{}, in each world another stretch; the estimator assumes a random motion that stays "
+        "within {:.3g} mm 95% of the time and has 95% of its power below {:.3g} Hz.",
+        unknown.far_end_log.empty() ? std::string() : " in " + unknown.far_end_log,
+        1e3 * unknown.far_end_range_m, unknown.far_end_bandwidth_Hz);
+}
+
 // The answer in one line; sentence_of() has the rest.
 std::string headline_of(const StudyPlan& plan, const WorldAnswer& found) {
     const Estimated& none = found.no_sensor.objective;
@@ -334,7 +343,7 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
                                                    {"loss_N", "recommended is worse by", "N", ".3f"},
                                                    {"advice_flips", "advice changes"}},
                                                   answer.values["robustness"]}}};
-    answer.sections = {{.id = "advice", .prose = sentence_of(plan, found)},
+    answer.sections = {{.id = "advice", .prose = sentence_of(plan, found) + far_end_words(plan.uncertainty)},
                        std::move(prices),
                        {.id = "places", .heading = "Where the sensors go"},
                        std::move(gains),

@@ -17,6 +17,7 @@ enum class FactorDistribution {
 enum class FarEndKind {
     random,      ///< FarEndMotion, drawn anew for every world
     prescribed,  ///< the motion of [motion.distal]; the estimator still assumes the random one
+    recorded,    ///< a stretch of far_end_samples_m, which differs between worlds; the same is assumed
 };
 
 /// What is not known of the transmission that the sensors will be fitted to. Fractions of the nominal values.
@@ -32,6 +33,8 @@ struct Uncertainty {
     double far_end_range_m =
         0.0;  ///< 95% of the time within plus and minus this; 0: as [motion.distal] moves
     double far_end_bandwidth_Hz = 2.0;
+    std::string far_end_log;                ///< file that the samples came from
+    std::vector<double> far_end_samples_m;  ///< recorded, at the rate of [motion]: more than its samples
 
     int members = 64;           ///< of the estimator's ensemble
     double worlds_ratio = 1.0;  ///< the worlds' widths are this times what the estimator is told
