@@ -141,15 +141,19 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
     }
     const double degrees = static_cast<double>(count) - 1.0;
     RowCorrection correction{sensed_, tension_pull_, variance * degrees, total * degrees, chance_variances};
-    for (int node = 0; node < members_.nodes(); ++node) correct_row(correction, members_.tension_N(node));
+    corrected_.clear();
+    for (int node = 0; node < members_.nodes(); ++node) corrected_.push_back(members_.tension_N(node).data());
+    correct_rows(correction, corrected_);
     correction.pull = pull_;
+    corrected_.clear();
     for (auto* row : {&log_friction_, &log_stiffness_, &log_pretension_, &far_end_m_, &far_end_m_per_s_})
-        correct_row(correction, *row);
-    for (auto& row : log_wrap_) correct_row(correction, row);
+        corrected_.push_back(row->data());
+    for (auto& row : log_wrap_) corrected_.push_back(row.data());
     for (Fitted& each : sensors_) {
-        if (each.offer.errors.zero > 0.0) correct_row(correction, each.zero);
-        if (each.offer.errors.gain_ratio > 0.0) correct_row(correction, each.gain);
+        if (each.offer.errors.zero > 0.0) corrected_.push_back(each.zero.data());
+        if (each.offer.errors.gain_ratio > 0.0) corrected_.push_back(each.gain.data());
     }
+    correct_rows(correction, corrected_);
 }
 
 // No cable pushes.

@@ -95,6 +95,7 @@ class EnsembleFilter {
     std::vector<double> sensed_;        // members: what each would read, then its distance from their mean
     std::vector<double> pull_;          // members
     std::vector<double> tension_pull_;  // members: 0 for those that are slack
+    std::vector<double*> corrected_;    // rows that a reading corrects
     std::vector<double> mean_N_;        // nodes
     std::vector<double> deviation_N_;   // nodes
     EnsembleReport report_;

@@ -38,30 +38,45 @@ RowMoments row_moments(const double* HWY_RESTRICT row, std::size_t members) {
     return {mean, std::sqrt(squares / (count - 1.0))};
 }
 
-void row_corrected(const RowCorrection& correction, double* HWY_RESTRICT row, std::size_t members) {
+// `together` rows at once: their sums do not wait for one another.
+template <int together>
+void correct_together(const RowCorrection& correction, double* const* rows, std::size_t members) {
     const RowTag d;
     const double* HWY_RESTRICT sensed = correction.sensed.data();
     const double* HWY_RESTRICT pull = correction.pull.data();
     const double count = static_cast<double>(members);
-    const auto load = [&](const double* from, std::size_t j) HWY_ATTR { return hn::LoadU(d, from + j); };
-    const auto centre =
-        hn::Set(d, row_sum(members, [&](std::size_t j) HWY_ATTR { return load(row, j); }) / count);
-    auto own_sums = hn::Zero(d);
-    auto cross_sums = hn::Zero(d);
-    for (std::size_t j = 0; j < members; j += hn::Lanes(d)) {
-        const auto off = hn::Sub(load(row, j), centre);
-        own_sums = hn::Add(own_sums, hn::Mul(off, off));
-        cross_sums = hn::Add(cross_sums, hn::Mul(off, load(sensed, j)));
-    }
-    const double own = hn::GetLane(hn::SumOfLanes(d, own_sums));
-    const double cross = hn::GetLane(hn::SumOfLanes(d, cross_sums));
-    if (!(own > 0.0)) return;
-    const double square = cross * cross / (own * correction.sensed_squares);  // r^2
-    const double screened = 1.0 - correction.chance_variances * (1.0 - square) / ((count - 2.0) * square);
-    if (!(screened > 0.0)) return;
-    const auto gain = hn::Set(d, screened * cross / correction.total_squares);
+    hn::Vec<RowTag> sums[together], own_sums[together], cross_sums[together];
+    for (int k = 0; k < together; ++k) sums[k] = own_sums[k] = cross_sums[k] = hn::Zero(d);
     for (std::size_t j = 0; j < members; j += hn::Lanes(d))
-        hn::StoreU(hn::Add(load(row, j), hn::Mul(gain, load(pull, j))), d, row + j);
+        for (int k = 0; k < together; ++k) sums[k] = hn::Add(sums[k], hn::LoadU(d, rows[k] + j));
+    for (int k = 0; k < together; ++k) sums[k] = hn::Set(d, hn::GetLane(hn::SumOfLanes(d, sums[k])) / count);
+    for (std::size_t j = 0; j < members; j += hn::Lanes(d)) {
+        const auto seen = hn::LoadU(d, sensed + j);
+        for (int k = 0; k < together; ++k) {
+            const auto off = hn::Sub(hn::LoadU(d, rows[k] + j), sums[k]);
+            own_sums[k] = hn::Add(own_sums[k], hn::Mul(off, off));
+            cross_sums[k] = hn::Add(cross_sums[k], hn::Mul(off, seen));
+        }
+    }
+    for (int k = 0; k < together; ++k) {
+        const double own = hn::GetLane(hn::SumOfLanes(d, own_sums[k]));
+        const double cross = hn::GetLane(hn::SumOfLanes(d, cross_sums[k]));
+        if (!(own > 0.0)) continue;
+        const double square = cross * cross / (own * correction.sensed_squares);  // r^2
+        const double screened = 1.0 - correction.chance_variances * (1.0 - square) / ((count - 2.0) * square);
+        if (!(screened > 0.0)) continue;
+        const auto gain = hn::Set(d, screened * cross / correction.total_squares);
+        double* row = rows[k];
+        for (std::size_t j = 0; j < members; j += hn::Lanes(d))
+            hn::StoreU(hn::Add(hn::LoadU(d, row + j), hn::Mul(gain, hn::LoadU(d, pull + j))), d, row + j);
+    }
+}
+
+void rows_corrected(const RowCorrection& correction, double* const* rows, std::size_t count) {
+    const std::size_t members = correction.sensed.size();
+    std::size_t at = 0;
+    for (; at + 4 <= count; at += 4) correct_together<4>(correction, rows + at, members);
+    for (; at < count; ++at) correct_together<1>(correction, rows + at, members);
 }
 
 void row_exponentials(const double* HWY_RESTRICT row, double* HWY_RESTRICT result, std::size_t members) {
@@ -79,7 +94,7 @@ HWY_AFTER_NAMESPACE();
 namespace capstan {
 
 HWY_EXPORT(row_moments);
-HWY_EXPORT(row_corrected);
+HWY_EXPORT(rows_corrected);
 HWY_EXPORT(row_exponentials);
 
 RowMoments moments_of_row(std::span<const double> row) {
@@ -87,9 +102,9 @@ RowMoments moments_of_row(std::span<const double> row) {
     return chosen(row.data(), row.size());
 }
 
-void correct_row(const RowCorrection& correction, std::span<double> row) {
-    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(row_corrected); });
-    chosen(correction, row.data(), row.size());
+void correct_rows(const RowCorrection& correction, std::span<double* const> rows) {
+    static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(rows_corrected); });
+    chosen(correction, rows.data(), rows.size());
 }
 
 void exp_row(std::span<const double> row, std::span<double> result) {

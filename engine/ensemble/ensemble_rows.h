@@ -20,8 +20,8 @@ struct RowCorrection {
     double total_squares = 0.0;      ///< the same with the reading's noise
     double chance_variances = 0.0;
 };
-/// row += s c / total pull, c the row's covariance with what is sensed, s its screening against chance.
-void correct_row(const RowCorrection& correction, std::span<double> row);
+/// Each row += s c / total pull, c the row's covariance with what is sensed, s its screening against chance.
+void correct_rows(const RowCorrection& correction, std::span<double* const> rows);
 
 /// result = exp(row)
 void exp_row(std::span<const double> row, std::span<double> result);

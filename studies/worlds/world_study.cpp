@@ -93,14 +93,16 @@ struct Group {
     double price = 0.0;
     int candidates = 0;
     std::vector<int> left;
-    int worlds = 0;  ///< that all of those left have run
+    std::vector<int> settled;  ///< not told from the best, but better by less than the resolution at most
+    int worlds = 0;            ///< that all of those left have run
 };
 
 std::vector<Group> groups_of(const std::vector<Candidate>& candidates) {
     std::vector<Group> groups;
     for (std::size_t k = 1; k < candidates.size(); ++k) {
         const double price = candidates[k].price;
-        if (groups.empty() || price > groups.back().price * (1.0 + 1e-9)) groups.push_back({price, 0, {}, 0});
+        if (groups.empty() || price > groups.back().price * (1.0 + 1e-9))
+            groups.push_back({price, 0, {}, {}, 0});
         groups.back().left.push_back(static_cast<int>(k));
         ++groups.back().candidates;
     }
@@ -126,19 +128,18 @@ int best_of(const Choice& choice, const std::vector<int>& candidates, int worlds
     return best;
 }
 
-// Leaves out what is worse than the best. True where more worlds would still tell something.
+// Leaves out what is worse than the best, and what cannot be better by more than the resolution. True where
+// more worlds would still tell something.
 bool narrow(const Choice& choice, Group& group, int worlds, double level) {
     const int best = best_of(choice, group.left, worlds);
-    bool is_open = false;
     std::erase_if(group.left, [&](int candidate) {
         if (candidate == best) return false;
         const Estimated worse =
             choice.paired(Condition::as_stated, candidate, Condition::as_stated, best, 0, worlds, level);
-        if (worse.low_N > 0.0) return true;
-        if (worse.low_N < -choice.resolution_N()) is_open = true;
-        return false;
+        if (worse.low_N <= 0.0 && worse.low_N >= -choice.resolution_N()) group.settled.push_back(candidate);
+        return worse.low_N >= -choice.resolution_N();
     });
-    return is_open;
+    return group.left.size() > 1;
 }
 
 // A quantile of few worlds says nothing, so its race has one look only.
@@ -181,6 +182,7 @@ std::vector<PriceBest> best_of_each_price(Choice& choice, std::vector<Group>& gr
         best.expected = choice.expected(group.left.front());
         best.selected_N = choice.score(group.left.front(), 0, group.worlds);
         best.ties.assign(group.left.begin() + 1, group.left.end());
+        best.ties.insert(best.ties.end(), group.settled.begin(), group.settled.end());
         best.on_front = best.expected.objective.value_N < least_N;
         least_N = std::min(least_N, best.expected.objective.value_N);
         prices.push_back(std::move(best));

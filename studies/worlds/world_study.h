@@ -33,7 +33,8 @@ struct PriceBest {
     int candidates = 0;  ///< of this price
     Expected expected;
     double selected_N = 0.0;  ///< the objective on the worlds that chose it
-    std::vector<int> ties;    ///< others that the worlds do not tell from it (paired t, Bonferroni, 5%)
+    std::vector<int> ties;    ///< others that the worlds do not tell from it (paired t, Bonferroni, 5%), or
+                              ///< that can be better by no more than the resolution
     bool on_front = false;    ///< better than everything cheaper
 };
 
