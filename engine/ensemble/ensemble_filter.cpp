@@ -16,6 +16,12 @@ std::vector<double> spread(double centre, double deviation, std::span<const doub
     return row;
 }
 
+// Static friction beyond the friction that depends on speed is left out, as on the bench (E18).
+Cable nominal_cable(CableSpecification nominal, const RateFriction& friction) {
+    if (friction.is_active()) nominal.static_friction = nominal.dynamic_friction;
+    return Cable(nominal);
+}
+
 }  // namespace
 
 EnsembleFilter::EnsembleFilter(const UncertainCable& cable, const CableBelief& belief,
@@ -23,7 +29,7 @@ EnsembleFilter::EnsembleFilter(const UncertainCable& cable, const CableBelief& b
                                const EnsembleDraws& draws)
     : cable_(cable),
       draws_(draws),
-      members_(Cable(cable.nominal()), draws.members()),
+      members_(nominal_cable(cable.nominal(), belief.rate_friction), draws.members()),
       support_(belief.support),
       far_end_(belief.far_end, belief.interval_s),
       nominal_compliance_m_per_N_(Cable(cable.nominal()).segment_compliance_m_per_N()),
@@ -62,6 +68,10 @@ void EnsembleFilter::begin(const CableBelief& belief, std::span<const SensorOffe
                             spread(0.0, offer.errors.gain_ratio, draws_.gain(index))});
     }
 
+    if (belief.rate_friction.is_active()) {
+        rate_step_.emplace(belief.rate_friction, members_, cable.segment_length_m(), belief.interval_s);
+        wrap_rad_.assign(count * static_cast<std::size_t>(members_.segments()), 0.0);
+    }
     take_parameters();
     for (int member = 0; member < members_.members(); ++member) {
         const double tension_N = pretension_N_[static_cast<std::size_t>(member)];
@@ -77,11 +87,7 @@ void EnsembleFilter::step(double proximal_increment_m, std::span<const double> r
     if (!finite) throw InvalidInput({"ensemble filter: an input of this step is not a finite number"});
     if (sample_ >= draws_.samples()) throw InvalidInput({"ensemble filter: a step after the last sample"});
     move_far_end();
-    const bool is_spring = support_.spring_stiffness_N_per_m > 0.0;
-    const EnsembleReport report =
-        is_spring
-            ? members_.advance(proximal_increment_m, {support_.spring_stiffness_N_per_m, 1.0, distal_value_})
-            : members_.advance(proximal_increment_m, {1.0, 0.0, distal_value_});
+    const EnsembleReport report = advance(proximal_increment_m);
     report_.searched += report.searched;
     report_.unverified += report.unverified;
     for (std::size_t s = 0; s < sensors_.size(); ++s) correct(sensors_[s], readings[s]);
@@ -92,6 +98,15 @@ void EnsembleFilter::step(double proximal_increment_m, std::span<const double> r
     }
     take_moments();
     ++sample_;
+}
+
+EnsembleReport EnsembleFilter::advance(double proximal_increment_m) {
+    const double stiffness = support_.spring_stiffness_N_per_m;
+    const CableEnsemble::DistalEnd distal = stiffness > 0.0
+                                                ? CableEnsemble::DistalEnd{stiffness, 1.0, distal_value_}
+                                                : CableEnsemble::DistalEnd{1.0, 0.0, distal_value_};
+    return rate_step_ ? rate_step_->advance(members_, wrap_rad_, proximal_increment_m, distal)
+                      : members_.advance(proximal_increment_m, distal);
 }
 
 // E40; then E6 of the distal end.
@@ -184,9 +199,11 @@ void EnsembleFilter::take_parameters() {
         const auto exponent = members_.sliding_exponent(segment);
         std::fill(exponent.begin(), exponent.end(), 0.0);
     }
+    std::fill(wrap_rad_.begin(), wrap_rad_.end(), 0.0);
     const double friction = cable_.nominal().dynamic_friction;
     for (int bend = 0; bend < cable_.bends(); ++bend) {
         exp_row(log_wrap_[static_cast<std::size_t>(bend)], pull_);
+        add_wrap(bend, pull_);
         for (std::size_t j = 0; j < pull_.size(); ++j) pull_[j] *= friction * friction_[j];
         for (int segment = 0; segment < members_.segments(); ++segment) {
             const double wrap_rad = cable_.wrap_of_bend_rad(bend)[static_cast<std::size_t>(segment)];
@@ -196,6 +213,13 @@ void EnsembleFilter::take_parameters() {
         }
     }
     members_.retune();
+}
+
+// Of friction that depends on speed, which needs the wrap itself.
+void EnsembleFilter::add_wrap(int bend, std::span<const double> factor) {
+    const std::vector<double>& nominal_rad = cable_.wrap_of_bend_rad(bend);
+    for (std::size_t k = 0; k < wrap_rad_.size(); ++k)
+        wrap_rad_[k] += nominal_rad[k / factor.size()] * factor[k % factor.size()];
 }
 
 // E2 with the mean of both nodes' tensions, back from where the distal end is.

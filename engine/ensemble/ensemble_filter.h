@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "capstan/ensemble/ensemble_draws.h"
 #include "capstan/ensemble/ensemble_rows.h"
 #include "capstan/ensemble/far_end_process.h"
+#include "capstan/ensemble/rate_friction.h"
 #include "capstan/ensemble/uncertain_cable.h"
 #include "capstan/estimation/tension_reading.h"
 #include "capstan/sensing/sensor.h"
@@ -26,6 +28,8 @@ struct CableBelief {
     FarEndMotion far_end;
     FarEndSupport support;
     double interval_s = 0.01;  ///< between samples
+    /// Known exactly. Where it is there, mu_s counts as mu_d, as on the bench.
+    RateFriction rate_friction{};
 };
 
 /// The tension along a cable whose friction, wrap, stiffness, pretension and far end are not known, from what
@@ -66,9 +70,11 @@ class EnsembleFilter {
 
     void begin(const CableBelief& belief, std::span<const SensorOffer> offers, std::span<const int> sensors);
     void move_far_end();
+    EnsembleReport advance(double proximal_increment_m);
     void correct(Fitted& sensor, double reading);
     void keep_tensions_positive();
     void take_parameters();
+    void add_wrap(int bend, std::span<const double> factor);
     void take_displacements();
     void take_moments();
     double distal_tension_N(int member) const { return members_.tension_N(members_.segments())[member]; }
@@ -79,6 +85,7 @@ class EnsembleFilter {
     CableEnsemble members_;
     FarEndSupport support_;
     FarEndProcess far_end_;
+    std::optional<RateFrictionStep> rate_step_;
     double nominal_compliance_m_per_N_;
     double nominal_pretension_N_;
     int sample_ = 0;
@@ -86,6 +93,7 @@ class EnsembleFilter {
     std::vector<double> log_stiffness_;          // members
     std::vector<double> log_pretension_;         // members
     std::vector<std::vector<double>> log_wrap_;  // bends x members
+    std::vector<double> wrap_rad_;               // segments x members; empty without rate-dependent friction
     std::vector<double> far_end_m_;              // members
     std::vector<double> far_end_m_per_s_;        // members
     std::vector<Fitted> sensors_;

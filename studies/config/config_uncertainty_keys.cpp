@@ -56,6 +56,20 @@ StudyKey list_of_places(KeyText about, std::vector<double> PlacementPlan::*field
     return only(std::move(key), with_worlds);
 }
 
+StudyKey known_effects() {
+    StudyKey key{"uncertainty", "known_effects", {ValueKind::names}};
+    key.help =
+        "Effects of [truth] that the estimator knows, with the values stated there; of the others it knows nothing. Where "
+        "it knows any, it takes static friction as dynamic friction.";
+    key.allowed.names.assign(std::begin(estimator_effects), std::end(estimator_effects));
+    key.default_value = std::vector<std::string>{};
+    key.read = [](const StudyPlan& plan, int) -> ConfigValue { return plan.uncertainty.known_effects; };
+    key.write = [](StudyPlan& plan, int, const ConfigValue& value) {
+        plan.uncertainty.known_effects = std::get<std::vector<std::string>>(value);
+    };
+    return key;
+}
+
 void add_sensor_keys(StudyKeys& keys) {
     std::vector<Named<SensorKind>> kinds;
     for (const SensorKind kind : all_sensor_kinds) kinds.push_back({std::string(name_of(kind)), kind});
@@ -199,6 +213,7 @@ void add_uncertainty_keys(StudyKeys& keys) {
          "Probability that a world is as [truth] says; the others lie about the nominal cable."},
         {0.0, true, 1.0}, standard.truth_probability,
         [](auto& plan, int) -> auto& { return plan.uncertainty.truth_probability; }));
+    own.push_back(known_effects());
     own.push_back(integer(
         {at, "members", "", "Cables in the estimator's ensemble, a multiple of 8."}, {16, true, 1024},
         std::int64_t{standard.members}, [](auto& plan, int) -> auto& { return plan.uncertainty.members; }));

@@ -174,6 +174,13 @@ WorldQuestion world_question(const StudyPlan& plan, int segments) {
         unknown.far_end_range_m > 0.0 ? unknown.far_end_range_m : std::abs(distal.amplitude);
     belief.far_end = {range_m, unknown.far_end_bandwidth_Hz};
     belief.support = {distal.kind == EndKind::spring ? distal.spring_stiffness_N_per_m : 0.0};
+    const auto knows = [&](std::string_view effect) {
+        return std::find(unknown.known_effects.begin(), unknown.known_effects.end(), effect) !=
+               unknown.known_effects.end();
+    };
+    const BenchEffects effects = effects_with(plan.truth.effects);
+    if (knows("viscous_friction")) belief.rate_friction.viscous = effects.of<ViscousFriction>();
+    if (knows("stribeck")) belief.rate_friction.stribeck = effects.of<Stribeck>();
     belief.interval_s = 1.0 / plan.motion.sample_rate_Hz;
     return question;
 }
