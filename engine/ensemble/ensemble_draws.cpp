@@ -55,4 +55,10 @@ EnsembleDraws::EnsembleDraws(const EnsembleAddress& address, int members, int pa
     fill_pairs(far_end_, samples, RandomPurpose::member_far_end, false);
 }
 
+std::vector<double> spread(double centre, double deviation, std::span<const double> normals) {
+    std::vector<double> row(normals.begin(), normals.end());
+    for (double& each : row) each = centre + deviation * each;
+    return row;
+}
+
 }  // namespace capstan

@@ -38,4 +38,7 @@ class EnsembleDraws {
     std::vector<double> far_end_;     // 2 samples x members
 };
 
+/// centre + deviation * normals
+std::vector<double> spread(double centre, double deviation, std::span<const double> normals);
+
 }  // namespace capstan

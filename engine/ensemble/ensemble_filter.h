@@ -3,30 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "capstan/ensemble/ensemble_draws.h"
-#include "capstan/ensemble/ensemble_rows.h"
-#include "capstan/ensemble/far_end_process.h"
-#include "capstan/ensemble/uncertain_cable.h"
-#include "capstan/estimation/tension_reading.h"
+#include "capstan/ensemble/ensemble_cable.h"
 #include "capstan/sensing/sensor.h"
-#include "capstan/solver/cable_ensemble.h"
 
 namespace capstan {
-
-/// What the distal end is fastened to; what moves as FarEndMotion says is the end itself, or the spring's
-/// wall.
-struct FarEndSupport {
-    double spring_stiffness_N_per_m = 0.0;  ///< 0: the end itself is moved
-};
-
-/// What an estimator believes before it has seen a reading.
-struct CableBelief {
-    CableFactors expected;  ///< log_wrap: of every bend, or empty
-    CableUncertainty uncertainty;
-    FarEndMotion far_end;
-    FarEndSupport support;
-    double interval_s = 0.01;  ///< between samples
-};
 
 /// The tension along a cable whose friction, wrap, stiffness, pretension and far end are not known, from what
 /// a device has: the motor's position and some sensors.
@@ -38,8 +18,8 @@ struct CableBelief {
 /// tensions and compliances, back from the distal end (E2).
 class EnsembleFilter {
   public:
-    /// `cable` and `draws` must outlive the filter. `sensors` are indices into `offers`, and their ranks count the
-    /// draws of zero and gain. Throws InvalidInput where a sensor is beyond the cable.
+    /// `cable` and `draws` must outlive the filter. `sensors` are indices into `offers`, and their ranks
+    /// count the draws of zero and gain. Throws InvalidInput where a sensor is beyond the cable.
     EnsembleFilter(const UncertainCable& cable, const CableBelief& belief,
                    std::span<const SensorOffer> offers, std::span<const int> sensors,
                    const EnsembleDraws& draws);
@@ -52,8 +32,8 @@ class EnsembleFilter {
     std::span<const double> mean_N() const { return mean_N_; }            ///< nodes
     std::span<const double> deviation_N() const { return deviation_N_; }  ///< nodes
 
-    RowMoments log_friction() const;
-    RowMoments far_end_m() const;
+    RowMoments log_friction() const { return member_cable_.log_friction(); }
+    RowMoments far_end_m() const { return moments_of_row(far_end_m_); }
     const EnsembleReport& report() const { return report_; }  ///< summed over all steps
 
   private:
@@ -64,34 +44,18 @@ class EnsembleFilter {
         std::vector<double> gain;  // members
     };
 
-    void begin(const CableBelief& belief, std::span<const SensorOffer> offers, std::span<const int> sensors);
     void move_far_end();
     void correct(Fitted& sensor, double reading);
-    void keep_tensions_positive();
-    void take_parameters();
-    void take_displacements();
-    void take_moments();
-    double distal_tension_N(int member) const { return members_.tension_N(members_.segments())[member]; }
     double sensed(const Fitted& sensor, int member) const;
+    void take_moments();
 
-    const UncertainCable& cable_;
     const EnsembleDraws& draws_;
-    CableEnsemble members_;
-    FarEndSupport support_;
+    EnsembleCable member_cable_;
     FarEndProcess far_end_;
-    double nominal_compliance_m_per_N_;
-    double nominal_pretension_N_;
     int sample_ = 0;
-    std::vector<double> log_friction_;           // members
-    std::vector<double> log_stiffness_;          // members
-    std::vector<double> log_pretension_;         // members
-    std::vector<std::vector<double>> log_wrap_;  // bends x members
-    std::vector<double> far_end_m_;              // members
-    std::vector<double> far_end_m_per_s_;        // members
+    std::vector<double> far_end_m_;        // members
+    std::vector<double> far_end_m_per_s_;  // members
     std::vector<Fitted> sensors_;
-    std::vector<double> friction_;      // members: exp(log_friction_)
-    std::vector<double> pretension_N_;  // members
-    std::vector<double> distal_value_;  // members
     std::vector<double> sensed_;        // members: what each would read, then its distance from their mean
     std::vector<double> pull_;          // members
     std::vector<double> tension_pull_;  // members: 0 for those that are slack

@@ -49,17 +49,20 @@ MotionPattern motion_of(const DirectionBits& bits, int segments) {
 }  // namespace
 
 RecursiveFusion::RecursiveFusion(const QuasiStaticStep& model, const CableState& start,
-                                 const FusionMethod& method, DistalSide distal_side)
-    : model_(model), method_(method), estimate_(start) {
+                                 const FusionMethod& method, DistalSide distal_side,
+                                 std::span<const double> weight)
+    : model_(model), method_(method), estimate_(start), weight_(weight.begin(), weight.end()) {
     const int segments = model.cable().segments();
     if (segments > max_estimated_segments) {
         throw InvalidInput({"segments is " + std::to_string(segments) +
                             ", but the paper's estimators take at most " +
                             std::to_string(max_estimated_segments) + "; use fewer segments"});
     }
-    if (&method != &mean_method && &method != &mean_r_method) {
-        throw InvalidInput({"over time only mean and mean_r can fuse, not " + std::string(method.name)});
-    }
+    if (!method.averaging || method.knowledge != Knowledge::direction_unknown)
+        throw InvalidInput({"over time only the paper's methods with an unknown direction can fuse, not " +
+                            std::string(method.name)});
+    if (method.uses_weights && weight.size() != static_cast<std::size_t>(segments) + 1)
+        throw InvalidInput({std::string(method.name) + " needs a weight for each node"});
     for (const DirectionPattern& pattern : admissible_patterns(segments)) {
         const bool distal_moves = pattern.trailing > 0 && pattern.leading + pattern.trailing < segments;
         if (distal_moves && distal_side == DistalSide::excluded) continue;
@@ -140,15 +143,29 @@ int RecursiveFusion::step(double proximal_displacement_m, std::span<const NodeRe
     input.unknown = {nodes, tension_N_, directions_, verified_};
     const SensorVote vote = take_vote(input.unknown, sensors);
     input.vote = &vote;
+    input.weight = weight_;
     std::vector<DirectionBits> votes;
     for (const int sensor : vote.sensors()) votes.push_back(directions_[static_cast<std::size_t>(sensor)]);
     const DirectionBits median = median_direction(votes, nodes - 1).directions;
     method_.fuse(input, estimate_.tension_N);
-    // A fused profile is linear in the single ones, so displacements are fused as tensions are.
-    input.unknown.tension_N = displacement_m_;
-    method_.fuse(input, estimate_.displacement_m);
+    fuse_displacements(input);
     estimate_.last_motion = motion_of(median, nodes - 1);
     return unverified;
+}
+
+// A fused profile is linear in the single ones, so displacements are fused as tensions are. Where a method
+// does not share out all weight, what it makes of ones is the part that it shares out: a displacement has no
+// natural zero that it could be made smaller towards.
+void RecursiveFusion::fuse_displacements(FusionInput& input) {
+    input.unknown.tension_N = displacement_m_;
+    method_.fuse(input, estimate_.displacement_m);
+    if (method_.averaging->disagreeing != Averaging::Disagreeing::left_out_unshared) return;
+    const std::vector<double> ones(displacement_m_.size(), 1.0);
+    std::vector<double> shared_out(estimate_.displacement_m.size());
+    input.unknown.tension_N = ones;
+    method_.fuse(input, shared_out);
+    for (std::size_t node = 0; node < shared_out.size(); ++node)
+        estimate_.displacement_m[node] /= shared_out[node];
 }
 
 }  // namespace capstan

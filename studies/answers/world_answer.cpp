@@ -74,6 +74,10 @@ std::string title_of(Condition condition) {
             return "the paper's Mean";
         case Condition::paper_mean_r:
             return "the paper's Mean-R";
+        case Condition::paper_w_mean:
+            return "the paper's W Mean";
+        case Condition::paper_w_mean_r:
+            return "the paper's W Mean-R";
         case Condition::as_stated:
         case Condition::finer_grid:
         case Condition::finest_grid:
@@ -239,6 +243,15 @@ Table place_table(const WorldAnswer& found) {
 
 namespace {
 
+std::string far_end_words(const Uncertainty& unknown) {
+    if (unknown.far_end != FarEndKind::recorded) return {};
+    return fmt::format(
+        " The far end moves as recorded{}, in each world another stretch; the estimator assumes a random motion that stays "
+        "within {:.3g} mm 95% of the time and has 95% of its power below {:.3g} Hz.",
+        unknown.far_end_log.empty() ? std::string() : " in " + unknown.far_end_log,
+        1e3 * unknown.far_end_range_m, unknown.far_end_bandwidth_Hz);
+}
+
 // The answer in one line; sentence_of() has the rest.
 std::string headline_of(const StudyPlan& plan, const WorldAnswer& found) {
     const Estimated& none = found.no_sensor.objective;
@@ -330,7 +343,7 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
                                                    {"loss_N", "recommended is worse by", "N", ".3f"},
                                                    {"advice_flips", "advice changes"}},
                                                   answer.values["robustness"]}}};
-    answer.sections = {{.id = "advice", .prose = sentence_of(plan, found)},
+    answer.sections = {{.id = "advice", .prose = sentence_of(plan, found) + far_end_words(plan.uncertainty)},
                        std::move(prices),
                        {.id = "places", .heading = "Where the sensors go"},
                        std::move(gains),
@@ -345,7 +358,9 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
                           {"error_N", "error", "N", ".3f"},
                           {"interval_95_N", "95% interval", "N", ".3f"}},
                          answer.values["paper_estimators"]}},
-             .note = "Over time, each from its own last estimate, with the nominal cable."});
+             .note =
+                 "Over time, each from its own last estimate, with the nominal cable. The W methods weigh a sensor by 1 / the "
+                 "mean error of its own estimate in 10 other worlds."});
     answer.drawn = {front_table(found), place_table(found)};
     answer.config_text = config::config_text(plan, config::Comments::none);
     return answer;

@@ -53,10 +53,7 @@ ExitCode place_with_diagnosis(const Invocation& invocation, config::ReadConfig& 
 }
 
 ExitCode run_place(const Invocation& invocation) {
-    config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
-    if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
-    if (invocation.has("repetitions"))
-        config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
+    config::ReadConfig config = read_config_of(invocation);
     if (config.plan.uncertainty.is_stated) {
         for (const char* option : {"noise", "duty", "until-resolved"})
             if (invocation.has(option)) refuse_worlds(config.plan, std::string("--") + option);
@@ -124,6 +121,7 @@ Command place_command() {
              page_option,
              json_option,
              from_diagnosis_option,
+             far_end_option,
              database_option,
              progress_option,
              stats_option,

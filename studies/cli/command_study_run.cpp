@@ -138,8 +138,8 @@ const Option truth_option{
 
 Command study_run_command() {
     std::vector<Option> options = watched_run_options();
-    options.insert(options.begin() + 2,
-                   {seed_option, repetitions_option, truth_option, from_diagnosis_option, shard_option});
+    options.insert(options.begin() + 2, {seed_option, repetitions_option, truth_option, from_diagnosis_option,
+                                         far_end_option, shard_option});
     return {.name = "study run",
             .summary = "Run a study and recommend sensors.",
             .description =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "capstan/config/config_truth.h"
+#include "capstan/config/far_end_log.h"
 #include "capstan/platform/nearest_name.h"
 
 namespace capstan::cli {
@@ -83,9 +84,22 @@ config::ReadConfig read_config_of(const Invocation& invocation) {
     StudyPlan& plan = config.plan;
     if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     if (invocation.has("repetitions")) plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
+    if (invocation.has("far-end")) {
+        if (!plan.uncertainty.is_stated)
+            throw UsageError("capstan: --far-end needs a CONFIG with [uncertainty], whose far end it moves");
+        config::take_far_end_log(config, invocation.text("far-end"));
+    }
     if (invocation.has("truth")) plan.truth = config::read_truth(invocation.text("truth"));
     return config;
 }
+
+const Option far_end_option{
+    .name = "far-end",
+    .value = "LOG",
+    .meaning =
+        "The far end of a CONFIG with [uncertainty] moves as LOG recorded it, in each world another stretch: a CSV "
+        "file with the columns time_s and displacement_m. The estimator assumes a random motion with the log's "
+        "range and bandwidth, or with those that CONFIG states."};
 
 const Option noise_option{.name = "noise",
                           .value = "LABEL",

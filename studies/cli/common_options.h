@@ -29,6 +29,7 @@ extern const Argument study_argument;  ///< latest where left out
 /// own.
 config::ReadConfig read_config_of(const Invocation& invocation);
 
+extern const Option far_end_option;  ///< read_config_of() obeys it
 extern const Option noise_option;
 
 /// Which of the plan's noise levels --noise names; the first if it is not given. Throws UsageError with the

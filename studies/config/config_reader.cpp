@@ -8,6 +8,7 @@
 #include "capstan/config/config_key.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/config/config_values.h"
+#include "capstan/config/far_end_log.h"
 #include "capstan/config/plan_checks.h"
 #include "capstan/config/toml_nodes.h"
 
@@ -161,10 +162,10 @@ class Reading {
     std::vector<ConfigProblem> problems_;
 };
 
-}  // namespace
-
+// `complete` adds what other files say, before the values are checked.
 template <class Plan>
-ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file) {
+ReadPlan<Plan> parse_and_complete(std::string_view toml, const std::string& file,
+                                  void (*complete)(ReadPlan<Plan>&)) {
     ReadPlan<Plan> config{file, {}, {}};
     toml::table root;
     try {
@@ -175,10 +176,18 @@ ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file) {
                                   "not valid TOML: " + std::string(error.description())}});
     }
     std::vector<ConfigProblem> problems = Reading<Plan>(root, config).run();
+    if (problems.empty() && complete != nullptr) complete(config);
     const std::vector<ConfigProblem> more = value_problems(config, problems);
     problems.insert(problems.end(), more.begin(), more.end());
     if (!problems.empty()) throw ConfigError(file, std::move(problems));
     return config;
+}
+
+}  // namespace
+
+template <class Plan>
+ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file) {
+    return parse_and_complete<Plan>(toml, file, nullptr);
 }
 template ReadPlan<StudyPlan> parse_plan(std::string_view toml, const std::string& file);
 template ReadPlan<bench::BenchPlan> parse_plan(std::string_view toml, const std::string& file);
@@ -194,7 +203,7 @@ ReadConfig read_config(const std::filesystem::path& path) {
                                            "describes a bench, not a study; run it with `capstan simulate " +
                                                path.string() + "`"}});
     }
-    return parse_config(toml, path.string());
+    return parse_and_complete<StudyPlan>(toml, path.string(), take_named_far_end_log);
 }
 
 ReadBench read_bench(const std::filesystem::path& path) {

@@ -27,7 +27,7 @@ using ReadBench = ReadPlan<bench::BenchPlan>;
 template <class Plan>
 ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file);
 ReadConfig parse_config(std::string_view toml, const std::string& file);
-/// Refuses a bench with what it is good for.
+/// The same of a file, with the log that it names for the far end. Refuses a bench with what it is good for.
 ReadConfig read_config(const std::filesystem::path& path);
 ReadBench read_bench(const std::filesystem::path& path);
 

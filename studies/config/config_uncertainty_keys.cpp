@@ -37,6 +37,12 @@ StudyKey sensor_error(KeyText about, double SensorErrors::*field) {
         0.0, [field](auto& plan, int row) -> auto& { return sensor_of(plan, row).errors.*field; });
 }
 
+const KeyCondition<StudyPlan> with_recorded_far_end{
+    [](const StudyPlan& plan, int) {
+        return plan.uncertainty.is_stated && plan.uncertainty.far_end == FarEndKind::recorded;
+    },
+    "far_end = \"recorded\""};
+
 StudyKey only(StudyKey key, KeyCondition<StudyPlan> condition) {
     key.condition = std::move(condition);
     return key;
@@ -48,6 +54,20 @@ StudyKey list_of_places(KeyText about, std::vector<double> PlacementPlan::*field
         {}, [field](auto& plan, int) -> auto& { return plan.placement.*field; });
     key.allowed.may_be_empty = true;
     return only(std::move(key), with_worlds);
+}
+
+StudyKey known_effects() {
+    StudyKey key{"uncertainty", "known_effects", {ValueKind::names}};
+    key.help =
+        "Effects of [truth] that the estimator knows, with the values stated there; of the others it knows nothing. Where "
+        "it knows any, it takes static friction as dynamic friction.";
+    key.allowed.names.assign(std::begin(estimator_effects), std::end(estimator_effects));
+    key.default_value = std::vector<std::string>{};
+    key.read = [](const StudyPlan& plan, int) -> ConfigValue { return plan.uncertainty.known_effects; };
+    key.write = [](StudyPlan& plan, int, const ConfigValue& value) {
+        plan.uncertainty.known_effects = std::get<std::vector<std::string>>(value);
+    };
+    return key;
 }
 
 void add_sensor_keys(StudyKeys& keys) {
@@ -160,10 +180,25 @@ void add_uncertainty_keys(StudyKeys& keys) {
     own.push_back(choice<FarEndKind>(
         {at, "far_end", "",
          "What moves the far end (of a spring: its wall): \"random\", a new motion in each world with the range and "
-         "bandwidth below, or \"prescribed\", that of [motion.distal]. The estimator knows the range and bandwidth, not "
-         "the motion."},
-        {{"random", FarEndKind::random}, {"prescribed", FarEndKind::prescribed}}, std::string("random"),
-        [](auto& plan, int) -> auto& { return plan.uncertainty.far_end; }));
+         "bandwidth below, \"prescribed\", that of [motion.distal], or \"recorded\", in each world another stretch of a "
+         "log. The estimator knows the range and bandwidth, not the motion."},
+        {{"random", FarEndKind::random},
+         {"prescribed", FarEndKind::prescribed},
+         {"recorded", FarEndKind::recorded}},
+        std::string("random"), [](auto& plan, int) -> auto& { return plan.uncertainty.far_end; }));
+    own.push_back(only(
+        string(
+            {at, "far_end_log", "",
+             "CSV file beside the configuration with the columns time_s and displacement_m. Range and bandwidth are then "
+             "those of the log unless they are stated."},
+            std::string(), [](auto& plan, int) -> auto& { return plan.uncertainty.far_end_log; }),
+        with_recorded_far_end));
+    StudyKey samples = number_list<StudyPlan>(
+        {at, "far_end_samples_m", "m",
+         "The samples of the log at motion.sample_rate_Hz; a stored study holds them, and then does not need the file."},
+        {}, {}, [](auto& plan, int) -> auto& { return plan.uncertainty.far_end_samples_m; });
+    samples.allowed.may_be_empty = true;
+    own.push_back(only(std::move(samples), with_recorded_far_end));
     own.push_back(number(
         {at, "far_end_range_m", "m",
          "Range of that motion: 95 % of the time within plus and minus this. 0: the amplitude of "
@@ -178,10 +213,14 @@ void add_uncertainty_keys(StudyKeys& keys) {
          "Probability that a world is as [truth] says; the others lie about the nominal cable."},
         {0.0, true, 1.0}, standard.truth_probability,
         [](auto& plan, int) -> auto& { return plan.uncertainty.truth_probability; }));
+    own.push_back(known_effects());
     own.push_back(integer(
         {at, "members", "", "Cables in the estimator's ensemble, a multiple of 8."}, {16, true, 1024},
         std::int64_t{standard.members}, [](auto& plan, int) -> auto& { return plan.uncertainty.members; }));
-    for (StudyKey& key : own) keys.push_back(only(std::move(key), with_worlds));
+    for (StudyKey& key : own) {
+        if (!key.condition.holds) key.condition = with_worlds;
+        keys.push_back(std::move(key));
+    }
     add_sensor_keys(keys);
     add_search_keys(keys);
 }

@@ -182,6 +182,14 @@ void check_worlds(const StudyPlan& plan, Problems& problems) {
     if (plan.uncertainty.members % 8 != 0)
         problems.push_back({"uncertainty.members", "is " + std::to_string(plan.uncertainty.members) +
                                                        ", but must be a multiple of 8"});
+    const std::size_t recorded = plan.uncertainty.far_end_samples_m.size();
+    if (plan.uncertainty.far_end == FarEndKind::recorded &&
+        recorded <= static_cast<std::size_t>(std::max(plan.motion.samples, 0)))
+        problems.push_back(
+            {"uncertainty.far_end",
+             "\"recorded\" needs more than the " + std::to_string(plan.motion.samples) +
+                 " samples of [motion], and there are " + std::to_string(recorded) +
+                 "; give far_end_log, a file beside this one, or --far-end LOG, or far_end_samples_m"});
     double length_m = 0.0;
     for (const CurvaturePiece& piece : plan.transmission.cable.curvature) length_m += piece.length_m;
     const auto check_place = [&](double place_m, const std::string& key) {

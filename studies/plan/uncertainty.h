@@ -17,7 +17,11 @@ enum class FactorDistribution {
 enum class FarEndKind {
     random,      ///< FarEndMotion, drawn anew for every world
     prescribed,  ///< the motion of [motion.distal]; the estimator still assumes the random one
+    recorded,    ///< a stretch of far_end_samples_m, which differs between worlds; the same is assumed
 };
+
+/// The effects that an estimator can know of; catalogue names.
+inline constexpr const char* estimator_effects[] = {"viscous_friction", "stribeck"};
 
 /// What is not known of the transmission that the sensors will be fitted to. Fractions of the nominal values.
 struct Uncertainty {
@@ -32,9 +36,12 @@ struct Uncertainty {
     double far_end_range_m =
         0.0;  ///< 95% of the time within plus and minus this; 0: as [motion.distal] moves
     double far_end_bandwidth_Hz = 2.0;
+    std::string far_end_log;                ///< file that the samples came from
+    std::vector<double> far_end_samples_m;  ///< recorded, at the rate of [motion]: more than its samples
 
-    int members = 64;           ///< of the estimator's ensemble
-    double worlds_ratio = 1.0;  ///< the worlds' widths are this times what the estimator is told
+    std::vector<std::string> known_effects;  ///< of [truth], of estimator_effects: known with their severity
+    int members = 64;                        ///< of the estimator's ensemble
+    double worlds_ratio = 1.0;               ///< the worlds' widths are this times what the estimator is told
     double truth_probability =
         1.0;  ///< that a world has what [truth] says; else it is about the nominal cable
 };

@@ -18,7 +18,7 @@ constexpr std::size_t tasks_at_once = 32;
 constexpr std::string_view condition_names[] = {
     "as_stated",     "friction_known", "wrap_known",   "stiffness_known", "pretension_known",
     "sensors_known", "half_width",     "double_width", "wider_worlds",    "finer_grid",
-    "finest_grid",   "paper_mean",     "paper_mean_r"};
+    "finest_grid",   "paper_mean",     "paper_mean_r", "paper_w_mean",    "paper_w_mean_r"};
 static_assert(std::size(condition_names) == conditions);
 
 // All of the stated widths times `ratio`.
@@ -67,6 +67,32 @@ CableBelief belief_under(Condition condition, CableBelief belief, const World& w
 }
 
 }  // namespace
+
+const FusionMethod* paper_method(Condition condition) {
+    switch (condition) {
+        case Condition::paper_mean:
+            return &mean_method;
+        case Condition::paper_mean_r:
+            return &mean_r_method;
+        case Condition::paper_w_mean:
+            return &weighted_mean_method;
+        case Condition::paper_w_mean_r:
+            return &weighted_mean_r_method;
+        case Condition::as_stated:
+        case Condition::friction_known:
+        case Condition::wrap_known:
+        case Condition::stiffness_known:
+        case Condition::pretension_known:
+        case Condition::sensors_known:
+        case Condition::half_width:
+        case Condition::double_width:
+        case Condition::wider_worlds:
+        case Condition::finer_grid:
+        case Condition::finest_grid:
+            break;
+    }
+    return nullptr;
+}
 
 std::string_view name_of(Condition condition) {
     return condition_names[static_cast<std::size_t>(condition)];
@@ -125,6 +151,8 @@ void ErrorTable::fill(Condition condition, std::span<const int> candidates, int 
     }
     if (tasks.empty()) return;
     const WorldQuestion& question = question_of(condition);
+    if (const FusionMethod* paper = paper_method(condition); paper != nullptr && paper->uses_weights)
+        weigh(candidates);
     std::size_t done = 0;
     for (std::size_t from = 0; from < tasks.size(); from += tasks_at_once) {
         if (options_.stop != nullptr && *options_.stop) throw TableStopped{};
@@ -144,6 +172,24 @@ void ErrorTable::fill(Condition condition, std::span<const int> candidates, int 
     }
 }
 
+// The weights of the candidates' tension sensors, as the W methods need them.
+void ErrorTable::weigh(std::span<const int> candidates) {
+    const WorldQuestion& question = question_of(Condition::as_stated);
+    paper_weight_.resize(question.offers.size(), 0.0);
+    std::vector<int> missing;
+    for (const int candidate : candidates) {
+        for (const int sensor : candidates_[static_cast<std::size_t>(candidate)].sensors) {
+            const bool is_weighed = paper_weight_[static_cast<std::size_t>(sensor)] > 0.0;
+            if (!is_weighed && measures_tension(question.offers[static_cast<std::size_t>(sensor)].kind))
+                missing.push_back(sensor);
+        }
+    }
+    parallel_for_each_index(static_cast<int>(missing.size()), options_.jobs, [&](int k) {
+        const int sensor = missing[static_cast<std::size_t>(k)];
+        paper_weight_[static_cast<std::size_t>(sensor)] = paper_weight(question, sensor);
+    });
+}
+
 std::vector<TableEntry> ErrorTable::run(Condition condition, const WorldQuestion& question,
                                         const Task& task) const {
     const World world = draw_world(question, static_cast<std::uint32_t>(task.world));
@@ -152,12 +198,10 @@ std::vector<TableEntry> ErrorTable::run(Condition condition, const WorldQuestion
     std::vector<TableEntry> entries;
     for (const int candidate : task.candidates) {
         const std::vector<int>& sensors = candidates_[static_cast<std::size_t>(candidate)].sensors;
-        const bool is_paper = condition == Condition::paper_mean || condition == Condition::paper_mean_r;
+        const FusionMethod* paper = paper_method(condition);
         entries.push_back({condition, candidate, task.world,
-                           is_paper
-                               ? paper_error(question, world, sensors,
-                                             condition == Condition::paper_mean ? mean_method : mean_r_method)
-                               : filter_error(question, belief, world, draws, sensors)});
+                           paper != nullptr ? paper_error(question, world, sensors, *paper, paper_weight_)
+                                            : filter_error(question, belief, world, draws, sensors)});
     }
     return entries;
 }

@@ -21,16 +21,20 @@ enum class Condition {
     wrap_known,      ///< and so on: what calibrating would tell it
     stiffness_known,
     pretension_known,
-    sensors_known,  ///< zeros and gains
-    half_width,     ///< worlds and estimator with half of the stated uncertainty
-    double_width,   ///< with twice of it
-    wider_worlds,   ///< worlds twice as uncertain as the estimator is told
-    finer_grid,     ///< twice the segments
-    finest_grid,    ///< four times the segments
-    paper_mean,     ///< the paper's Mean over time in place of the ensemble filter
-    paper_mean_r,   ///< the paper's Mean-R
+    sensors_known,   ///< zeros and gains
+    half_width,      ///< worlds and estimator with half of the stated uncertainty
+    double_width,    ///< with twice of it
+    wider_worlds,    ///< worlds twice as uncertain as the estimator is told
+    finer_grid,      ///< twice the segments
+    finest_grid,     ///< four times the segments
+    paper_mean,      ///< the paper's Mean over time in place of the ensemble filter
+    paper_mean_r,    ///< the paper's Mean-R
+    paper_w_mean,    ///< the paper's W Mean
+    paper_w_mean_r,  ///< the paper's W Mean-R
 };
-inline constexpr int conditions = static_cast<int>(Condition::paper_mean_r) + 1;
+inline constexpr int conditions = static_cast<int>(Condition::paper_w_mean_r) + 1;
+/// The method of the paper that stands in place of the ensemble filter; null where none does.
+const FusionMethod* paper_method(Condition condition);
 std::string_view name_of(Condition condition);
 std::optional<Condition> find_condition(std::string_view name);
 
@@ -88,11 +92,13 @@ class ErrorTable {
     using Row = std::vector<std::optional<WorldError>>;  // worlds
 
     const WorldQuestion& question_of(Condition condition);
+    void weigh(std::span<const int> candidates);
     std::vector<TableEntry> run(Condition condition, const WorldQuestion& question, const Task& task) const;
 
     StudyPlan plan_;
     TableOptions options_;
     std::vector<Candidate> candidates_;
+    std::vector<double> paper_weight_;                       // offers; 0: not needed yet
     std::vector<std::unique_ptr<WorldQuestion>> questions_;  // conditions
     std::vector<std::vector<Row>> rows_;                     // conditions x candidates
 };

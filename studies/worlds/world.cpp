@@ -42,8 +42,23 @@ CableFactors draw_factors(const WorldQuestion& question, std::uint32_t index) {
     return factors;
 }
 
+// A stretch of the log, counted from where it begins, because the cable begins at rest.
+std::vector<double> recorded_far_end(const WorldQuestion& question, std::uint32_t index) {
+    const std::vector<double>& log_m = question.uncertainty.far_end_samples_m;
+    const auto samples = static_cast<std::size_t>(question.motion.samples);
+    const double normal = standard_normals({question.seed, RandomPurpose::world_far_end, 0, index, 0})[0];
+    const double evenly = 0.5 * std::erfc(-normal / std::numbers::sqrt2);  // 0 to 1
+    const std::size_t starts = log_m.size() - samples;
+    const std::size_t start =
+        std::min(static_cast<std::size_t>(evenly * static_cast<double>(starts)), starts - 1);
+    std::vector<double> displacement_m;
+    for (std::size_t k = 1; k <= samples; ++k) displacement_m.push_back(log_m[start + k] - log_m[start]);
+    return displacement_m;
+}
+
 // The far end over time: what it adds to where it rests [m].
 std::vector<double> far_end_of(const WorldQuestion& question, std::uint32_t index) {
+    if (question.uncertainty.far_end == FarEndKind::recorded) return recorded_far_end(question, index);
     std::vector<double> displacement_m;
     if (question.uncertainty.far_end == FarEndKind::prescribed) {
         const Cable cable(question.cable.nominal());
@@ -143,6 +158,13 @@ WorldQuestion world_question(const StudyPlan& plan, int segments) {
         unknown.far_end_range_m > 0.0 ? unknown.far_end_range_m : std::abs(distal.amplitude);
     belief.far_end = {range_m, unknown.far_end_bandwidth_Hz};
     belief.support = {distal.kind == EndKind::spring ? distal.spring_stiffness_N_per_m : 0.0};
+    const auto knows = [&](std::string_view effect) {
+        return std::find(unknown.known_effects.begin(), unknown.known_effects.end(), effect) !=
+               unknown.known_effects.end();
+    };
+    const BenchEffects effects = effects_with(plan.truth.effects);
+    if (knows("viscous_friction")) belief.rate_friction.viscous = effects.of<ViscousFriction>();
+    if (knows("stribeck")) belief.rate_friction.stribeck = effects.of<Stribeck>();
     belief.interval_s = 1.0 / plan.motion.sample_rate_Hz;
     return question;
 }

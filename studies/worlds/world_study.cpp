@@ -156,7 +156,8 @@ void add_paper(Choice& choice, WorldAnswer& answer) {
     if (!has_tension || choice.table().plan().transmission.cable.segments > max_estimated_segments) return;
     const int first = choice.worlds();
     const int last = first + std::min(choice.worlds(), worlds_for_paper);
-    for (const Condition condition : {Condition::paper_mean, Condition::paper_mean_r}) {
+    for (const Condition condition : {Condition::paper_mean, Condition::paper_mean_r, Condition::paper_w_mean,
+                                      Condition::paper_w_mean_r}) {
         choice.fill(condition, std::vector{candidate}, first, last, "the paper's estimators");
         answer.paper.push_back({condition, mean_of(choice.parts(condition, candidate, first, last))});
     }

@@ -71,11 +71,18 @@ WorldError filter_error(const WorldQuestion& question, const CableBelief& belief
 }
 
 WorldError paper_error(const WorldQuestion& question, const World& world, std::span<const int> sensors,
-                       const FusionMethod& method) {
+                       const FusionMethod& method, std::span<const double> weight) {
     const Cable cable(question.cable.nominal());
     const QuasiStaticStep step(cable, ModelRules::consistent());
     const CableState start = pretensioned(cable);
-    RecursiveFusion fusion(step, start, method, DistalSide::admitted);
+    const auto node_of = [&](const SensorOffer& offer) { return cable.nearest_node(offer.place_m); };
+    std::vector<double> weight_of_node(static_cast<std::size_t>(world.nodes), 0.0);
+    for (std::size_t s = sensors.size(); s-- > 0 && !weight.empty();) {
+        const auto sensor = static_cast<std::size_t>(sensors[s]);
+        if (measures_tension(question.offers[sensor].kind))
+            weight_of_node[static_cast<std::size_t>(node_of(question.offers[sensor]))] = weight[sensor];
+    }
+    RecursiveFusion fusion(step, start, method, DistalSide::admitted, weight_of_node);
     const std::vector<double> band(static_cast<std::size_t>(world.nodes), 0.0);
     ErrorSums sums(world.nodes);
     double proximal_m = start.displacement_m.front();
@@ -88,7 +95,7 @@ WorldError paper_error(const WorldQuestion& question, const World& world, std::s
         for (std::size_t s = 0; s < sensors.size(); ++s) {
             const SensorOffer& offer = question.offers[static_cast<std::size_t>(sensors[s])];
             if (!measures_tension(offer.kind)) continue;
-            const int node = cable.nearest_node(offer.place_m);
+            const int node = node_of(offer);
             const bool is_new = std::none_of(readings.begin(), readings.end(),
                                              [&](const NodeReading& other) { return other.node == node; });
             if (is_new) readings.push_back({node, std::max(all[s], 0.0)});
@@ -97,6 +104,15 @@ WorldError paper_error(const WorldQuestion& question, const World& world, std::s
         sums.add(world.tensions_N(sample), fusion.estimate().tension_N, band);
     }
     return std::move(sums).error();
+}
+
+double paper_weight(const WorldQuestion& question, int sensor) {
+    constexpr std::uint32_t first_world = 1U << 30;  // no study gets there
+    constexpr std::uint32_t worlds = 10;
+    double sum_N = 0.0;
+    for (std::uint32_t world = first_world; world < first_world + worlds; ++world)
+        sum_N += paper_error(question, draw_world(question, world), {&sensor, 1}, mean_method).mean_abs_N;
+    return worlds / std::max(sum_N, 1e-12);
 }
 
 }  // namespace capstan

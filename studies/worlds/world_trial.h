@@ -23,10 +23,15 @@ struct WorldError {
 WorldError filter_error(const WorldQuestion& question, const CableBelief& belief, const World& world,
                         const EnsembleDraws& draws, std::span<const int> sensors);
 
-/// The paper's estimator (mean_method or mean_r_method) over a world, from its own last estimate and with the
-/// nominal cable. It needs a tension sensor, and takes each to be at the nearest node.
+/// One of the paper's four methods over a world, from its own last estimate and with the nominal cable. It
+/// needs a tension sensor, and takes each to be at the nearest node. `weight`: of each offer, for the W
+/// methods.
 WorldError paper_error(const WorldQuestion& question, const World& world, std::span<const int> sensors,
-                       const FusionMethod& method);
+                       const FusionMethod& method, std::span<const double> weight = {});
+
+/// The weight of a tension sensor in the W methods: 1 / the mean error [1/N] of its own estimate over time,
+/// in worlds that are drawn for nothing else.
+double paper_weight(const WorldQuestion& question, int sensor);
 
 /// The members' draws of a world.
 EnsembleDraws ensemble_draws(const WorldQuestion& question, std::uint32_t world);

@@ -1,6 +1,7 @@
 """Placement for a cable that is not exactly known, as its user runs it."""
 
 import json
+import math
 import signal
 import unittest
 
@@ -109,6 +110,21 @@ class Worlds(CapstanTest):
         process.stderr.readline()  # the first block of worlds is stored
         process.send_signal(signal.SIGINT)
         process.wait(60)
+        self.run_capstan("study", "resume", "--db", "stopped.db")
+        self.assert_same_bits(self.tables("whole.db"), self.tables("stopped.db"))
+
+    def test_a_recorded_far_end_is_resumed_without_its_log(self):
+        self.write("wrist.csv", "time_s,displacement_m\n" +
+                   "".join(f"{0.01 * k:.2f},{0.001 * math.sin(0.05 * k):.7f}\n" for k in range(500)))
+        words = self.run_capstan("place", "arm.toml", "--far-end", "wrist.csv").stdout
+        self.assertIn("recorded in wrist.csv", " ".join(words.split()))
+        self.run_capstan("study", "run", "arm.toml", "--far-end", "wrist.csv", "--db", "whole.db")
+        self.write("recorded.toml", ARM.replace("far_end_range_m", 'far_end = "recorded"\nfar_end_log = "wrist.csv"\nfar_end_range_m'))
+        process = self.start_capstan("study", "run", "recorded.toml", "--db", "stopped.db", "--jobs", "1", "--progress", "json")
+        process.stderr.readline()  # the first block of worlds is stored
+        process.send_signal(signal.SIGINT)
+        process.wait(60)
+        self.write("wrist.csv", "")
         self.run_capstan("study", "resume", "--db", "stopped.db")
         self.assert_same_bits(self.tables("whole.db"), self.tables("stopped.db"))
 

@@ -16,10 +16,11 @@ double moved_proximal_m(const Cable& cable, int step) {
 }
 
 // Mean error over the first quarter cycle and all nodes, distal end blocked, readings without noise.
-double mean_error_N(const FusionMethod& method, const std::vector<int>& sensors, double factor) {
+double mean_error_N(const FusionMethod& method, const std::vector<int>& sensors, double factor,
+                    const std::vector<double>& weight = {}) {
     const QuasiStaticStep model(test::paper_cable(10), ModelRules::consistent());
     CableState truth = pretensioned(model.cable());
-    RecursiveFusion fusion(model, truth, method, DistalSide::excluded);
+    RecursiveFusion fusion(model, truth, method, DistalSide::excluded, weight);
     double sum_N = 0.0;
     int count = 0;
     for (int step = 1; step <= 25; ++step) {
@@ -39,6 +40,46 @@ double mean_error_N(const FusionMethod& method, const std::vector<int>& sensors,
 
 TEST(RecursiveFusion, WithOneSensorMeanAndMeanRAreTheSame) {
     EXPECT_EQ(mean_error_N(mean_method, {0}, 1.05), mean_error_N(mean_r_method, {0}, 1.05));
+}
+
+TEST(RecursiveFusion, WithEqualWeightsWMeanIsMean) {
+    const std::vector<double> equal(11, 0.25);
+    EXPECT_EQ(mean_error_N(weighted_mean_method, {0, 1, 10}, 1.05, equal),
+              mean_error_N(mean_method, {0, 1, 10}, 1.05));
+}
+
+TEST(RecursiveFusion, AWeightOfNearlyOneMakesTheSensorsEstimateTheFusedOne) {
+    std::vector<double> weight(11, 1e-12);
+    weight[1] = 1.0;
+    EXPECT_NEAR(mean_error_N(weighted_mean_method, {1, 10}, 1.05, weight),
+                mean_error_N(mean_method, {1}, 1.05), 1e-6);
+}
+
+// With equal weights both leave out the same estimates; W Mean-R does not make up for their tensions.
+TEST(RecursiveFusion, WMeanRMovesTheCableAsMeanRDoes) {
+    const QuasiStaticStep model(test::paper_cable(10), ModelRules::consistent());
+    const CableState start = pretensioned(model.cable());
+    const std::vector<double> weight(11, 1.0);
+    CableState truth = start;
+    const double near_m = moved_proximal_m(model.cable(), 8);
+    model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(0.0)});
+    int disagreements = 0;
+    for (double factor = 0.5; factor < 1.6; factor += 0.05) {
+        RecursiveFusion shared(model, start, mean_r_method, DistalSide::admitted);
+        RecursiveFusion unshared(model, start, weighted_mean_r_method, DistalSide::admitted, weight);
+        std::vector<NodeReading> readings;
+        for (const int node : {0, 2, 4, 8, 10})
+            readings.push_back(
+                {node, truth.tension_N[static_cast<std::size_t>(node)] * (node > 3 ? factor : 1.0)});
+        shared.step(near_m, readings);
+        unshared.step(near_m, readings);
+        if (shared.estimate().tension_N != unshared.estimate().tension_N) ++disagreements;
+        for (std::size_t node = 0; node < start.displacement_m.size(); ++node) {
+            EXPECT_NEAR(unshared.estimate().displacement_m[node], shared.estimate().displacement_m[node],
+                        1e-12);
+        }
+    }
+    EXPECT_GT(disagreements, 3);
 }
 
 TEST(RecursiveFusion, ErrorsOfReadingsComeBackInTheEstimate) {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <set>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/storage/study_store.h"
@@ -212,6 +213,62 @@ TEST(SensorChoice, SensorsOfOtherKindsComeWithEverySet) {
         EXPECT_DOUBLE_EQ(candidate.price, (candidate.count() - (has ? 1 : 0)) * 1.0 + (has ? 2.5 : 0.0));
     }
     EXPECT_GT(with_encoder, 2);
+}
+
+// From their own estimates and with the nominal cable, they know neither friction nor the far end.
+TEST(SensorChoice, ThePapersFourMethodsRunOverTimeAndErrMoreThanTheFilter) {
+    const WorldAnswer answer = run_worlds(arm_plan(), {});
+    ASSERT_EQ(answer.paper.size(), 4U);
+    EXPECT_EQ(answer.paper[2].condition, Condition::paper_w_mean);
+    for (const PaperComparison& each : answer.paper) {
+        EXPECT_TRUE(std::isfinite(each.error.value_N));
+        EXPECT_GT(each.error.value_N, answer.best().expected.objective.value_N) << name_of(each.condition);
+    }
+    EXPECT_NE(answer.paper[0].error.value_N, answer.paper[2].error.value_N);
+}
+
+TEST(SensorChoice, ASensorWithMoreNoiseWeighsLess) {
+    StudyPlan plan = arm_plan();
+    plan.sensors = {{SensorKind::tension, {1.0}, {0.03, 0.1, 0.0, 0.0}, 1.0},
+                    {SensorKind::tension, {1.0}, {0.5, 5.0, 0.0, 0.0}, 1.0}};
+    const WorldQuestion question = world_question(plan);
+    EXPECT_GT(paper_weight(question, 0), 1.2 * paper_weight(question, 1));
+}
+
+// Common to all candidates, and nothing but a stretch of the log.
+TEST(SensorChoice, EachWorldMovesTheFarEndByAnotherStretchOfTheLog) {
+    StudyPlan plan = arm_plan();
+    plan.uncertainty.far_end = FarEndKind::recorded;
+    for (int k = 0; k < 400; ++k)
+        plan.uncertainty.far_end_samples_m.push_back(1e-6 * k * k);  // each stretch has a slope of its own
+    plan.sensors = {{SensorKind::load_displacement, {}, {0.0, 1e-12, 0.0, 0.0}, 1.0}};
+    const WorldQuestion question = world_question(plan);
+    std::set<int> starts;
+    for (std::uint32_t world = 0; world < 50; ++world) {
+        const World drawn = draw_world(question, world);
+        const double first_m = drawn.readings(0)[0];  // 1e-6 (2 k + 1)
+        const int start = static_cast<int>(std::lround((first_m / 1e-6 - 1.0) / 2.0));
+        starts.insert(start);
+        for (int sample = 0; sample < drawn.samples(); ++sample) {
+            const double moved = start + sample + 1.0;
+            EXPECT_NEAR(drawn.readings(sample)[0], 1e-6 * (moved * moved - start * start), 1e-10);
+        }
+    }
+    EXPECT_GT(starts.size(), 30U);
+    EXPECT_GE(*starts.begin(), 0);
+    EXPECT_LT(*starts.rbegin(), 400 - plan.motion.samples);
+}
+
+// What is assumed has the range of the log; with a log of one stretch all worlds share it.
+TEST(SensorChoice, WithARecordedFarEndSensorsHelpAndTheBandIsHonest) {
+    StudyPlan plan = arm_plan();
+    plan.uncertainty.far_end = FarEndKind::recorded;
+    for (int k = 0; k < 3000; ++k)
+        plan.uncertainty.far_end_samples_m.push_back(0.0005 *
+                                                     (std::sin(0.043 * k) + std::sin(0.071 * k + 1.0)));
+    const WorldAnswer answer = run_worlds(plan, {});
+    ASSERT_TRUE(answer.recommended);
+    EXPECT_GT(answer.best().expected.covered_fraction, 0.90);
 }
 
 class StoredWorlds : public ::testing::Test {

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "capstan/ensemble/cable_belief.h"
+#include "capstan/ensemble/ensemble_draws.h"
+#include "capstan/ensemble/ensemble_rows.h"
+#include "capstan/estimation/tension_reading.h"
+#include "capstan/solver/cable_ensemble.h"
+
+namespace capstan {
+
+/// A cable in every member of an ensemble, with the numbers that are not known of it: log friction, log
+/// stiffness, log pretension and log wrap of every bend. All arrays are rows of members.
+class EnsembleCable {
+  public:
+    /// The cable under its pretension, its distal end at 0. `cable` must outlive it; the draws of its numbers
+    /// begin at row `first_draw`.
+    EnsembleCable(const UncertainCable& cable, const CableBelief& belief, const EnsembleDraws& draws,
+                  int first_draw);
+
+    /// One step. The distal end, or its spring's wall, is at `far_end_m` (members).
+    EnsembleReport advance(double proximal_increment_m, std::span<const double> far_end_m);
+
+    /// What a correction may change. Tensions are settled by settle() afterwards.
+    void add_tensions(std::vector<double*>& rows);
+    void add_numbers(std::vector<double*>& rows);
+    /// Makes what was corrected a state again: no cable pushes, the numbers count, and displacements follow
+    /// from tensions and compliances, back from the far end (E2).
+    void settle(std::span<const double> far_end_m);
+
+    int nodes() const { return members_.nodes(); }
+    bool is_slack(int member) const { return members_.is_slack(member); }
+    double tension_N(const SensorSpot& spot, int member) const;
+    /// By how much the distal end is beyond the spring's wall; 0 without a spring.
+    double beyond_wall_m(int member) const;
+    RowMoments tension_moments_N(int node) const { return moments_of_row(members_.tension_N(node)); }
+    RowMoments log_friction() const { return moments_of_row(log_friction_); }
+
+  private:
+    void take_numbers();
+    void add_wrap(int bend, std::span<const double> factor);
+    void take_displacements(std::span<const double> far_end_m);
+
+    const UncertainCable& cable_;
+    CableEnsemble members_;
+    FarEndSupport support_;
+    std::optional<RateFrictionStep> rate_step_;
+    double nominal_compliance_m_per_N_;
+    double nominal_pretension_N_;
+    std::vector<double> log_friction_;           // members
+    std::vector<double> log_stiffness_;          // members
+    std::vector<double> log_pretension_;         // members
+    std::vector<std::vector<double>> log_wrap_;  // bends x members
+    std::vector<double> friction_;               // members: exp(log_friction_)
+    std::vector<double> pretension_N_;           // members
+    std::vector<double> distal_value_;           // members
+    std::vector<double> workspace_;              // members
+    std::vector<double> wrap_rad_;               // segments x members; empty without rate-dependent friction
+};
+
+}  // namespace capstan
