@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capstan/bench/bench_plan.h"
+#include "capstan/config/config_problem.h"
 #include "capstan/plan/study_plan.h"
 
 namespace capstan::config {
@@ -97,6 +98,8 @@ struct ConfigSchema {
     std::string introduction;                   ///< the comment that a printed default begins with
     std::vector<ConfigSection<Plan>> sections;  ///< in the order of reading and writing
     std::vector<ConfigKey<Plan>> keys;          ///< a key may rely on all keys before it
+    /// Called after the last key, for what follows from several sections. Empty: nothing does.
+    void (*complete)(Plan&, const KeyLines&) = nullptr;
 };
 
 /// The one list of sections and keys of each kind of configuration.

@@ -26,6 +26,7 @@ class Reading {
         for (const Section& section : config_sections()) {
             section.is_repeated() ? read_repeated(section) : read_single(section);
         }
+        if (const auto complete = config_schema<Plan>().complete) complete(config_.plan, config_.lines);
         return std::move(problems_);
     }
 

@@ -32,8 +32,15 @@ struct EndMotion {
     double spring_stiffness_N_per_m = 0.0;  ///< spring only
 };
 
+/// Where the nodes of the cable lie.
+enum class CableCut {
+    even,      ///< all segments are equal
+    at_bends,  ///< at both ends of every bend and at the places of the tension sensors, the others between
+};
+
 struct Transmission {
     CableSpecification cable;
+    CableCut cut = CableCut::even;  ///< place_nodes() does it
     ModelRules rules = ModelRules::consistent();
 };
 
@@ -129,6 +136,10 @@ struct StudyPlan {
     SensitivityPlan sensitivity;  ///< for the sensitivity of the recommendation
     Sweep sweep;                  ///< studies_in_sweep() makes the studies; each of them has none
 };
+
+/// Puts the nodes of the plan's cable where its cut says. To be called again where bends move or sensors
+/// come.
+void place_nodes(StudyPlan& plan);
 
 /// Everything wrong with the plan's values, each with the key it belongs to and what to try. Simulates
 /// nothing.

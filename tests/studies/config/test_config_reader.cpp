@@ -14,6 +14,7 @@
 namespace capstan::config {
 namespace {
 
+using testing::AllOf;
 using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -199,6 +200,63 @@ TEST_P(ShippedConfig, ReadsBackAsItself) {
     const ReadConfig config = read_config(std::filesystem::path(CONFIGS_FOLDER) / GetParam());
     EXPECT_NO_THROW(require_runnable(config));
     expect_round_trip(config.plan);
+}
+
+const std::string bent_arm = R"(
+[transmission]
+segments = 8
+[[transmission.curvature]]
+length_m = 0.3
+[[transmission.curvature]]
+length_m = 0.2
+bend_radius_m = 0.1
+[[transmission.curvature]]
+length_m = 0.5
+)";
+const std::string of_unknown_friction = R"(
+[uncertainty]
+friction_fraction = 0.2
+[[sensor]]
+kind = "tension"
+places_m = [0.0, 0.3, 0.7, 1.0]
+noise_N = 0.1
+)";
+
+TEST(ConfigReader, NodesLieAtBendsAndSensorsWhereWorldsAreDrawn) {
+    const StudyPlan plan = parse_config(bent_arm + of_unknown_friction, "x.toml").plan;
+    EXPECT_EQ(plan.transmission.cut, CableCut::at_bends);
+    EXPECT_THAT(plan.transmission.cable.node_places_m, ElementsAre(0.3, 0.5, 0.7));
+    EXPECT_EQ(
+        parse_config(config_text(plan, Comments::none), "again.toml").plan.transmission.cable.node_places_m,
+        plan.transmission.cable.node_places_m);
+    const StudyPlan known = parse_config(bent_arm, "x.toml").plan;
+    EXPECT_EQ(known.transmission.cut, CableCut::even);
+    EXPECT_THAT(known.transmission.cable.node_places_m, ElementsAre());
+}
+
+TEST(ConfigReader, TheCutThatIsStatedIsKept) {
+    std::string even = bent_arm + of_unknown_friction;
+    even.replace(even.find("segments = 8"), 12, "segments = 8\ncut = \"even\"");
+    const StudyPlan plan = parse_config(even, "x.toml").plan;
+    EXPECT_THAT(plan.transmission.cable.node_places_m, ElementsAre());
+    EXPECT_EQ(parse_config(config_text(plan, Comments::none), "again.toml").plan.transmission.cut,
+              CableCut::even);
+    std::string at_bends = bent_arm;
+    at_bends.replace(at_bends.find("segments = 8"), 12, "segments = 8\ncut = \"at_bends\"");
+    EXPECT_THAT(parse_config(at_bends, "x.toml").plan.transmission.cable.node_places_m,
+                ElementsAre(0.3, 0.5));
+}
+
+TEST(ConfigReader, TooFewSegmentsForTheCutAreReportedAtTheirLine) {
+    std::string few = bent_arm + of_unknown_friction;
+    few.replace(few.find("segments = 8"), 12, "segments = 3");
+    EXPECT_THAT(problems_in(few),
+                ElementsAre(AllOf(StartsWith("3: transmission.segments"),
+                                  HasSubstr("need at least 4 segments"), HasSubstr("\"even\""))));
+    EXPECT_THAT(problems_in(bent_arm + "[placement]\nmax_in_distal_half = 1\n"), ElementsAre());
+    std::string at_bends = bent_arm + "[placement]\nmax_in_distal_half = 1\n";
+    at_bends.replace(at_bends.find("segments = 8"), 12, "segments = 8\ncut = \"at_bends\"");
+    EXPECT_THAT(problems_in(at_bends), ElementsAre(HasSubstr("counts nodes")));
 }
 
 std::vector<std::string> shipped_configs(ConfigContent content) {
