@@ -59,6 +59,7 @@ void add_transmission_keys(std::vector<StudyKey>& keys) {
         {{"even", CableCut::even}, {"at_bends", CableCut::at_bends}}, {},
         [](auto& plan, int) -> auto& { return plan.transmission.cut; });
     keys.push_back(std::move(cut));
+    add_conduit_keys(keys);
     keys.push_back(choice<ModelRules>(
         {at, "rules", "",
          "Interpretation of the model where the paper is silent or contradicts itself: \"consistent\" "
@@ -238,6 +239,7 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
                                      [](StudyPlan& plan) {
                                          plan.transmission.cable.curvature = {{2.0, 0.28}};
                                      }),
+        bend_section_of_conduit(),
         {"motion", "The true motion, which the estimators infer from the sensors."},
         {"motion.proximal", "The proximal end, where the motor is."},
         {"motion.distal", "The distal end, where the load is."},
@@ -286,10 +288,12 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
     return sections;
 }
 
-void complete_study(StudyPlan& plan, const KeyLines& lines) {
+std::vector<KeyProblem> complete_study(StudyPlan& plan, const KeyLines& lines, const std::filesystem::path&) {
+    std::vector<KeyProblem> problems = make_pieces(plan, lines);
     if (!lines.contains("transmission.cut"))
         plan.transmission.cut = plan.uncertainty.is_stated ? CableCut::at_bends : CableCut::even;
     place_nodes(plan);
+    return problems;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capstan/cable/cable.h"
+#include "capstan/cable/conduit.h"
 #include "capstan/estimation/single_sensor.h"
 #include "capstan/plan/placement_plan.h"
 #include "capstan/plan/sensitivity_plan.h"
@@ -38,8 +39,16 @@ enum class CableCut {
     at_bends,  ///< at both ends of every bend and at the places of the tension sensors, the others between
 };
 
+/// Another way to state a conduit than its pieces. A configuration is read into this and then made into
+/// pieces; a plan that runs has none.
+struct ConduitCourse {
+    double length_m = 0.0;  ///< with bends; 0: not stated
+    std::vector<Bend> bends{};
+};
+
 struct Transmission {
     CableSpecification cable;
+    ConduitCourse course{};
     CableCut cut = CableCut::even;  ///< place_nodes() does it
     ModelRules rules = ModelRules::consistent();
 };
