@@ -142,9 +142,10 @@ void EnsembleCable::take_displacements(std::span<const double> far_end_m) {
         const auto next_m = members_.displacement_m(node + 1);
         const auto here_N = members_.tension_N(node);
         const auto next_N = members_.tension_N(node + 1);
+        const double half = 0.5 * members_.relative_length()[node];
         for (std::size_t j = 0; j < here_m.size(); ++j) {
             if (is_slack(static_cast<int>(j))) continue;
-            here_m[j] = next_m[j] - 0.5 * compliance[j] * (here_N[j] + next_N[j]);
+            here_m[j] = next_m[j] - half * compliance[j] * (here_N[j] + next_N[j]);
         }
     }
 }
