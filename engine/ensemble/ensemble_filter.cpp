@@ -71,7 +71,8 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
     if (!(before.deviation > 0.0)) return;
     const double variance = before.deviation * before.deviation;
     const SensorErrors& errors = sensor.offer.errors;
-    const double proportional = errors.multiplicative_ratio * before.mean;
+    // Expected over the members: a small mean does not promise a small noise.
+    const double proportional = errors.multiplicative_ratio * std::sqrt(before.mean * before.mean + variance);
     // A sensor without noise still has rounding: a millionth of what the members spread.
     const double noise_variance =
         std::max(proportional * proportional + errors.additive * errors.additive, 1e-12 * variance);

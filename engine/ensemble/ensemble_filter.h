@@ -15,7 +15,8 @@ namespace capstan {
 /// the numbers are estimated with the state: log friction, log wrap of every bend, log stiffness, log
 /// pretension, the far end's displacement and speed (E40), the zero and gain of every sensor. A reading
 /// corrects each of them by its correlation with what the members would read (E37). Displacements follow from
-/// tensions and compliances, back from the distal end (E2).
+/// tensions and compliances on from the motor, whose position is known (E2); they put the far end where it
+/// is.
 class EnsembleFilter {
   public:
     /// `cable` and `draws` must outlive the filter. `sensors` are indices into `offers`, and their ranks

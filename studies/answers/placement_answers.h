@@ -10,6 +10,7 @@
 #include "capstan/reports/answer.h"
 #include "capstan/search/placement_answer.h"
 #include "capstan/sensitivity/advice_sensitivity.h"
+#include "capstan/sensitivity/world_sensitivity.h"
 #include "capstan/storage/database.h"
 #include "capstan/storage/records.h"
 #include "capstan/worlds/world_study.h"
@@ -21,6 +22,9 @@ reports::Answer place_answer(const StudyPlan& plan, const PlacementAnswer& found
 
 /// What `capstan sensitivity` found.
 reports::Answer sensitivity_answer(const StudyPlan& plan, const sensitivity::SensitivityAnswer& found);
+
+/// The same for a study over worlds.
+reports::Answer world_sensitivity_answer(const StudyPlan& plan, const sensitivity::WorldSensitivity& found);
 
 /// What a complete study concludes.
 struct Conclusions {

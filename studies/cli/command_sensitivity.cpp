@@ -19,8 +19,15 @@ ExitCode run_sensitivity(const Invocation& invocation) {
     config::require_runnable(config);
     for (const char* option : {"noise", "sensors"})
         if (invocation.has(option)) refuse_worlds(config.plan, std::string("--") + option);
-    // The answer of a study over worlds says how it fares with other widths.
-    if (config.plan.uncertainty.is_stated) return run_watched_worlds(invocation, nullptr, 0, config.plan);
+    if (config.plan.uncertainty.is_stated) {
+        std::optional<sensitivity::WorldSensitivity> found;
+        watch_table(invocation, config.plan.name, [&](const TableOptions& options) {
+            found = sensitivity::vary_worlds(config.plan, options);
+        });
+        if (!found) return ExitCode::stopped;
+        deliver_answer(invocation, answers::world_sensitivity_answer(config.plan, *found));
+        return ExitCode::success;
+    }
     sensitivity::SensitivityOptions options;
     options.jobs = static_cast<int>(invocation.integer("jobs"));
     options.noise_index = noise_index_of(config.plan, invocation);
@@ -32,36 +39,40 @@ ExitCode run_sensitivity(const Invocation& invocation) {
 }  // namespace
 
 Command sensitivity_command() {
-    return {.name = "sensitivity",
-            .summary = "Find which uncertain parameter would change the advice, and at what value.",
-            .description =
-                "Friction, curvature, stiffness, pretension and noise are never known exactly. For one "
-                "number of sensors, this varies each of them within the range that [sensitivity] of CONFIG "
-                "gives it. It prints how strongly each parameter affects the error of the best layout (a "
-                "Morris screening of all parameters at once), how much worse the advice at the configured "
-                "values then is than the best layout, and the value of each parameter alone at which another "
-                "layout becomes better. All sets of parameters share their draws. An instant that leaves its "
-                "motion regime is replaced by the nearest sample in that regime.",
-            .arguments = {config_argument},
-            .options = {noise_option,
-                        {.name = "sensors",
-                         .kind = OptionKind::integer,
-                         .value = "N",
-                         .meaning =
-                             "The number of sensors that the advice is for, instead of the configuration's.",
-                         .low = 1,
-                         .high = 64},
-                        seed_option,
-                        jobs_option,
-                        output_option,
-                        page_option,
-                        json_option,
-                        progress_option,
-                        help_option},
-            .examples = {"capstan sensitivity configs/paper.toml",
-                         "capstan sensitivity my.toml --sensors 2 --html advice.html",
-                         "capstan sensitivity my.toml --json | jq '.parameters[] | {name, flips_above}'"},
-            .run = run_sensitivity};
+    return {
+        .name = "sensitivity",
+        .summary = "Find which uncertain parameter would change the advice, and at what value.",
+        .description =
+            "Friction, curvature, stiffness, pretension and noise are never known exactly. For one "
+            "number of sensors, this varies each of them within the range that [sensitivity] of CONFIG "
+            "gives it. It prints how strongly each parameter affects the error of the best layout (a "
+            "Morris screening of all parameters at once), how much worse the advice at the configured "
+            "values then is than the best layout, and the value of each parameter alone at which another "
+            "layout becomes better. All sets of parameters share their draws. An instant that leaves its "
+            "motion regime is replaced by the nearest sample in that regime. With [uncertainty] in CONFIG, it varies "
+            "each stated number alone, among them the far end's range and each uncertainty, and prints what "
+            "would be advised and which error to expect.",
+        .arguments = {config_argument},
+        .options = {noise_option,
+                    {.name = "sensors",
+                     .kind = OptionKind::integer,
+                     .value = "N",
+                     .meaning =
+                         "The number of sensors that the advice is for, instead of the configuration's.",
+                     .low = 1,
+                     .high = 64},
+                    seed_option,
+                    jobs_option,
+                    output_option,
+                    page_option,
+                    json_option,
+                    progress_option,
+                    help_option},
+        .examples = {"capstan sensitivity configs/paper.toml",
+                     "capstan sensitivity my.toml --sensors 2 --html advice.html",
+                     "capstan sensitivity configs/noise-sweep.toml",
+                     "capstan sensitivity my.toml --json | jq '.parameters[] | {name, flips_above}'"},
+        .run = run_sensitivity};
 }
 
 }  // namespace capstan::cli

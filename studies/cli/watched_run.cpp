@@ -100,30 +100,40 @@ ExitCode run_watched(const Invocation& invocation, storage::Database& database, 
     return code;
 }
 
-std::optional<WorldAnswer> watch_worlds(const Invocation& invocation, storage::Database* database,
-                                        std::int64_t study_id, const StudyPlan& plan) {
+WatchedTable watch_table(const Invocation& invocation, const std::string& name,
+                         const std::function<void(const TableOptions&)>& work) {
     ProgressDisplay display(progress_mode(invocation.text("progress")));
-    WorldRunOptions options;
+    TableOptions options;
     options.jobs = static_cast<int>(invocation.integer("jobs"));
     options.on_progress = [&](const TableProgress& progress) {
-        display.show(counted_progress(fmt::format("{}, {}", plan.name, progress.activity),
+        display.show(counted_progress(fmt::format("{}, {}", name, progress.activity),
                                       static_cast<int>(progress.done), static_cast<int>(progress.total),
                                       "trials"));
     };
     const double start_s = wall_time_s();
-    std::optional<WorldAnswer> found;
+    bool is_complete = false;
     {
         const StopRequest stoppable;
         options.stop = StopRequest::flag();
         try {
-            found = database == nullptr ? run_worlds(plan, options)
-                                        : run_worlds(*database, study_id, plan, options);
+            work(options);
+            is_complete = true;
         } catch (const TableStopped&) {
         }
     }
     display.end_line();
-    const double wall_s = wall_time_s() - start_s;
-    const ProgressMode mode = display.mode();
+    return {is_complete, wall_time_s() - start_s, display.mode()};
+}
+
+std::optional<WorldAnswer> watch_worlds(const Invocation& invocation, storage::Database* database,
+                                        std::int64_t study_id, const StudyPlan& plan) {
+    std::optional<WorldAnswer> found;
+    const WatchedTable watched = watch_table(invocation, plan.name, [&](const TableOptions& options) {
+        found =
+            database == nullptr ? run_worlds(plan, options) : run_worlds(*database, study_id, plan, options);
+    });
+    const double wall_s = watched.wall_s;
+    const ProgressMode mode = watched.mode;
     if (!found) {
         const std::string words =
             database == nullptr

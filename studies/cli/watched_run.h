@@ -33,6 +33,16 @@ ExitCode watch(const Invocation& invocation, const std::string& name, const Watc
 ExitCode run_watched(const Invocation& invocation, storage::Database& database, const std::string& study_name,
                      const std::function<RunOutcome(const RunOptions&)>& work);
 
+/// How work on a table of errors under watch ended.
+struct WatchedTable {
+    bool is_complete = false;  ///< false: stopped
+    double wall_s = 0.0;
+    ProgressMode mode = ProgressMode::none;
+};
+/// Runs `work` with progress shown and Ctrl-C caught.
+WatchedTable watch_table(const Invocation& invocation, const std::string& name,
+                         const std::function<void(const TableOptions&)>& work);
+
 /// Runs a study over worlds with progress shown and Ctrl-C caught; nothing if it was stopped. Without a
 /// database nothing is stored.
 std::optional<WorldAnswer> watch_worlds(const Invocation& invocation, storage::Database* database,

@@ -276,7 +276,7 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
     for (ConfigSection<StudyPlan>& section : truth_sections()) sections.push_back(std::move(section));
     const auto has_instants = [](const StudyPlan& plan) { return !plan.uncertainty.is_stated; };
     for (ConfigSection<StudyPlan>& section : sections) {
-        if (section.path == "regime" || section.path == "estimation" || section.path == "sensitivity")
+        if (section.path == "regime" || section.path == "estimation")
             section.is_used = has_instants;
     }
     // Before [placement], whose keys depend on it.

@@ -230,8 +230,8 @@ std::vector<ConfigSection<StudyPlan>> uncertainty_sections() {
         "uncertainty",
         "What is not known of the transmission that the sensors will be fitted to. With this section a study is "
         "over worlds: the estimator believes the nominal model and these uncertainties, and has what a device has: "
-        "the motor's position, the sensors and its own last estimate. [[regime]], [estimation] and [sensitivity] "
-        "have no meaning then."};
+        "the motor's position, the sensors and its own last estimate. [[regime]] and [estimation] have no "
+        "meaning then."};
     uncertainty.note_present = [](StudyPlan& plan) { plan.uncertainty.is_stated = true; };
     uncertainty.is_used = [](const StudyPlan& plan) { return plan.uncertainty.is_stated; };
     ConfigSection<StudyPlan> sensor{

@@ -13,7 +13,10 @@ std::vector<KeyProblem> problems_of(const SensitivityPlan& plan, int nodes) {
         {"curvature_ratio", plan.curvature_ratio},
         {"stiffness_ratio", plan.stiffness_ratio},
         {"pretension_ratio", plan.pretension_ratio},
-        {"noise_ratio", plan.noise_ratio}};
+        {"noise_ratio", plan.noise_ratio},
+        {"uncertainty_ratio", plan.uncertainty_ratio},
+        {"far_end_range_ratio", plan.far_end_range_ratio},
+        {"far_end_bandwidth_ratio", plan.far_end_bandwidth_ratio}};
     for (const auto& [key, range] : ranges) {
         if (range.size() == 2 && 0.0 < range[0] && range[0] <= 1.0 && 1.0 <= range[1]) continue;
         problems.push_back(

@@ -15,6 +15,11 @@ struct SensitivityPlan {
     std::vector<double> stiffness_ratio = {0.7, 1.4};   ///< of the cable, which beds in
     std::vector<double> pretension_ratio = {0.7, 1.4};  ///< the cable creeps
     std::vector<double> noise_ratio = {0.5, 2.0};       ///< on the value of the sensor's data sheet
+    // Of studies over worlds: what is stated of the uncertainty itself.
+    std::vector<double> uncertainty_ratio = {0.5, 2.0};        ///< of each [uncertainty] fraction
+    std::vector<double> far_end_range_ratio = {0.5, 2.0};      ///< people differ
+    std::vector<double> far_end_bandwidth_ratio = {0.5, 2.0};  ///< so do their movements
+    int values = 2;  ///< in each range of a study over worlds, spread evenly on a logarithmic scale
     int sensors = 3;
     std::string method = "any";         ///< a fusion method's name, or "any": the best one for each layout
     std::string regime = "duty_cycle";  ///< a regime's name, or "duty_cycle"

@@ -16,6 +16,12 @@ double wrap_angle_rad(const StudyPlan& plan, int) {
 }
 
 double noise_at_pretension_N(const StudyPlan& plan, int noise_index) {
+    for (const SensorRow& sensor : plan.sensors) {
+        if (!measures_tension(sensor.kind)) continue;
+        return std::hypot(sensor.errors.multiplicative_ratio * plan.transmission.cable.pretension_N,
+                          sensor.errors.additive);
+    }
+    if (plan.noise_levels.empty()) return 0.0;
     return reading_deviation_N(plan.noise_levels[noise_index].level, plan.transmission.cable.pretension_N);
 }
 
@@ -29,6 +35,11 @@ void scale_curvature(StudyPlan& plan, int, double ratio) {
 }
 
 void scale_noise(StudyPlan& plan, int noise_index, double ratio) {
+    for (SensorRow& sensor : plan.sensors)
+        for (double* error : {&sensor.errors.multiplicative_ratio, &sensor.errors.additive,
+                              &sensor.errors.zero, &sensor.errors.gain_ratio})
+            *error *= ratio;
+    if (plan.noise_levels.empty()) return;
     NoiseLevel& level = plan.noise_levels[noise_index].level;
     level.multiplicative_ratio *= ratio;
     level.additive_N *= ratio;

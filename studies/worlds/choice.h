@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
+#include "capstan/worlds/paired_worlds.h"
 #include "capstan/worlds/world_study.h"
 
 namespace capstan {

@@ -153,9 +153,9 @@ std::int64_t begin_worlds(storage::Database& database, const StudyPlan& plan,
 }
 
 WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
-                       const WorldRunOptions& options) {
+                       const TableOptions& options) {
     const bool is_complete = storage::read_world_recommendation(database, study_id).has_value();
-    TableOptions table_options{options.jobs, {}, options.on_progress, options.stop};
+    TableOptions table_options = options;
     if (!is_complete) {
         table_options.keep = [&](std::span<const TableEntry> entries) {
             std::vector<storage::WorldErrorRecord> records;
@@ -171,9 +171,9 @@ WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const
     return answer;
 }
 
-WorldAnswer run_worlds(const StudyPlan& plan, const WorldRunOptions& options) {
+WorldAnswer run_worlds(const StudyPlan& plan, const TableOptions& options) {
     if (const auto problems = problems_of(plan); !problems.empty()) throw InvalidInput(problems);
-    ErrorTable table(plan, {options.jobs, {}, options.on_progress, options.stop});
+    ErrorTable table(plan, options);
     return choose_sensors(table);
 }
 

@@ -1,21 +1,12 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <string>
 
 #include "capstan/storage/database.h"
 #include "capstan/worlds/world_study.h"
 
 namespace capstan {
-
-/// What a study over worlds needs to run, beside its plan.
-struct WorldRunOptions {
-    int jobs = 0;  ///< threads; 0: all processors
-    std::function<void(const TableProgress&)> on_progress{};
-    const std::atomic<bool>* stop = nullptr;
-};
 
 /// Begins a study over worlds in the database; nothing of it has run. Throws InvalidInput with
 /// problems_of(plan).
@@ -25,10 +16,10 @@ std::int64_t begin_worlds(storage::Database& database, const StudyPlan& plan,
 /// Runs what is missing of a study over worlds, stores every block of errors as it is there, and completes
 /// the study. A killed run goes on with the same bits. Throws TableStopped.
 WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
-                       const WorldRunOptions& options);
+                       const TableOptions& options);
 
 /// The answer without a database.
-WorldAnswer run_worlds(const StudyPlan& plan, const WorldRunOptions& options);
+WorldAnswer run_worlds(const StudyPlan& plan, const TableOptions& options);
 
 /// The recommendation in one sentence or two: what to buy, which error to expect, what else would help.
 std::string sentence_of(const StudyPlan& plan, const WorldAnswer& answer);

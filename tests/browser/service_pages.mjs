@@ -39,7 +39,7 @@ async function watchCellsFill(browser) {
   // A longer one, opened while it runs: its report grows without reloading.
   const front = await open(browser, "/");
   await front.waitForSelector("html[data-ready=yes]");
-  await front.selectOption("#config-name", "noise-sweep.toml");
+  await front.selectOption("#config-name", "noise-instants.toml");
   await front.waitForFunction(() => document.querySelector("#config-text").value.includes("noise"));
   await front.$eval("#config-text", (each) => { each.value = each.value.replace(/^repetitions.*$/m, "repetitions = 400"); });
   await front.dispatchEvent("#config-text", "input");

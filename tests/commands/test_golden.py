@@ -23,6 +23,7 @@ GOLDEN_WIDTH = "AVX2"
 STUDIES = {
     "quick": (),
     "paper": ("--repetitions", "100"),
+    "noise-instants": ("--repetitions", "20"),
     "noise-sweep": ("--repetitions", "20"),
     "wrist-instants": ("--repetitions", "20"),
     "wrist-exosuit": ("--repetitions", "20"),
@@ -30,8 +31,8 @@ STUDIES = {
 }
 SHORT = sorted(set(STUDIES) - {"atlas"})
 # Its estimator's patterns may fall either way by the rounding of an exponential, so two widths agree in distribution only.
-WORLDS = ("wrist-exosuit",)
-SHARDED = ("noise-sweep", "wrist-instants")  # enough parts for four shards
+WORLDS = ("wrist-exosuit", "noise-sweep")
+SHARDED = ("noise-instants", "wrist-instants")  # enough parts for four shards
 BENCHES = ("bench-handle", "bench-ramps", "bench-slack")
 # Between widths, compilers and degrees of optimisation only the order of sums differs. Errors are of the order of 0.1 N.
 BOUND_N = 1e-11

@@ -12,7 +12,7 @@ import unittest
 from capstan_program import CONFIGS, CapstanTest
 
 # Long enough to be killed ten times, with several noise levels, regimes and units.
-STUDY = (CONFIGS / "noise-sweep.toml", "--repetitions", "200")
+STUDY = (CONFIGS / "noise-instants.toml", "--repetitions", "200")
 
 
 class SameBits(CapstanTest):

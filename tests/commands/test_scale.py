@@ -89,7 +89,7 @@ class Scale(CapstanTest):
 
     def test_questions_about_a_study_do_not_go_through_the_others(self):
         large = CELLS >= 5_000_000
-        self.run_capstan("study", "run", MANY_LAYOUTS if large else CONFIGS / "noise-sweep.toml", "--repetitions", 4, "--db", "one.db",
+        self.run_capstan("study", "run", MANY_LAYOUTS if large else CONFIGS / "noise-instants.toml", "--repetitions", 4, "--db", "one.db",
                          "--progress", "none")
         connection = sqlite3.connect(self.folder / "one.db")
         cells = connection.execute("SELECT count(*) FROM cell").fetchone()[0]

@@ -11,7 +11,7 @@ from capstan_program import CONFIGS
 from capstan_service import ServiceTest
 
 QUICK = (CONFIGS / "quick.toml").read_text()
-LONG = (CONFIGS / "noise-sweep.toml").read_text()  # dozens of units: long enough to be stopped and killed
+LONG = (CONFIGS / "noise-instants.toml").read_text()  # dozens of units: long enough to be stopped and killed
 
 
 def with_repetitions(toml, repetitions):

@@ -9,7 +9,7 @@ import unittest
 from capstan_program import CONFIGS, CapstanTest
 
 # 28 parts: four instants at seven noise levels.
-STUDY = (CONFIGS / "noise-sweep.toml", "--repetitions", "100")
+STUDY = (CONFIGS / "noise-instants.toml", "--repetitions", "100")
 
 SWEEP = """
 name = "small sweep"

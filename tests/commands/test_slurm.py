@@ -10,8 +10,8 @@ import unittest
 from capstan_program import CONFIGS, CapstanTest
 from slurm_cluster import SlurmCluster, why_not
 
-STUDY = (CONFIGS / "noise-sweep.toml", "--repetitions", "2000")  # some seconds a shard
-QUICK = (CONFIGS / "noise-sweep.toml", "--repetitions", "20")
+STUDY = (CONFIGS / "noise-instants.toml", "--repetitions", "2000")  # some seconds a shard
+QUICK = (CONFIGS / "noise-instants.toml", "--repetitions", "20")
 
 
 class WithoutSlurm(CapstanTest):
