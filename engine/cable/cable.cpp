@@ -4,17 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/cable/invalid_input.h"
 
 namespace capstan {
 
 namespace {
-
-double total_length_m(const std::vector<CurvaturePiece>& pieces) {
-    double length = 0.0;
-    for (const CurvaturePiece& piece : pieces) length += piece.length_m;
-    return length;
-}
 
 // Finite and above zero; also false for NaN.
 bool positive(double value) {
@@ -47,6 +42,25 @@ std::vector<KeyProblem> problems_of_pieces(const std::vector<CurvaturePiece>& pi
         }
     }
     return problems;
+}
+
+void check_node_places(const CableSpecification& s, std::vector<KeyProblem>& problems) {
+    double before_m = 0.0;
+    for (const double place_m : s.node_places_m) {
+        if (!(place_m > before_m) || !(place_m < length_m(s.curvature))) {
+            problems.push_back({"node_places_m", "a node at " + number(place_m) +
+                                                     " m; the places must rise and lie between both ends"});
+            return;
+        }
+        before_m = place_m;
+    }
+    const std::size_t needed = s.node_places_m.size() + 1;
+    if (static_cast<std::size_t>(s.segments) < needed) {
+        problems.push_back({"segments", "is " + std::to_string(s.segments) + ", but nodes at " +
+                                            std::to_string(needed - 1) +
+                                            " places between the ends need at least " +
+                                            std::to_string(needed) + " segments"});
+    }
 }
 
 // Wrap angle [rad] of the conduit between two arc lengths.
@@ -89,11 +103,13 @@ std::vector<KeyProblem> problems_of(const CableSpecification& s) {
                               ", but must be at most 300: beyond, the far end feels nothing; check "
                               "bend_radius_m"});
     }
+    check_node_places(s, problems);
     return problems;
 }
 
 Cable::Cable(const CableSpecification& specification)
-    : length_m_(total_length_m(specification.curvature)),
+    : is_evenly_cut_(specification.node_places_m.empty()),
+      length_m_(capstan::length_m(specification.curvature)),
       axial_stiffness_N_(specification.axial_stiffness_N),
       dynamic_friction_(specification.dynamic_friction),
       static_friction_(specification.static_friction),
@@ -101,11 +117,38 @@ Cable::Cable(const CableSpecification& specification)
     if (const auto problems = problems_of(specification); !problems.empty()) throw InvalidInput(problems);
 
     const int count = specification.segments;
-    wrap_angle_rad_.reserve(count);
-    for (int i = 0; i < count; ++i) {
-        wrap_angle_rad_.push_back(
-            wrap_between_rad(specification.curvature, length_m_ * i / count, length_m_ * (i + 1) / count));
+    wrap_angle_rad_.resize(count);
+    if (is_evenly_cut_) {
+        for (int node = 0; node <= count; ++node) {
+            relative_position_.push_back(node);
+            node_position_m_.push_back(node * mean_segment_length_m());
+        }
+    } else {
+        node_position_m_ = node_positions_m(specification);
+        for (const double position_m : node_position_m_)
+            relative_position_.push_back(position_m / mean_segment_length_m());
+        relative_position_.back() = count;
     }
+    const auto end_of_segment_m = [&](int node) {
+        return is_evenly_cut_ ? length_m_ * node / count : node_position_m_[node];
+    };
+    for (int i = 0; i < count; ++i) {
+        relative_length_.push_back(relative_position_[i + 1] - relative_position_[i]);
+        wrap_angle_rad_[i] =
+            wrap_between_rad(specification.curvature, end_of_segment_m(i), end_of_segment_m(i + 1));
+    }
+}
+
+Cable::Spot Cable::spot_at(double position_m) const {
+    const double place = std::clamp(position_m / mean_segment_length_m(), 0.0, 1.0 * segments());
+    const auto beyond = std::upper_bound(relative_position_.begin(), relative_position_.end(), place);
+    const int segment = std::min(static_cast<int>(beyond - relative_position_.begin()), segments()) - 1;
+    return {segment, (place - relative_position_[segment]) / relative_length_[segment]};
+}
+
+int Cable::nearest_node(double position_m) const {
+    const Spot spot = spot_at(position_m);
+    return spot.segment + (spot.fraction < 0.5 ? 0 : 1);
 }
 
 }  // namespace capstan

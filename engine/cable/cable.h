@@ -24,6 +24,9 @@ struct CableSpecification {
     double dynamic_friction = 0.0;   ///< mu_d, of a segment that slides.
     double static_friction = 0.0;    ///< mu_s, of a segment about to slide; at least mu_d.
     double pretension_N = 0.0;       ///< uniform tension before anything moves.
+    /// Where nodes must lie beside both ends, rising; the others are spread between them so that the longest
+    /// segment is as short as possible. Empty: all segments are equal.
+    std::vector<double> node_places_m{};
 };
 
 /// The largest friction exponent (mu times total wrap angle) taken: beyond it a tension ratio leaves the
@@ -33,9 +36,9 @@ inline constexpr double largest_friction_exponent = 300.0;
 /// Everything wrong with a specification, by the name of its field; empty if a cable can be made of it.
 std::vector<KeyProblem> problems_of(const CableSpecification& specification);
 
-/// A cable cut into segments of equal length; segment i joins nodes i and i + 1, all counted from 0 here
-/// (people count from 1), node 0 proximal. A segment's wrap angle is that of the pieces it covers, so the
-/// cut loses no bend. Valid when built.
+/// A cable cut into segments; segment i joins nodes i and i + 1, all counted from 0 here (people count from
+/// 1), node 0 proximal. A segment's wrap angle is that of the pieces it covers, so the cut loses no bend.
+/// Lengths are relative to the mean segment, so that of an even cut they are 1 exactly. Valid when built.
 class Cable {
   public:
     /// Throws InvalidInput with every problem of the specification.
@@ -44,18 +47,38 @@ class Cable {
     int segments() const { return static_cast<int>(wrap_angle_rad_.size()); }
     int nodes() const { return segments() + 1; }
     double length_m() const { return length_m_; }
-    double segment_length_m() const { return length_m_ / segments(); }
-    /// Elongation of one segment per newton of mean tension [m/N]: dx / EA.
-    double segment_compliance_m_per_N() const { return segment_length_m() / axial_stiffness_N_; }
+    double mean_segment_length_m() const { return length_m_ / segments(); }
+    double segment_length_m(int segment) const { return mean_segment_length_m() * relative_length_[segment]; }
+    /// Elongation per newton of mean tension [m/N]: dx / EA.
+    double mean_segment_compliance_m_per_N() const { return mean_segment_length_m() / axial_stiffness_N_; }
+    double segment_compliance_m_per_N(int segment) const {
+        return segment_length_m(segment) / axial_stiffness_N_;
+    }
     double axial_stiffness_N() const { return axial_stiffness_N_; }
     double dynamic_friction() const { return dynamic_friction_; }
     double static_friction() const { return static_friction_; }
     double pretension_N() const { return pretension_N_; }
-    std::span<const double> wrap_angle_rad() const { return wrap_angle_rad_; }  ///< segments
-    double node_position_m(int node) const { return node * segment_length_m(); }
+    std::span<const double> wrap_angle_rad() const { return wrap_angle_rad_; }        ///< segments
+    std::span<const double> relative_length() const { return relative_length_; }      ///< segments
+    std::span<const double> relative_position() const { return relative_position_; }  ///< nodes
+    double node_position_m(int node) const { return node_position_m_[node]; }
+    bool is_evenly_cut() const { return is_evenly_cut_; }
+
+    /// Where a position lies: in which segment, and at which fraction of it, 0 to 1. One beyond the cable's
+    /// ends is taken to be at the end.
+    struct Spot {
+        int segment = 0;
+        double fraction = 0.0;
+    };
+    Spot spot_at(double position_m) const;
+    int nearest_node(double position_m) const;
 
   private:
-    std::vector<double> wrap_angle_rad_;  // segments
+    std::vector<double> wrap_angle_rad_;     // segments
+    std::vector<double> relative_length_;    // segments
+    std::vector<double> relative_position_;  // nodes
+    std::vector<double> node_position_m_;    // nodes
+    bool is_evenly_cut_;
     double length_m_;
     double axial_stiffness_N_;
     double dynamic_friction_;

@@ -22,7 +22,8 @@ inline CableState pretensioned(const Cable& cable) {
     state.displacement_m.resize(cable.nodes());
     const double strain = cable.pretension_N() / cable.axial_stiffness_N();
     for (int node = 0; node < cable.nodes(); ++node) {
-        state.displacement_m[node] = -strain * cable.segment_length_m() * (cable.segments() - node);
+        state.displacement_m[node] =
+            -strain * cable.mean_segment_length_m() * (cable.segments() - cable.relative_position()[node]);
     }
     return state;
 }

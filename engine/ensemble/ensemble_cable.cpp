@@ -19,7 +19,7 @@ EnsembleCable::EnsembleCable(const UncertainCable& cable, const CableBelief& bel
     : cable_(cable),
       members_(nominal_cable(cable.nominal(), belief.rate_friction), draws.members()),
       support_(belief.support),
-      nominal_compliance_m_per_N_(Cable(cable.nominal()).segment_compliance_m_per_N()),
+      nominal_compliance_m_per_N_(Cable(cable.nominal()).mean_segment_compliance_m_per_N()),
       nominal_pretension_N_(cable.nominal().pretension_N) {
     const CableUncertainty& unknown = belief.uncertainty;
     log_friction_ = spread(belief.expected.log_friction, unknown.friction, draws.parameter(first_draw));
@@ -35,7 +35,7 @@ EnsembleCable::EnsembleCable(const UncertainCable& cable, const CableBelief& bel
     const auto count = static_cast<std::size_t>(members_.members());
     for (auto* row : {&friction_, &pretension_N_, &distal_value_, &workspace_}) row->assign(count, 0.0);
     if (belief.rate_friction.is_active()) {
-        rate_step_.emplace(belief.rate_friction, members_, Cable(cable.nominal()).segment_length_m(),
+        rate_step_.emplace(belief.rate_friction, members_, Cable(cable.nominal()).mean_segment_length_m(),
                            belief.interval_s);
         wrap_rad_.assign(count * static_cast<std::size_t>(members_.segments()), 0.0);
     }
@@ -142,9 +142,10 @@ void EnsembleCable::take_displacements(std::span<const double> far_end_m) {
         const auto next_m = members_.displacement_m(node + 1);
         const auto here_N = members_.tension_N(node);
         const auto next_N = members_.tension_N(node + 1);
+        const double half = 0.5 * members_.relative_length()[node];
         for (std::size_t j = 0; j < here_m.size(); ++j) {
             if (is_slack(static_cast<int>(j))) continue;
-            here_m[j] = next_m[j] - 0.5 * compliance[j] * (here_N[j] + next_N[j]);
+            here_m[j] = next_m[j] - half * compliance[j] * (here_N[j] + next_N[j]);
         }
     }
 }

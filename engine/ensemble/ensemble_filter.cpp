@@ -17,15 +17,16 @@ EnsembleFilter::EnsembleFilter(const UncertainCable& cable, const CableBelief& b
     mean_N_.assign(static_cast<std::size_t>(member_cable_.nodes()), 0.0);
     deviation_N_ = mean_N_;
     const Cable nominal(cable.nominal());
-    for (const int index : sensors) {
+    for (int rank = 0; rank < static_cast<int>(sensors.size()); ++rank) {
+        const int index = sensors[static_cast<std::size_t>(rank)];
         const SensorOffer& offer = offers[static_cast<std::size_t>(index)];
         if (!(offer.place_m >= 0.0) || offer.place_m > nominal.length_m() * (1.0 + 1e-9))
             throw InvalidInput({"ensemble filter: a sensor at " + std::to_string(offer.place_m) +
                                 " m is beyond the cable, which is " + std::to_string(nominal.length_m()) +
                                 " m long"});
         sensors_.push_back({offer, spot_at(nominal, offer.place_m),
-                            spread(0.0, offer.errors.zero, draws_.zero(index)),
-                            spread(0.0, offer.errors.gain_ratio, draws_.gain(index))});
+                            spread(0.0, offer.errors.zero, draws_.zero(rank)),
+                            spread(0.0, offer.errors.gain_ratio, draws_.gain(rank))});
     }
     take_moments();
 }

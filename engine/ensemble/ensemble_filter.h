@@ -18,8 +18,8 @@ namespace capstan {
 /// tensions and compliances, back from the distal end (E2).
 class EnsembleFilter {
   public:
-    /// `cable` and `draws` must outlive the filter. `sensors` are indices into `offers`, which also count the
-    /// draws of zero and gain. Throws InvalidInput where a sensor is beyond the cable.
+    /// `cable` and `draws` must outlive the filter. `sensors` are indices into `offers`, and their ranks
+    /// count the draws of zero and gain. Throws InvalidInput where a sensor is beyond the cable.
     EnsembleFilter(const UncertainCable& cable, const CableBelief& belief,
                    std::span<const SensorOffer> offers, std::span<const int> sensors,
                    const EnsembleDraws& draws);

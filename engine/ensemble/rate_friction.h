@@ -24,7 +24,7 @@ struct RateFriction {
 /// put right by the speed that comes out, and the step is taken again.
 class RateFrictionStep {
   public:
-    RateFrictionStep(const RateFriction& friction, const CableEnsemble& members, double segment_m,
+    RateFrictionStep(const RateFriction& friction, const CableEnsemble& members, double mean_segment_m,
                      double interval_s);
 
     /// One step as CableEnsemble::advance. `wrap_rad`: segments x members. The members' sliding exponents are
@@ -41,7 +41,7 @@ class RateFrictionStep {
     // Rows are segments x members.
     RateFriction friction_;
     double interval_s_;
-    double drag_N_s_per_m_;                // of a segment
+    std::vector<double> drag_N_s_per_m_;   // segments
     std::size_t count_;                    // members
     CableEnsemble before_;                 // as the step found them
     std::vector<double> exponent_;         // without what depends on speed

@@ -39,10 +39,11 @@ Run sliding_run(const EstimationProblem& problem, const DirectionPattern& patter
     Run run{{1.0}, {0.0}};
     for (int segment = first; segment < last; ++segment) {
         const double exponent = sign(pattern.segment(segment, segments)) * tables.sliding_exponent[segment];
-        run.elongation.push_back(
-            run.elongation.back() +
-            run.ratio.back() * sliding_elongation_m_per_N(problem.model.rules().elongation,
-                                                          2.0 * tables.half_compliance_m_per_N, exponent));
+        run.elongation.push_back(run.elongation.back() +
+                                 run.ratio.back() *
+                                     sliding_elongation_m_per_N(problem.model.rules().elongation,
+                                                                2.0 * tables.half_compliance_m_per_N[segment],
+                                                                exponent));
         run.ratio.push_back(run.ratio.back() * std::exp(exponent));
     }
     return run;
@@ -81,7 +82,7 @@ std::optional<PatternProfile> pattern_profile(const EstimationProblem& problem,
                                               const DirectionPattern& pattern, int sensor) {
     const StepView view = view_of(problem);
     const int segments = view.segments();
-    const double half = view.tables.half_compliance_m_per_N;
+    const std::vector<double>& half = view.tables.half_compliance_m_per_N;
     const Affine proximal_m = known(problem.proximal_displacement_m);
     const bool all_move = pattern.leading + pattern.trailing == segments;
     const int near_last = all_move ? segments : pattern.leading;  // last node of the proximal side
@@ -100,9 +101,9 @@ std::optional<PatternProfile> pattern_profile(const EstimationProblem& problem,
     Affine near_tension_N{0.0, 1.0 / near.ratio[std::min(sensor, near_last)]};
     if (!sensor_near) {
         const int resting = near_last + 1;  // E3
-        near_tension_N = known((view.displacement_m(resting) - half * view.tension_N(resting) -
+        near_tension_N = known((view.displacement_m(resting) - half[near_last] * view.tension_N(resting) -
                                 problem.proximal_displacement_m) /
-                               (near.elongation.back() + half * near.ratio.back()));
+                               (near.elongation.back() + half[near_last] * near.ratio.back()));
     }
     lay(profile, near, 0, near_tension_N, proximal_m);
     if (distal_side) {
@@ -110,8 +111,8 @@ std::optional<PatternProfile> pattern_profile(const EstimationProblem& problem,
         const Run far = sliding_run(problem, pattern, far_first, segments);
         const Affine far_tension_N{0.0, 1.0 / far.ratio[sensor - far_first]};
         const Affine far_m =
-            known(view.displacement_m(far_first - 1) + half * view.tension_N(far_first - 1)) +
-            half * far_tension_N;
+            known(view.displacement_m(far_first - 1) + half[far_first - 1] * view.tension_N(far_first - 1)) +
+            half[far_first - 1] * far_tension_N;
         lay(profile, far, far_first, far_tension_N, far_m);
     }
     return profile;

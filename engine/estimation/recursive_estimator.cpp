@@ -145,9 +145,10 @@ void RecursiveEstimator::correct(const TensionReading& reading, RecursiveReport&
     // follow.
     gains_of_sums({count, variance, total, fraction, chance_variances}, gain_, deviation_N_);
     // Elongations change with tensions (E2's mean of both ends, whatever the rules say of sliding segments).
-    const double half_compliance = 0.5 * model_.cable().segment_compliance_m_per_N();
+    const std::vector<double>& half_compliance = model_.tables().half_compliance_m_per_N;
     for (std::size_t node = 0; node + 1 < gain_.size(); ++node)
-        gain_m_per_N_[node + 1] = gain_m_per_N_[node] + half_compliance * (gain_[node] + gain_[node + 1]);
+        gain_m_per_N_[node + 1] =
+            gain_m_per_N_[node] + half_compliance[node] * (gain_[node] + gain_[node + 1]);
     for (std::size_t j = 0; j < members_.size(); ++j) {
         if (is_slack(members_[j])) continue;
         const double pull_N = innovation_N - fraction * sensed_N_[j];
@@ -158,7 +159,7 @@ void RecursiveEstimator::correct(const TensionReading& reading, RecursiveReport&
 
 // No cable pushes: what a correction made negative is raised to nothing, and the cable beyond moves along.
 void RecursiveEstimator::forbid_pushing() {
-    const double half_compliance = 0.5 * model_.cable().segment_compliance_m_per_N();
+    const std::vector<double>& half_compliance = model_.tables().half_compliance_m_per_N;
     for (CableState& member : members_) {
         if (is_slack(member) || pulls_everywhere(member.tension_N)) continue;
         double raised_before_N = 0.0;
@@ -167,7 +168,7 @@ void RecursiveEstimator::forbid_pushing() {
         for (std::size_t node = 0; node < member.tension_N.size(); ++node) {
             double& tension_N = member.tension_N[node];
             const double raised_N = std::max(-tension_N, 0.0);
-            if (node > 0) moved_m += half_compliance * (raised_before_N + raised_N);
+            if (node > 0) moved_m += half_compliance[node - 1] * (raised_before_N + raised_N);
             member.displacement_m[node] += moved_m;
             tension_N = std::max(tension_N, 0.0);
             largest_N = std::max(largest_N, tension_N);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "capstan/cable/cable_state.h"
 #include "capstan/sensing/noise.h"
 
@@ -16,9 +14,8 @@ struct SensorSpot {
 
 /// The spot `position_m` from the proximal end; one beyond the cable's ends is taken to be at the end.
 inline SensorSpot spot_at(const Cable& cable, double position_m) {
-    const double place = std::clamp(position_m / cable.segment_length_m(), 0.0, 1.0 * cable.segments());
-    const int node = std::min(static_cast<int>(place), cable.segments() - 1);
-    return {node, place - node};
+    const Cable::Spot spot = cable.spot_at(position_m);
+    return {spot.segment, spot.fraction};
 }
 
 /// The spot of a node.

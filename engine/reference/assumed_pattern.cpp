@@ -44,8 +44,9 @@ class Search {
         const double rounding =
             1e-14 * (std::abs(end.value) + std::abs(by_displacement) + std::abs(by_tension));
         if (std::abs(change) <= rounding) return Direction::none;
-        const double scale =
-            end.displacement_factor * problem_.cable.half_compliance_m_per_N + outward * end.tension_factor;
+        const std::vector<double>& length = problem_.cable.relative_length;
+        const double h = problem_.cable.half_compliance_m_per_N * (proximal ? length.front() : length.back());
+        const double scale = end.displacement_factor * h + outward * end.tension_factor;
         return direction_of(change * scale);
     }
 

@@ -36,14 +36,15 @@ class PatternSolver {
 };
 
 /// The paper's iteration (Sec. II.B): assume a pattern, starting from the previous one; solve; check; assume
-/// the next. Order of the patterns as in engine/README.md, "How a step finds its pattern", but a complete linear
-/// system for each. Leaves `state` alone if none verifies.
+/// the next. Order of the patterns as in engine/README.md, "How a step finds its pattern", but a complete
+/// linear system for each. Leaves `state` alone if none verifies.
 ReferenceReport advance_by_assumption(PatternSolver& solver, const CableConstants& cable, CableState& state,
                                       const EndConditions& ends);
 
 template <typename Entry, typename Value>
 void PatternEquations::write(const Entry& entry, const Value& value) const {
     const double h = problem_.cable.half_compliance_m_per_N;
+    const std::vector<double>& length = problem_.cable.relative_length;
     const CableState& before = problem_.before;
     const int nodes = problem_.nodes();
     const auto tension = [](int node) { return 2 * node; };
@@ -60,8 +61,8 @@ void PatternEquations::write(const Entry& entry, const Value& value) const {
         value(row, 0.0);
         entry(row + 1, displacement(s), -1.0);
         entry(row + 1, displacement(s + 1), 1.0);
-        entry(row + 1, tension(s), -1.0);
-        entry(row + 1, tension(s + 1), -1.0);
+        entry(row + 1, tension(s), -length[s]);
+        entry(row + 1, tension(s + 1), -length[s]);
         value(row + 1, 0.0);
     };
     const auto ratio = [&](int s, Direction direction) {
@@ -78,9 +79,9 @@ void PatternEquations::write(const Entry& entry, const Value& value) const {
         const double way = sign(pattern_.proximal_direction) * (2.0 * pattern_.zero_velocity_fraction - 1.0);
         sliding(2 * near - 1, near - 1, std::exp(way * problem_.cable.sliding_exponent[near - 1]));
     } else if (near > 0 && near < nodes) {  // E3
-        entry(2 * near - 1, tension(near - 1), 1.0);
+        entry(2 * near - 1, tension(near - 1), length[near - 1]);
         entry(2 * near - 1, displacement(near - 1), 1.0);
-        value(2 * near - 1, before.displacement_m[near] / h - before.tension_N[near]);
+        value(2 * near - 1, before.displacement_m[near] / h - length[near - 1] * before.tension_N[near]);
     }
     for (int node = near; node < far_first; ++node) {
         entry(tension(node), tension(node), 1.0);
@@ -90,9 +91,10 @@ void PatternEquations::write(const Entry& entry, const Value& value) const {
     }
     if (far_first < nodes) {
         if (pattern_.kind != MotionKind::opposed) {  // E3 from the other side
-            entry(2 * far_first, tension(far_first), -1.0);
+            const int s = far_first - 1;
+            entry(2 * far_first, tension(far_first), -length[s]);
             entry(2 * far_first, displacement(far_first), 1.0);
-            value(2 * far_first, before.displacement_m[far_first - 1] / h + before.tension_N[far_first - 1]);
+            value(2 * far_first, before.displacement_m[s] / h + length[s] * before.tension_N[s]);
         }
         for (int s = far_first; s + 1 < nodes; ++s)
             sliding(2 * s + 1, s, ratio(s, pattern_.distal_direction));

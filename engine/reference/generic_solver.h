@@ -10,8 +10,8 @@ namespace capstan::reference {
 ///
 /// **Unknowns.** The middle of segment i lies at m_i = u_i + h T_i, which E2 makes equal to
 /// u_{i+1} - h T_{i+1}. The increments of the N middles determine everything: between two segments
-/// T = T* + (dm_i - dm_{i-1}) / 2h and u = u* + (dm_{i-1} + dm_i) / 2; at an end E6 takes the place of the
-/// missing segment. The unknowns are y_i = dm_i / 2h, in newtons.
+/// T = T* + (dm_i - dm_{i-1}) / (h_{i-1} + h_i) and u = u* + (h_i dm_{i-1} + h_{i-1} dm_i) / (h_{i-1} + h_i);
+/// at an end E6 takes the place of the missing segment. The unknowns are y_i = dm_i / 2h_i, in newtons.
 ///
 /// **Rest.** A segment whose middle stays (dm_i = 0) is at rest: two of them keep the node between at its
 /// tension and displacement, the last of a run is E3, and a lone one is E8. So the sign relation of E1 and

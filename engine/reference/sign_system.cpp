@@ -5,7 +5,10 @@
 namespace capstan::reference {
 
 SignSystem::End::End(const StepProblem& problem, const EndCondition& end, int node, double outward)
-    : twice_h_(2.0 * problem.cable.half_compliance_m_per_N), outward_(outward) {
+    : twice_h_(
+          2.0 * problem.cable.half_compliance_m_per_N *
+          (outward < 0.0 ? problem.cable.relative_length.front() : problem.cable.relative_length.back())),
+      outward_(outward) {
     const double change = end.value - end.displacement_factor * problem.before.displacement_m[node] -
                           end.tension_factor * problem.before.tension_N[node];
     const double scale = end.tension_factor + outward * 0.5 * twice_h_ * end.displacement_factor;
@@ -66,13 +69,13 @@ double SignSystem::tension_N(const Eigen::VectorXd& y_N, int node) const {
     const double before_N = problem_->before.tension_N[node];
     if (node == 0) return before_N + proximal_.tension_change_N(y_N[0]);
     if (node == inputs()) return before_N + distal_.tension_change_N(y_N[node - 1]);
-    return before_N + (y_N[node] - y_N[node - 1]);
+    return before_N + (weight(node, node - 1) * y_N[node] - weight(node - 1, node) * y_N[node - 1]);
 }
 
 double SignSystem::increment_m(const Eigen::VectorXd& y_N, int node) const {
     if (node == 0) return proximal_.increment_m(y_N[0]);
     if (node == inputs()) return distal_.increment_m(y_N[node - 1]);
-    return h() * (y_N[node - 1] + y_N[node]);
+    return h(node - 1) * weight(node, node - 1) * (y_N[node - 1] + y_N[node]);
 }
 
 int SignSystem::branch(const Eigen::VectorXd& y_N, int s) const {
@@ -111,7 +114,7 @@ Eigen::VectorXd SignSystem::shifted_start_N() const {
     for (int s = 0; s < inputs(); ++s) {
         const double place = (s + 0.5) / inputs();
         y_N[s] =
-            ((1.0 - place) * proximal_.increment_m(0.0) + place * distal_.increment_m(0.0)) / (2.0 * h());
+            ((1.0 - place) * proximal_.increment_m(0.0) + place * distal_.increment_m(0.0)) / (2.0 * h(s));
     }
     return y_N;
 }
@@ -145,8 +148,9 @@ void SignSystem::add_node(Eigen::MatrixXd& jacobian, int row, int node, double b
         jacobian(row, node - 1) +=
             by_tension * distal_.slope() + by_increment * distal_.increment_slope_m_per_N();
     } else {
-        jacobian(row, node - 1) += -by_tension + by_increment * h();
-        jacobian(row, node) += by_tension + by_increment * h();
+        const double by_either = by_increment * h(node - 1) * weight(node, node - 1);
+        jacobian(row, node - 1) += -by_tension * weight(node - 1, node) + by_either;
+        jacobian(row, node) += by_tension * weight(node, node - 1) + by_either;
     }
 }
 

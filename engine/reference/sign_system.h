@@ -28,7 +28,7 @@ class SignSystem {
 
     double tension_N(const Eigen::VectorXd& y_N, int node) const;
     double increment_m(const Eigen::VectorXd& y_N, int node) const;
-    double middle_increment_m(const Eigen::VectorXd& y_N, int s) const { return 2.0 * h() * y_N[s]; }
+    double middle_increment_m(const Eigen::VectorXd& y_N, int s) const { return 2.0 * h(s) * y_N[s]; }
 
     /// Segments held by mu_s that slide after all get mu_d from now on; false if there is none.
     bool release(const Eigen::VectorXd& y_N);
@@ -64,7 +64,11 @@ class SignSystem {
         double slope_;
     };
 
-    double h() const { return problem_->cable.half_compliance_m_per_N; }
+    double h(int s) const {
+        return problem_->cable.half_compliance_m_per_N * problem_->cable.relative_length[s];
+    }
+    // 2 h of segment s in parts of the sum with its neighbour's: 1 exactly between equal ones.
+    double weight(int s, int neighbour) const { return 2.0 * h(s) / (h(s) + h(neighbour)); }
     double sliding(int s) const { return problem_->cable.sliding_exponent[s]; }
     double breakaway(int s) const { return problem_->cable.breakaway_exponent[s]; }
     // +1 or -1: the segment slides that way; 0: it rests.

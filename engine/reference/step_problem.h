@@ -19,7 +19,8 @@ struct CableConstants {
     int segments() const { return static_cast<int>(sliding_exponent.size()); }
     int nodes() const { return segments() + 1; }
 
-    double half_compliance_m_per_N;          ///< h of E2 and E3
+    double half_compliance_m_per_N;          ///< h of E2 and E3, of a segment of mean length
+    std::vector<double> relative_length;     // segments
     std::vector<double> sliding_exponent;    // segments: mu_d times wrap angle
     std::vector<double> breakaway_exponent;  // segments: mu_s times wrap angle
     std::vector<double> sliding_ratio;       // segments: exp(sliding_exponent)
@@ -27,7 +28,8 @@ struct CableConstants {
 };
 
 inline CableConstants::CableConstants(const Cable& cable)
-    : half_compliance_m_per_N(0.5 * cable.segment_compliance_m_per_N()) {
+    : half_compliance_m_per_N(0.5 * cable.mean_segment_compliance_m_per_N()),
+      relative_length(cable.relative_length().begin(), cable.relative_length().end()) {
     for (const double angle_rad : cable.wrap_angle_rad()) {
         sliding_exponent.push_back(cable.dynamic_friction() * angle_rad);
         breakaway_exponent.push_back(cable.static_friction() * angle_rad);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/cable/invalid_input.h"
+
 namespace capstan {
 
 namespace {
@@ -43,7 +45,7 @@ std::vector<double> node_wrap_rad(const Cable& cable) {
 
 // Spreads an angle over the nodes whose cable lies in a stretch.
 void add_bend(const Cable& cable, const Stretch& stretch, double angle_rad, std::vector<double>& nodes) {
-    const double half_m = 0.5 * cable.segment_length_m();
+    const double half_m = 0.5 * cable.mean_segment_length_m();
     for (int node = 0; node < cable.nodes(); ++node) {
         const double middle_m = cable.node_position_m(node);
         nodes[static_cast<std::size_t>(node)] +=
@@ -55,9 +57,12 @@ void add_bend(const Cable& cable, const Stretch& stretch, double angle_rad, std:
 
 BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
                          CableArrangement arrangement) {
+    if (!std::all_of(cables.begin(), cables.end(), [](const Cable& cable) { return cable.is_evenly_cut(); }))
+        throw InvalidInput(
+            {"a bench with effects takes cables cut into equal segments; leave out node_places_m"});
     group_.nodes = cables.front().nodes();
     group_.cables = arrangement == CableArrangement::pull_pull ? 2 : 1;
-    group_.segment_m = cables.front().segment_length_m();
+    group_.segment_m = cables.front().mean_segment_length_m();
     const auto nodes = static_cast<std::size_t>(group_.nodes);
     for (int c = 0; c < group_.cables; ++c) {
         Arrays& arrays = arrays_[c];

@@ -21,8 +21,9 @@ enum class CableArrangement {
 /// the bristles' bend. Newton's method on the nodes' displacements, a tridiagonal system each.
 class BenchCables {
   public:
-    /// `cables`: one of each bench, all with the same length and segments. At rest under its pretension, the
-    /// load end where its tension lets it, creep at an end.
+    /// `cables`: one of each bench, all with the same length and as many equal segments; throws InvalidInput
+    /// where they are not equal. At rest under its pretension, the load end where its tension lets it, creep
+    /// at an end.
     BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
                 CableArrangement arrangement);
     BenchCables(const BenchCables&) = delete;

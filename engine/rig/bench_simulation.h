@@ -32,7 +32,8 @@ struct BenchReport {
 class BenchSimulations {
   public:
     /// 1 to bench_lanes of each; pulleys, cable length and segments of the first are everybody's. At rest
-    /// under the pretension. Throws InvalidInput if a radius is not positive.
+    /// under the pretension. Throws InvalidInput if a radius is not positive or a cable's segments are not
+    /// equal.
     BenchSimulations(std::span<const BenchDescription> descriptions, std::span<const BenchEffects> effects);
 
     int count() const { return count_; }

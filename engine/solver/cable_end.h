@@ -65,8 +65,8 @@ struct CableEnd {
     EndValues partial_motion(const SideTable& side, int moving_nodes) const {
         const int resting = node(moving_nodes);
         const double compliance = side.front_compliance_m_per_N[node(moving_nodes - 1)];
-        const double anchor_m = view.displacement_m(resting) -
-                                orientation * view.tables.half_compliance_m_per_N * view.tension_N(resting);
+        const double half = view.tables.half_compliance_m_per_N[segment(moving_nodes - 1)];
+        const double anchor_m = view.displacement_m(resting) - orientation * half * view.tension_N(resting);
         const double tension_N =
             (condition.value - condition.displacement_factor * anchor_m) /
             (condition.tension_factor - orientation * condition.displacement_factor * compliance);

@@ -36,6 +36,7 @@ struct EnsembleView {
     double* sliding_ratio;
     double* breakaway_ratio;
     const double* compliance_m_per_N;
+    const double* relative_length;
     double* next_tension_N;
     double* next_displacement_m;
     double* proximal_direction;
@@ -95,10 +96,13 @@ struct LaneStep {
     const EnsembleInputs& inputs;
     std::size_t at;
     int last = view.nodes - 1;
-    Lanes half = hn::Mul(lanes_of(0.5), hn::Load(EnsembleTag(), view.compliance_m_per_N + at));
+    Lanes mean_half = hn::Mul(lanes_of(0.5), hn::Load(EnsembleTag(), view.compliance_m_per_N + at));
 
     HWY_INLINE Lanes row(const double* rows, int index) const {
         return hn::Load(EnsembleTag(), rows + static_cast<std::size_t>(index) * view.members + at);
+    }
+    HWY_INLINE Lanes half_of(int segment) const {
+        return hn::Mul(mean_half, lanes_of(view.relative_length[segment]));
     }
     HWY_INLINE Lanes tension_N(int node) const { return row(view.tension_N, node); }
     HWY_INLINE Lanes displacement_m(int node) const { return row(view.displacement_m, node); }
@@ -154,6 +158,7 @@ struct LaneStep {
         for (int count = 1; count <= last && !hn::AllFalse(d, open); ++count) {
             const int resting = outward > 0 ? count : last - count;
             const int segment = outward > 0 ? count - 1 : last - count;
+            const Lanes half = half_of(segment);
             const Lanes compliance = hn::Add(elongation, hn::Mul(half, ratio));
             const Lanes rest_N = tension_N(resting);
             const Lanes anchor =
@@ -212,8 +217,8 @@ struct LaneStep {
                 hn::And(hn::Le(tension, hn::Mul(rest_N, hold)), hn::Le(rest_N, hn::Mul(tension, hold)));
             good = hn::AndNot(hn::AndNot(held, front), good);
             const Lanes next = beyond<outward>(tension, segment, grows);
-            displacement =
-                hn::Add(displacement, hn::Mul(lanes_of(outward), hn::Mul(half, hn::Add(tension, next))));
+            displacement = hn::Add(
+                displacement, hn::Mul(lanes_of(outward), hn::Mul(half_of(segment), hn::Add(tension, next))));
             tension = next;
         }
         return good;
@@ -252,7 +257,7 @@ struct LaneStep {
             Lanes elongation = zero;
             for (int segment = 0; segment < last; ++segment) {
                 const Lanes next = beyond<1>(ratio, segment, grows);
-                elongation = hn::Add(elongation, hn::Mul(half, hn::Add(ratio, next)));
+                elongation = hn::Add(elongation, hn::Mul(half_of(segment), hn::Add(ratio, next)));
                 ratio = next;
             }
             const Lanes factor = hn::Add(hn::Mul(lanes_of(u), elongation), hn::Mul(lanes_of(t), ratio));
@@ -333,6 +338,7 @@ struct EnsembleLanes {
                 e.sliding_ratio_.data(),
                 e.breakaway_ratio_.data(),
                 e.compliance_m_per_N_.data(),
+                e.relative_length_.data(),
                 e.next_tension_N_.data(),
                 e.next_displacement_m_.data(),
                 motion,
@@ -368,7 +374,8 @@ CableEnsemble::CableEnsemble(const Cable& cable, int members)
         rows->assign(by_nodes, 0.0);
     for (NodeTable* rows : {&sliding_exponent_, &sliding_ratio_, &breakaway_ratio_})
         rows->assign(by_segments, 0.0);
-    compliance_m_per_N_.assign(members_, cable.segment_compliance_m_per_N());
+    compliance_m_per_N_.assign(members_, cable.mean_segment_compliance_m_per_N());
+    relative_length_.assign(cable.relative_length().begin(), cable.relative_length().end());
     motion_.assign(4 * static_cast<std::size_t>(members_), 0.0);
     slack_.assign(members_, 0);
     left_.assign(members_, 0.0);

@@ -41,9 +41,10 @@ class CableEnsemble {
 
     /// mu_d times wrap angle of a segment; retune() makes a change count.
     std::span<double> sliding_exponent(int segment) { return row(sliding_exponent_, segment); }  ///< members
-    /// Elongation of a segment per newton of mean tension [m/N].
+    /// Elongation of a segment of mean length per newton of mean tension [m/N].
     std::span<double> compliance_m_per_N() { return compliance_m_per_N_; }              ///< members
     std::span<const double> compliance_m_per_N() const { return compliance_m_per_N_; }  ///< members
+    std::span<const double> relative_length() const { return relative_length_; }        ///< segments
     void retune();
 
     bool is_slack(int member) const { return slack_[member] != 0; }
@@ -69,15 +70,16 @@ class CableEnsemble {
 
     int members_;
     int nodes_;
-    double static_to_dynamic_;       // mu_s / mu_d
-    NodeTable tension_N_;            // nodes x members
-    NodeTable displacement_m_;       // nodes x members
-    NodeTable sliding_exponent_;     // segments x members
-    NodeTable sliding_ratio_;        // segments x members
-    NodeTable breakaway_ratio_;      // segments x members
-    NodeTable compliance_m_per_N_;   // members
-    NodeTable next_tension_N_;       // nodes x members: what a step would write
-    NodeTable next_displacement_m_;  // nodes x members
+    double static_to_dynamic_;             // mu_s / mu_d
+    NodeTable tension_N_;                  // nodes x members
+    NodeTable displacement_m_;             // nodes x members
+    NodeTable sliding_exponent_;           // segments x members
+    NodeTable sliding_ratio_;              // segments x members
+    NodeTable breakaway_ratio_;            // segments x members
+    NodeTable compliance_m_per_N_;         // members
+    std::vector<double> relative_length_;  // segments
+    NodeTable next_tension_N_;             // nodes x members: what a step would write
+    NodeTable next_displacement_m_;        // nodes x members
     NodeTable motion_;  // 4 x members: direction and count of the proximal side, of the distal side
     std::vector<std::uint8_t> slack_;  // members
     NodeTable left_;                   // members: 1 for those that the search has to solve

@@ -18,13 +18,13 @@ double slack_displacement_m(const EndCondition& end) {
     return end.value / end.displacement_factor;
 }
 
-void lay_slack(const Candidate& candidate, CableState& state) {
+void lay_slack(const PrefixTables& tables, const Candidate& candidate, CableState& state) {
     const double start_m = candidate.proximal.displacement_m;
     const double gap_m = candidate.distal.displacement_m - start_m;
-    const int segments = static_cast<int>(state.tension_N.size()) - 1;
-    for (int node = 0; node <= segments; ++node) {
+    const std::vector<double>& at = tables.relative_position;
+    for (std::size_t node = 0; node < at.size(); ++node) {
         state.tension_N[node] = 0.0;
-        state.displacement_m[node] = start_m + gap_m * node / segments;
+        state.displacement_m[node] = start_m + gap_m * at[node] / at.back();
     }
 }
 
@@ -73,7 +73,7 @@ bool verifies(const StepView& view, const Candidate& candidate) {
 void write_state(const StepView& view, const Candidate& candidate, const EndConditions& ends,
                  CableState& state) {
     if (candidate.pattern.kind == MotionKind::slack) {
-        lay_slack(candidate, state);
+        lay_slack(view.tables, candidate, state);
     } else {
         write_run(proximal_run(view, candidate), state);
         write_run(distal_run(view, candidate), state);

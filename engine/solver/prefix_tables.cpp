@@ -20,7 +20,6 @@ namespace {
 // `outward` walks away from the end: the exponent of each segment as met on the way.
 SideTable side_table(const Cable& cable, const ModelRules& rules, int direction_sign, bool from_proximal) {
     const int nodes = cable.nodes();
-    const double compliance = cable.segment_compliance_m_per_N();
     SideTable table;
     table.tension_ratio.resize(nodes);
     table.elongation_m_per_N.resize(nodes);
@@ -33,9 +32,12 @@ SideTable side_table(const Cable& cable, const ModelRules& rules, int direction_
         const double ratio = std::exp(exponent_sum);
         table.tension_ratio[node] = ratio;
         table.elongation_m_per_N[node] = elongation;
-        table.front_compliance_m_per_N[node] = elongation + 0.5 * compliance * ratio;
+        // There is no front beyond the other end.
+        table.front_compliance_m_per_N[node] = elongation;
         if (step + 1 == nodes) break;
         const int segment = from_proximal ? node : node - 1;
+        const double compliance = cable.segment_compliance_m_per_N(segment);
+        table.front_compliance_m_per_N[node] = elongation + 0.5 * compliance * ratio;
         const double wrap_rad = cable.wrap_angle_rad()[segment];
         // Sliding forward makes tension grow towards the distal end, so it falls as seen from there (E1).
         const double exponent =
@@ -49,7 +51,9 @@ SideTable side_table(const Cable& cable, const ModelRules& rules, int direction_
 }  // namespace
 
 PrefixTables::PrefixTables(const Cable& cable, const ModelRules& rules)
-    : half_compliance_m_per_N(0.5 * cable.segment_compliance_m_per_N()) {
+    : relative_position(cable.relative_position().begin(), cable.relative_position().end()) {
+    for (int segment = 0; segment < cable.segments(); ++segment)
+        half_compliance_m_per_N.push_back(0.5 * cable.segment_compliance_m_per_N(segment));
     for (const double wrap_rad : cable.wrap_angle_rad()) {
         sliding_exponent.push_back(cable.dynamic_friction() * wrap_rad);
         sliding_ratio.push_back(std::exp(cable.dynamic_friction() * wrap_rad));
@@ -62,12 +66,12 @@ PrefixTables::PrefixTables(const Cable& cable, const ModelRules& rules)
 }
 
 // Products in place of exponentials: within rounding of the tables made from a cable.
-void PrefixTables::assign(double compliance_m_per_N, const double* exponents, const double* ratios,
+void PrefixTables::assign(double mean_compliance_m_per_N, const double* exponents, const double* ratios,
                           const double* breakaway_ratios, std::size_t stride) {
     const std::size_t segments = sliding_ratio.size();
-    const double half = 0.5 * compliance_m_per_N;
-    half_compliance_m_per_N = half;
     for (std::size_t s = 0; s < segments; ++s) {
+        const double relative_length = relative_position[s + 1] - relative_position[s];
+        half_compliance_m_per_N[s] = 0.5 * mean_compliance_m_per_N * relative_length;
         sliding_exponent[s] = exponents[s * stride];
         sliding_ratio[s] = ratios[s * stride];
         breakaway_ratio[s] = breakaway_ratios[s * stride];
@@ -79,9 +83,12 @@ void PrefixTables::assign(double compliance_m_per_N, const double* exponents, co
             const std::size_t node = from_proximal ? step : segments - step;
             table.tension_ratio[node] = ratio;
             table.elongation_m_per_N[node] = elongation;
-            table.front_compliance_m_per_N[node] = elongation + half * ratio;
+            table.front_compliance_m_per_N[node] = elongation;
             if (step == segments) break;
-            const double across = sliding_ratio[from_proximal ? node : node - 1];
+            const std::size_t segment = from_proximal ? node : node - 1;
+            const double half = half_compliance_m_per_N[segment];
+            table.front_compliance_m_per_N[node] = elongation + half * ratio;
+            const double across = sliding_ratio[segment];
             const double next = grows ? ratio * across : ratio / across;
             elongation += half * (ratio + next);
             ratio = next;

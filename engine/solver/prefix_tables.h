@@ -44,17 +44,18 @@ struct SideTable {
 struct PrefixTables {
     PrefixTables(const Cable& cable, const ModelRules& rules);
 
-    /// The same from segments that are already known, under ElongationRule::mean_tension.
-    void assign(double compliance_m_per_N, const double* sliding_exponent, const double* sliding_ratio,
+    /// The same from segments that are already known, under ElongationRule::mean_tension; the cut stays.
+    void assign(double mean_compliance_m_per_N, const double* sliding_exponent, const double* sliding_ratio,
                 const double* breakaway_ratio, std::size_t stride);
 
     const SideTable& proximal(int direction_sign) const { return proximal_[direction_sign > 0]; }
     const SideTable& distal(int direction_sign) const { return distal_[direction_sign > 0]; }
 
-    double half_compliance_m_per_N;        ///< h of E3: dx / (2 EA)
-    std::vector<double> sliding_exponent;  // segments: mu_d times wrap angle
-    std::vector<double> sliding_ratio;     // segments: exp(sliding_exponent)
-    std::vector<double> breakaway_ratio;   // segments: exp(mu_s times wrap angle)
+    std::vector<double> relative_position;        // nodes: in mean segments from the proximal end
+    std::vector<double> half_compliance_m_per_N;  // segments: h of E3, dx / (2 EA)
+    std::vector<double> sliding_exponent;         // segments: mu_d times wrap angle
+    std::vector<double> sliding_ratio;            // segments: exp(sliding_exponent)
+    std::vector<double> breakaway_ratio;          // segments: exp(mu_s times wrap angle)
 
   private:
     std::array<SideTable, 2> proximal_;  // backward, forward

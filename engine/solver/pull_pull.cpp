@@ -1,5 +1,6 @@
 #include "capstan/solver/pull_pull.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -164,7 +165,11 @@ void PullPull::load_settles(Trial& trial, double motor_angle_rad, const LoadInpu
 
 // Both cables' ends when each moves its last node alone: no longer run is stiffer.
 double PullPull::end_stiffness_N_per_m() const {
-    return 2.0 / cable_a().segment_compliance_m_per_N() + 2.0 / cable_b().segment_compliance_m_per_N();
+    const auto stiffer_end = [](const Cable& cable) {
+        return 2.0 / std::min(cable.segment_compliance_m_per_N(0),
+                              cable.segment_compliance_m_per_N(cable.segments() - 1));
+    };
+    return stiffer_end(cable_a()) + stiffer_end(cable_b());
 }
 
 }  // namespace capstan

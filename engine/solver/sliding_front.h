@@ -29,8 +29,9 @@ Direction driven_direction(const CableEnd<which>& end) {
                                               std::abs(tension_part) + std::abs(condition.value));
     if (std::abs(change) <= rounding) return Direction::none;
     // The increment is h / this times the change, and h is positive.
-    const double change_per_increment = condition.displacement_factor * view.tables.half_compliance_m_per_N -
-                                        end.orientation * condition.tension_factor;
+    const double change_per_increment =
+        condition.displacement_factor * view.tables.half_compliance_m_per_N[end.segment(0)] -
+        end.orientation * condition.tension_factor;
     return (change > 0.0) != std::signbit(change_per_increment) ? Direction::forward : Direction::backward;
 }
 

@@ -31,7 +31,7 @@ Data sensors_data(const StudyPlan& plan, const WorldAnswer& found, int candidate
     Data sensors = Data::list();
     for (const int sensor : found.set(candidate).sensors) {
         const SensorOffer& offer = found.offers[static_cast<std::size_t>(sensor)];
-        const int node = static_cast<int>(std::lround(offer.place_m / cable.segment_length_m())) + 1;
+        const int node = cable.nearest_node(offer.place_m) + 1;
         sensors.push_back({{"kind", name_of(offer.kind)}, {"place_m", offer.place_m}, {"node", node}});
     }
     return sensors;

@@ -37,8 +37,7 @@ double paper_rms_N(const SensedCable& cable, const ChannelSet& used, std::size_t
         specification.pretension_N = run.pretension_N;
         const QuasiStaticStep model(Cable(specification), ModelRules::consistent());
         const auto node_of = [&](std::size_t channel) {
-            const double place = cable.channels[channel].position_m / model.cable().segment_length_m();
-            return std::clamp(static_cast<int>(std::lround(place)), 0, paper_segments);
+            return model.cable().nearest_node(cable.channels[channel].position_m);
         };
         const ChannelSet read = one_a_node(cable, used, node_of);
         std::vector<NodeReading> readings;

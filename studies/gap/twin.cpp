@@ -23,9 +23,7 @@ std::vector<TwinParameter> parameters_of(const NominalBench& bench) {
 }
 
 double tension_at_N(const Cable& cable, const CableState& state, double position_m) {
-    const double place = std::clamp(position_m / cable.segment_length_m(), 0.0, 1.0 * cable.segments());
-    const int segment = std::min(static_cast<int>(place), cable.segments() - 1);
-    const double fraction = place - segment;
+    const auto [segment, fraction] = cable.spot_at(position_m);
     const auto node = static_cast<std::size_t>(segment);
     return (1.0 - fraction) * state.tension_N[node] + fraction * state.tension_N[node + 1];
 }

@@ -15,8 +15,8 @@ std::vector<storage::CableSegmentRecord> cable_segments(const Cable& cable) {
     for (int i = 0; i < cable.segments(); ++i) {
         const double wrap_rad = cable.wrap_angle_rad()[i];
         storage::CableSegmentRecord record{
-            i + 1, cable.node_position_m(i), cable.segment_length_m(), {}, wrap_rad};
-        if (wrap_rad > 0.0) record.bend_radius_m = cable.segment_length_m() / wrap_rad;
+            i + 1, cable.node_position_m(i), cable.segment_length_m(i), {}, wrap_rad};
+        if (wrap_rad > 0.0) record.bend_radius_m = cable.segment_length_m(i) / wrap_rad;
         records.push_back(record);
     }
     return records;

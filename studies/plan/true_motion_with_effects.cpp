@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/rig/bench_simulation.h"
@@ -9,22 +10,35 @@ namespace capstan {
 
 namespace {
 
-// Simulation segments in each of the plan's segments when effects are simulated.
+// Simulation segments when effects are simulated, at least.
 constexpr int min_segments = 60;
 // A node that moves less than this fraction of the largest motion is at rest: bristles give a little.
 constexpr double at_rest_fraction = 1e-2;
 // Displacements are turns of this pulley.
 constexpr double radius_m = 1.0;
 
-int pieces_of_each_segment(int segments) {
-    return (min_segments + segments - 1) / segments;
+// The same cable in equal segments, which is what a bench takes.
+Cable simulated_cable(CableSpecification specification) {
+    specification.node_places_m.clear();
+    specification.segments *= (min_segments + specification.segments - 1) / specification.segments;
+    return Cable(specification);
 }
 
-CableState read_off(const BenchSimulation& bench, const Cable& cable, int pieces) {
+double displacement_at_m(const BenchSimulation& bench, const Cable& simulated, double position_m) {
+    const int node = simulated.nearest_node(position_m);
+    if (std::abs(simulated.node_position_m(node) - position_m) <= same_place_m)
+        return bench.displacement_m(0, node);
+    const auto [segment, fraction] = simulated.spot_at(position_m);
+    return (1.0 - fraction) * bench.displacement_m(0, segment) +
+           fraction * bench.displacement_m(0, segment + 1);
+}
+
+CableState read_off(const BenchSimulation& bench, const Cable& simulated, const Cable& cable) {
     CableState state;
     for (int node = 0; node < cable.nodes(); ++node) {
-        state.displacement_m.push_back(bench.displacement_m(0, node * pieces));
-        state.tension_N.push_back(bench.tension_at_N(0, cable.node_position_m(node)));
+        const double position_m = cable.node_position_m(node);
+        state.displacement_m.push_back(displacement_at_m(bench, simulated, position_m));
+        state.tension_N.push_back(bench.tension_at_N(0, position_m));
     }
     state.tension_N.front() = bench.motor_tension_N(0);
     state.tension_N.back() = bench.load_tension_N(0);
@@ -126,29 +140,23 @@ void simulate_truth(const StudyPlan& plan, const ShowStates& show) {
 }
 
 struct CableWithEffects::Bench {
-    int pieces;
+    Cable simulated;
     double sample_rate_Hz;
     BenchSimulation simulation;
 
     Bench(const CableSpecification& cable, const EffectValues& effects, double rate_Hz)
-        : pieces(pieces_of_each_segment(cable.segments)),
+        : simulated(simulated_cable(cable)),
           sample_rate_Hz(rate_Hz),
-          simulation({.cable = finer(cable, pieces),
-                      .arrangement = CableArrangement::single,
-                      .pulleys = {radius_m, radius_m}},
-                     effects_with(effects)) {}
-
-    static Cable finer(CableSpecification cable, int pieces) {
-        cable.segments *= pieces;
-        return Cable(cable);
-    }
+          simulation(
+              {.cable = simulated, .arrangement = CableArrangement::single, .pulleys = {radius_m, radius_m}},
+              effects_with(effects)) {}
 };
 
 CableWithEffects::CableWithEffects(const CableSpecification& cable, const EffectValues& effects,
                                    double sample_rate_Hz)
     : cable_(cable),
       bench_(std::make_unique<Bench>(cable, effects, sample_rate_Hz)),
-      now_(read_off(bench_->simulation, cable_, bench_->pieces)) {}
+      now_(read_off(bench_->simulation, bench_->simulated, cable_)) {}
 
 CableWithEffects::~CableWithEffects() = default;
 
@@ -157,7 +165,7 @@ bool CableWithEffects::advance(int sample, double proximal_m, double distal_m) {
     const BenchInputs inputs{MotorAngle{-proximal_m / radius_m}, LoadAngle{-distal_m / radius_m},
                              1.0 / bench_->sample_rate_Hz, sample / bench_->sample_rate_Hz};
     if (!bench_->simulation.advance(inputs).converged) return false;
-    now_ = read_off(bench_->simulation, cable_, bench_->pieces);
+    now_ = read_off(bench_->simulation, bench_->simulated, cable_);
     return true;
 }
 

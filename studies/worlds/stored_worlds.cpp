@@ -140,8 +140,8 @@ std::int64_t begin_worlds(storage::Database& database, const StudyPlan& plan,
     for (int i = 0; i < cable.segments(); ++i) {
         const double wrap_rad = cable.wrap_angle_rad()[i];
         storage::CableSegmentRecord record{
-            i + 1, cable.node_position_m(i), cable.segment_length_m(), {}, wrap_rad};
-        if (wrap_rad > 0.0) record.bend_radius_m = cable.segment_length_m() / wrap_rad;
+            i + 1, cable.node_position_m(i), cable.segment_length_m(i), {}, wrap_rad};
+        if (wrap_rad > 0.0) record.bend_radius_m = cable.segment_length_m(i) / wrap_rad;
         description.cable_segments.push_back(record);
     }
     const std::vector<SensorOffer> offers = sensor_offers(plan);

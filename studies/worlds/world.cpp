@@ -82,22 +82,6 @@ std::vector<double> far_end_of(const WorldQuestion& question, std::uint32_t inde
     return displacement_m;
 }
 
-struct SensorFault {
-    double zero = 0.0;
-    double gain = 0.0;
-};
-
-std::vector<SensorFault> faults_of(const WorldQuestion& question, std::uint32_t index) {
-    std::vector<SensorFault> faults;
-    for (std::size_t s = 0; s < question.offers.size(); ++s) {
-        const auto normals = standard_normals(
-            {question.seed, RandomPurpose::world_sensor, 0, index, static_cast<std::uint32_t>(s)});
-        const SensorErrors& errors = question.offers[s].errors;
-        faults.push_back({errors.zero * normals[0], errors.gain_ratio * normals[1]});
-    }
-    return faults;
-}
-
 // The true cable of a world over time: by the closed-form step, or with effects by the bench.
 class TrueMover {
   public:
@@ -191,7 +175,13 @@ World draw_world(const WorldQuestion& question, std::uint32_t index) {
     const Cable nominal(question.cable.nominal());
     TrueMover mover(question, world, index);
     const std::vector<double> far_end_m = far_end_of(question, index);
-    const std::vector<SensorFault> faults = faults_of(question, index);
+    const auto draw = [&](RandomPurpose purpose, int sample, std::size_t rank, std::vector<double>& to) {
+        const auto normals = standard_normals({question.seed, purpose, static_cast<std::uint32_t>(sample),
+                                               index, static_cast<std::uint32_t>(rank)});
+        to.insert(to.end(), {normals[0], normals[1]});
+    };
+    for (std::size_t rank = 0; rank < question.offers.size(); ++rank)
+        draw(RandomPurpose::world_sensor, 0, rank, world.fault);
     world.nodes = nominal.nodes();
     const double started_m = ends_at(nominal, question.motion, 0).proximal.value;
     double before_m = started_m;
@@ -204,20 +194,29 @@ World draw_world(const WorldQuestion& question, std::uint32_t index) {
         world.tension_N.insert(world.tension_N.end(), state.tension_N.begin(), state.tension_N.end());
         for (std::size_t s = 0; s < question.offers.size(); ++s) {
             const SensorOffer& offer = question.offers[s];
-            const auto normals =
-                standard_normals({question.seed, RandomPurpose::world_reading,
-                                  static_cast<std::uint32_t>(sample), index, static_cast<std::uint32_t>(s)});
-            const double true_value = measures_tension(offer.kind)
-                                          ? tension_at_N(state, spot_at(nominal, offer.place_m))
-                                          : state.displacement_m.back();
-            world.reading.push_back(
-                true_value * (1.0 + faults[s].gain + offer.errors.multiplicative_ratio * normals[0]) +
-                faults[s].zero + offer.errors.additive * normals[1]);
+            world.sensed.push_back(measures_tension(offer.kind)
+                                       ? tension_at_N(state, spot_at(nominal, offer.place_m))
+                                       : state.displacement_m.back());
+            draw(RandomPurpose::world_reading, sample, s, world.noise);
         }
     }
     world.has_effects = mover.has_effects();
     world.unsolved_steps = mover.unsolved_steps();
     return world;
+}
+
+void World::read(int sample, std::span<const SensorOffer> offers, std::span<const int> sensors,
+                 std::vector<double>& readings) const {
+    readings.clear();
+    const std::size_t first = static_cast<std::size_t>(sample) * offers.size();
+    for (std::size_t rank = 0; rank < sensors.size(); ++rank) {
+        const auto offer = static_cast<std::size_t>(sensors[rank]);
+        const SensorErrors& errors = offers[offer].errors;
+        const double* const drawn = &noise[2 * (first + rank)];
+        const double gain = errors.gain_ratio * fault[2 * rank + 1] + errors.multiplicative_ratio * drawn[0];
+        readings.push_back(sensed[first + offer] * (1.0 + gain) + errors.zero * fault[2 * rank] +
+                           errors.additive * drawn[1]);
+    }
 }
 
 }  // namespace capstan

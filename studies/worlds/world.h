@@ -29,7 +29,9 @@ struct World {
     CableFactors factors;
     std::vector<double> proximal_increment_m;  // samples
     std::vector<double> tension_N;             // samples x nodes
-    std::vector<double> reading;               // samples x offers: N or m
+    std::vector<double> sensed;                // samples x offers: without any error, N or m
+    std::vector<double> fault;                 // offers x 2: zero and gain, standard normal
+    std::vector<double> noise;                 // samples x offers x 2: multiplicative, additive
     bool has_effects = false;
     int unsolved_steps = 0;  ///< of the true cable: no pattern verified, or the effects had no solution
     int nodes = 0;
@@ -38,10 +40,10 @@ struct World {
     std::span<const double> tensions_N(int sample) const {  // nodes
         return std::span(tension_N).subspan(static_cast<std::size_t>(sample) * nodes, nodes);
     }
-    std::span<const double> readings(int sample) const {  // offers
-        const std::size_t offers = reading.size() / proximal_increment_m.size();
-        return std::span(reading).subspan(static_cast<std::size_t>(sample) * offers, offers);
-    }
+    /// What these sensors read in a sample [N or m]. The draws are those of a sensor's rank in its set, so
+    /// that sets that differ in one place share their noise.
+    void read(int sample, std::span<const SensorOffer> offers, std::span<const int> sensors,
+              std::vector<double>& readings) const;
 };
 
 /// World number `index` of the question: its draws are addressed by (seed, index), common to all sensors.

@@ -61,11 +61,9 @@ WorldError filter_error(const WorldQuestion& question, const CableBelief& belief
                         const EnsembleDraws& draws, std::span<const int> sensors) {
     EnsembleFilter filter(question.cable, belief, question.offers, sensors, draws);
     ErrorSums sums(world.nodes);
-    std::vector<double> readings(sensors.size());
+    std::vector<double> readings;
     for (int sample = 0; sample < world.samples(); ++sample) {
-        const auto all = world.readings(sample);
-        for (std::size_t s = 0; s < sensors.size(); ++s)
-            readings[s] = all[static_cast<std::size_t>(sensors[s])];
+        world.read(sample, question.offers, sensors, readings);
         filter.step(world.proximal_increment_m[static_cast<std::size_t>(sample)], readings);
         sums.add(world.tensions_N(sample), filter.mean_N(), filter.deviation_N());
     }
@@ -77,9 +75,7 @@ WorldError paper_error(const WorldQuestion& question, const World& world, std::s
     const Cable cable(question.cable.nominal());
     const QuasiStaticStep step(cable, ModelRules::consistent());
     const CableState start = pretensioned(cable);
-    const auto node_of = [&](const SensorOffer& offer) {
-        return static_cast<int>(std::lround(offer.place_m / cable.segment_length_m()));
-    };
+    const auto node_of = [&](const SensorOffer& offer) { return cable.nearest_node(offer.place_m); };
     std::vector<double> weight_of_node(static_cast<std::size_t>(world.nodes), 0.0);
     for (std::size_t s = sensors.size(); s-- > 0 && !weight.empty();) {
         const auto sensor = static_cast<std::size_t>(sensors[s]);
@@ -90,18 +86,19 @@ WorldError paper_error(const WorldQuestion& question, const World& world, std::s
     const std::vector<double> band(static_cast<std::size_t>(world.nodes), 0.0);
     ErrorSums sums(world.nodes);
     double proximal_m = start.displacement_m.front();
+    std::vector<double> all;
     std::vector<NodeReading> readings;
     for (int sample = 0; sample < world.samples(); ++sample) {
-        const auto all = world.readings(sample);
+        world.read(sample, question.offers, sensors, all);
         proximal_m += world.proximal_increment_m[static_cast<std::size_t>(sample)];
         readings.clear();
-        for (const int sensor : sensors) {
-            const SensorOffer& offer = question.offers[static_cast<std::size_t>(sensor)];
+        for (std::size_t s = 0; s < sensors.size(); ++s) {
+            const SensorOffer& offer = question.offers[static_cast<std::size_t>(sensors[s])];
             if (!measures_tension(offer.kind)) continue;
             const int node = node_of(offer);
             const bool is_new = std::none_of(readings.begin(), readings.end(),
                                              [&](const NodeReading& other) { return other.node == node; });
-            if (is_new) readings.push_back({node, std::max(all[static_cast<std::size_t>(sensor)], 0.0)});
+            if (is_new) readings.push_back({node, std::max(all[s], 0.0)});
         }
         fusion.step(proximal_m, readings);
         sums.add(world.tensions_N(sample), fusion.estimate().tension_N, band);

@@ -40,7 +40,7 @@ void VerifiedAnswers::demand_of(const StepReport& report, const CableState& stat
                                 const EndConditions& ends) {
     largest_tension_N_ = std::max(largest_tension_N_, largest(state.tension_N));
     largest_displacement_m_ = std::max(largest_displacement_m_, largest(state.displacement_m));
-    const double compliance_m_per_N = step_.cable().segment_compliance_m_per_N();
+    const double compliance_m_per_N = step_.cable().mean_segment_compliance_m_per_N();
     rounding_N_ = 1e-12 * (largest_tension_N_ + largest_displacement_m_ / compliance_m_per_N);
     rounding_m_ = rounding_N_ * compliance_m_per_N;
     const bool slack = report.pattern.kind == MotionKind::slack;
@@ -73,7 +73,7 @@ void VerifiedAnswers::demand_segments(const CableState& state) const {
                 "a segment holds no more than static friction" + at_node(static_cast<std::size_t>(i)));
         if (step_.rules().elongation != ElongationRule::mean_tension) continue;
         const double elongation_m = state.displacement_m[i + 1] - state.displacement_m[i];
-        const double expected_m = cable.segment_compliance_m_per_N() * 0.5 * (a_N + b_N);
+        const double expected_m = cable.segment_compliance_m_per_N(i) * 0.5 * (a_N + b_N);
         require(std::abs(elongation_m - expected_m) <= 4.0 * rounding_m_,
                 "a taut segment is as long as its tensions say" + at_node(static_cast<std::size_t>(i)));
     }

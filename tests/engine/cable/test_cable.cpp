@@ -43,7 +43,7 @@ TEST(Cable, PretensionStretchesUniformly) {
     EXPECT_DOUBLE_EQ(state.displacement_m.back(), 0.0);
     for (int i = 0; i < cable.segments(); ++i) {
         const double elongation_m = state.displacement_m[i + 1] - state.displacement_m[i];
-        EXPECT_NEAR(elongation_m, cable.segment_compliance_m_per_N() * 10.0, 1e-16);
+        EXPECT_NEAR(elongation_m, cable.segment_compliance_m_per_N(i) * 10.0, 1e-16);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/ensemble/ensemble_filter.h"
 #include "capstan/sensing/random_stream.h"
@@ -33,13 +34,13 @@ std::vector<SensorOffer> two_sensors(double noise_N) {
     return {{SensorKind::tension, 0.0, errors}, {SensorKind::tension, 1.2, errors}};
 }
 
-TEST(EnsembleFilter, FollowsTheCableExactlyWhereEverythingIsKnown) {
-    const UncertainCable cable(arm());
+void expect_the_cable_of(const CableSpecification& specification) {
+    const UncertainCable cable(specification);
     CableBelief belief;
     belief.interval_s = interval_s;
     const EnsembleDraws draws({1, 0}, 16, 3 + cable.bends(), 0, samples);
     EnsembleFilter filter(cable, belief, {}, {}, draws);
-    const QuasiStaticStep step(Cable(arm()), ModelRules::consistent());
+    const QuasiStaticStep step(Cable(specification), ModelRules::consistent());
     CableState state = pretensioned(step.cable());
     const double rest_m = state.displacement_m.front();
     for (int n = 1; n <= samples; ++n) {
@@ -50,6 +51,14 @@ TEST(EnsembleFilter, FollowsTheCableExactlyWhereEverythingIsKnown) {
             ASSERT_LT(filter.deviation_N()[node], 1e-6);
         }
     }
+}
+
+TEST(EnsembleFilter, FollowsTheCableExactlyWhereEverythingIsKnown) {
+    expect_the_cable_of(arm());
+    CableSpecification at_bends = arm();
+    at_bends.node_places_m = bend_ends_m(at_bends.curvature);
+    at_bends.node_places_m.push_back(1.1);
+    expect_the_cable_of(at_bends);
 }
 
 // A second sensor at the other end tells a wrong friction from a moved end.

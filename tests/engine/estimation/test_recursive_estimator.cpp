@@ -111,6 +111,18 @@ TEST(RecursiveEstimator, WithoutNoiseAndASensorAtEveryNodeItIsRightToMillinewton
     EXPECT_LT(tally(paper_model(), trial, 4).mean_error_N, 5e-3);
 }
 
+TEST(RecursiveEstimator, ErrsNoMoreOnSegmentsOfUnequalLength) {
+    CableSpecification specification = test::paper_specification(9);
+    const QuasiStaticStep even(Cable(specification), ModelRules::consistent());
+    specification.node_places_m = {0.1, 0.25, 1.1, 1.4};
+    const QuasiStaticStep uneven(Cable(specification), ModelRules::consistent());
+    Trial trial;
+    for (int node = 0; node <= 9; ++node) trial.sensors.push_back(node);
+    trial.wander.distal_m = 1e-4;
+    trial.true_wander_m = 1e-4;
+    EXPECT_LT(tally(uneven, trial, 40).mean_error_N, 1.2 * tally(even, trial, 40).mean_error_N);
+}
+
 // The truth is drawn from what the estimator is told. Members are few and the posterior is not normal: 93
 // to 97.
 TEST(RecursiveEstimator, The95PercentBandHoldsTheTruthOnSimulatedCycles) {

@@ -17,7 +17,7 @@ int segment_way(const DirectionBits& bits, int segment) {
 double elongation_m(const EstimationProblem& problem, int segment, int way, double tension_N) {
     const Cable& cable = problem.model.cable();
     const double exponent = way * cable.dynamic_friction() * cable.wrap_angle_rad()[segment];
-    const double strain_of_one_N = cable.segment_compliance_m_per_N();
+    const double strain_of_one_N = cable.segment_compliance_m_per_N(segment);
     if (problem.model.rules().elongation == ElongationRule::mean_tension) {
         return strain_of_one_N * tension_N * (1.0 + std::exp(exponent)) / 2.0;
     }
@@ -54,7 +54,7 @@ std::vector<double> displacements_m(const EstimationProblem& problem, const Dire
     if (sides.trailing == 0) return u_m;
     const int first = segments - sides.trailing;
     u_m[first] = problem.previous.displacement_m[first - 1] +
-                 problem.model.cable().segment_compliance_m_per_N() *
+                 problem.model.cable().segment_compliance_m_per_N(first - 1) *
                      (problem.previous.tension_N[first - 1] + tension_N[first]) / 2.0;
     for (int i = first; i < segments; ++i) {
         u_m[i + 1] = u_m[i] + elongation_m(problem, i, segment_way(directions, i), tension_N[i]);
@@ -154,6 +154,16 @@ TEST(VerifiedReadings, EndWhereTheChecksFailUnderThePapersRules) {
 
 TEST(VerifiedReadings, EndWhereTheChecksFailUnderTheConsistentRules) {
     const QuasiStaticStep step(test::paper_cable(10), ModelRules::consistent());
+    for (const int sample : {112, 142, 6, 104}) {
+        SCOPED_TRACE("sample " + std::to_string(sample));
+        expect_intervals_to_end_where_checks_fail(test::instant_of(step, sample), DistalSide::admitted);
+    }
+}
+
+TEST(VerifiedReadings, EndWhereTheChecksFailOnSegmentsOfUnequalLength) {
+    CableSpecification uneven = test::paper_specification(9);
+    uneven.node_places_m = {0.1, 0.25, 1.1, 1.4};
+    const QuasiStaticStep step(Cable(uneven), ModelRules::consistent());
     for (const int sample : {112, 142, 6, 104}) {
         SCOPED_TRACE("sample " + std::to_string(sample));
         expect_intervals_to_end_where_checks_fail(test::instant_of(step, sample), DistalSide::admitted);

@@ -199,6 +199,15 @@ TEST(BenchSimulation, RejectsInputsThatDetermineNoMotion) {
     EXPECT_EQ(bench.motor_angle_rad(), 0.0);
 }
 
+TEST(BenchSimulation, RefusesACableOfUnequalSegments) {
+    CableSpecification uneven{.curvature = {{2.0, 0.28}},
+                              .segments = 10,
+                              .axial_stiffness_N = 4000.0,
+                              .pretension_N = 6.0,
+                              .node_places_m = {0.1}};
+    EXPECT_THROW(BenchSimulation({Cable(uneven), CableArrangement::single, pulleys, {}}, {}), InvalidInput);
+}
+
 TEST(BenchSimulation, NamesEveryProblemOfItsInputsAtOnce) {
     const double nan = std::nan("");
     BenchSimulation single({cable_with(10), CableArrangement::single, pulleys, {}}, {});

@@ -12,13 +12,13 @@ double mean_N(const CableState& state, int segment) {
 }
 
 double stored_J(const Cable& cable, const CableState& state, int segment) {
-    return 0.5 * cable.segment_compliance_m_per_N() * mean_N(state, segment) * mean_N(state, segment);
+    return 0.5 * cable.segment_compliance_m_per_N(segment) * mean_N(state, segment) * mean_N(state, segment);
 }
 
 // Elongation beyond what the tension explains: 0 of a taut segment, negative of a slack one.
 double gap_m(const Cable& cable, const CableState& state, int segment) {
     return state.displacement_m[segment + 1] - state.displacement_m[segment] -
-           cable.segment_compliance_m_per_N() * mean_N(state, segment);
+           cable.segment_compliance_m_per_N(segment) * mean_N(state, segment);
 }
 
 bool slides_on(const CableState& before, const CableState& after, int segment, int segments) {

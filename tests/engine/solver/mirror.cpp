@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "capstan/cable/cable_cut.h"
+
 namespace capstan::test {
 
 namespace {
@@ -17,6 +19,8 @@ EndCondition mirrored(const EndCondition& end) {
 CableSpecification mirrored(const CableSpecification& specification) {
     CableSpecification other = specification;
     std::reverse(other.curvature.begin(), other.curvature.end());
+    std::reverse(other.node_places_m.begin(), other.node_places_m.end());
+    for (double& place_m : other.node_places_m) place_m = length_m(specification.curvature) - place_m;
     return other;
 }
 

@@ -33,7 +33,7 @@ int lone_end_direction(const Problem& p, bool proximal) {
     const double tension_N = p.before.tension_N[node];
     const double change = end.value - end.displacement_factor * u_m - end.tension_factor * tension_N;
     if (std::abs(change) < 1e-13 * (1.0 + std::abs(end.value))) return 0;
-    const double h = 0.5 * p.cable.segment_compliance_m_per_N();
+    const double h = 0.5 * p.cable.segment_compliance_m_per_N(proximal ? 0 : p.segments() - 1);
     const double slope = end.displacement_factor * h - (proximal ? 1 : -1) * end.tension_factor;
     return change * slope > 0.0 ? 1 : -1;
 }
@@ -122,8 +122,8 @@ std::optional<Pattern> pattern_of(const Problem& p, const std::vector<int>& segm
 std::optional<CableState> solve(const Problem& p, const Pattern& pattern, double fraction) {
     const int n = p.segments();
     Equations equations(n + 1);
-    const double h = 0.5 * p.cable.segment_compliance_m_per_N();
     for (int s = 0; s < n; ++s) {
+        const double h = 0.5 * p.cable.segment_compliance_m_per_N(s);
         if (pattern.moves[s] || pattern.moves[s + 1]) {  // E3 = E2 with one elongation rule
             auto row = equations.row();
             row[equations.displacement(s + 1)] = 1.0;

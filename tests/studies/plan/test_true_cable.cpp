@@ -62,6 +62,25 @@ TEST(TrueCable, WithMoreFrictionIsTheCableWithThatFriction) {
     for (std::size_t k = 0; k < a.states.size(); ++k) EXPECT_EQ(a.states[k].tension_N, b.states[k].tension_N);
 }
 
+// Effects are simulated on equal segments and read off where the plan's nodes are.
+TEST(TrueCable, WithEffectsIsReadOffAtTheNodesOfAnUnevenCut) {
+    StudyPlan even = consistent_plan();
+    number_of(even, "viscous_friction", "", "drag") = 20.0;
+    StudyPlan uneven = even;
+    uneven.transmission.cable.node_places_m = {0.3, 0.4, 1.0, 1.8};  // 0.2 m apart in the even cut
+    const Cable cable(uneven.transmission.cable);
+    const Trajectory a = truth_of(even);
+    const Trajectory b = truth_of(uneven);
+    const int sample = 130;
+    for (const double place_m : {0.4, 1.0, 1.8}) {
+        const auto node = static_cast<std::size_t>(cable.nearest_node(place_m));
+        ASSERT_EQ(cable.node_position_m(static_cast<int>(node)), place_m);
+        const auto same = static_cast<std::size_t>(std::lround(place_m / 0.2));
+        EXPECT_NEAR(b.states[sample].tension_N[node], a.states[sample].tension_N[same], 1e-9);
+        EXPECT_NEAR(b.states[sample].displacement_m[node], a.states[sample].displacement_m[same], 1e-12);
+    }
+}
+
 // The grid with effects and the closed form agree but for the discretisation.
 TEST(TrueCable, WithNegligibleEffectsMovesLikeTheModel) {
     StudyPlan plan = consistent_plan();

@@ -169,8 +169,9 @@ TEST(SensorChoice, ObeysEveryConstraint) {
             const double place_m = offers[static_cast<std::size_t>(sensors[s])].place_m;
             EXPECT_TRUE(place_m < 0.35 || place_m > 0.65);
             has_required = has_required || std::abs(place_m - 1.0) < 1e-9;
-            if (s > 0)
+            if (s > 0) {
                 EXPECT_GE(place_m - offers[static_cast<std::size_t>(sensors[s - 1])].place_m, 0.25 - 1e-6);
+            }
         }
         EXPECT_TRUE(has_required);
     }
@@ -245,12 +246,12 @@ TEST(SensorChoice, EachWorldMovesTheFarEndByAnotherStretchOfTheLog) {
     std::set<int> starts;
     for (std::uint32_t world = 0; world < 50; ++world) {
         const World drawn = draw_world(question, world);
-        const double first_m = drawn.readings(0)[0];  // 1e-6 (2 k + 1)
+        const double first_m = drawn.sensed[0];  // 1e-6 (2 k + 1)
         const int start = static_cast<int>(std::lround((first_m / 1e-6 - 1.0) / 2.0));
         starts.insert(start);
         for (int sample = 0; sample < drawn.samples(); ++sample) {
             const double moved = start + sample + 1.0;
-            EXPECT_NEAR(drawn.readings(sample)[0], 1e-6 * (moved * moved - start * start), 1e-10);
+            EXPECT_NEAR(drawn.sensed[static_cast<std::size_t>(sample)], 1e-6 * (moved * moved - start * start), 1e-10);
         }
     }
     EXPECT_GT(starts.size(), 30U);

@@ -1,0 +1,70 @@
+#include "capstan/cable/cable_cut.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace capstan {
+
+double length_m(const std::vector<CurvaturePiece>& pieces) {
+    double length = 0.0;
+    for (const CurvaturePiece& piece : pieces) length += piece.length_m;
+    return length;
+}
+
+std::vector<double> bend_ends_m(const std::vector<CurvaturePiece>& pieces) {
+    std::vector<double> places_m;
+    double at_m = 0.0;
+    for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
+        at_m += pieces[k].length_m;
+        if (pieces[k].bend_radius_m < straight || pieces[k + 1].bend_radius_m < straight)
+            places_m.push_back(at_m);
+    }
+    return places_m;
+}
+
+std::vector<double> distinct_places_m(std::vector<double> places_m, double length_m) {
+    std::stable_sort(places_m.begin(), places_m.end());
+    std::vector<double> distinct;
+    for (const double place_m : places_m) {
+        const double before_m = distinct.empty() ? 0.0 : distinct.back();
+        if (place_m - before_m > same_place_m && length_m - place_m > same_place_m)
+            distinct.push_back(place_m);
+    }
+    return distinct;
+}
+
+std::vector<double> node_positions_m(const CableSpecification& specification) {
+    const double length = length_m(specification.curvature);
+    std::vector<double> fixed_m = {0.0};
+    fixed_m.insert(fixed_m.end(), specification.node_places_m.begin(), specification.node_places_m.end());
+    fixed_m.push_back(length);
+    std::vector<int> parts(fixed_m.size() - 1, 1);
+    const auto part_m = [&](std::size_t k) { return (fixed_m[k + 1] - fixed_m[k]) / parts[k]; };
+    for (int left = specification.segments - static_cast<int>(parts.size()); left > 0; --left) {
+        std::size_t longest = 0;
+        for (std::size_t k = 1; k < parts.size(); ++k)
+            if (part_m(k) > part_m(longest)) longest = k;
+        ++parts[longest];
+    }
+    std::vector<double> nodes_m;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (int part = 0; part < parts[k]; ++part)
+            nodes_m.push_back(fixed_m[k] + (fixed_m[k + 1] - fixed_m[k]) * part / parts[k]);
+    nodes_m.push_back(length);
+    return nodes_m;
+}
+
+CableSpecification refined(CableSpecification specification, int pieces) {
+    if (!specification.node_places_m.empty()) {
+        const std::vector<double> nodes_m = node_positions_m(specification);
+        std::vector<double> finer_m;
+        for (std::size_t node = 0; node + 1 < nodes_m.size(); ++node)
+            for (int piece = 0; piece < pieces; ++piece)
+                finer_m.push_back(nodes_m[node] + (nodes_m[node + 1] - nodes_m[node]) * piece / pieces);
+        specification.node_places_m.assign(finer_m.begin() + 1, finer_m.end());
+    }
+    specification.segments *= pieces;
+    return specification;
+}
+
+}  // namespace capstan

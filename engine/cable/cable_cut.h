@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "capstan/cable/cable.h"
+
+namespace capstan {
+
+/// Two places closer than this are one.
+inline constexpr double same_place_m = 1e-6;
+
+double length_m(const std::vector<CurvaturePiece>& pieces);
+
+/// Where bends begin and end, without the ends of the cable; rising. Between two straight pieces none does.
+std::vector<double> bend_ends_m(const std::vector<CurvaturePiece>& pieces);
+
+/// These places in order, those that are the same or an end of the cable left out.
+std::vector<double> distinct_places_m(std::vector<double> places_m, double length_m);
+
+/// All nodes of a specification, from 0 to the length. Its numbers must be valid.
+std::vector<double> node_positions_m(const CableSpecification& specification);
+
+/// The specification with every segment cut into `pieces` equal ones.
+CableSpecification refined(CableSpecification specification, int pieces);
+
+}  // namespace capstan

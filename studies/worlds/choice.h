@@ -1,0 +1,82 @@
+#pragma once
+
+#include <vector>
+
+#include "capstan/worlds/world_study.h"
+
+namespace capstan {
+
+/// Of every statement, over all looks and candidates together.
+inline constexpr double alpha = 0.05;
+/// The first look at all candidates; every later one doubles it.
+inline constexpr int fewest_worlds = 20;
+
+/// All that a choice asks of the table.
+class Choice {
+  public:
+    explicit Choice(ErrorTable& table) : table_(table), objective_(table.plan().placement.objective) {}
+
+    int worlds() const { return table_.plan().repetitions; }
+    int candidates() const { return static_cast<int>(table_.candidates().size()); }
+    double resolution_N() const { return table_.plan().placement.resolution_N; }
+    PlacementObjective objective() const { return objective_; }
+    const Candidate& candidate(int index) const {
+        return table_.candidates()[static_cast<std::size_t>(index)];
+    }
+    ErrorTable& table() { return table_; }
+
+    std::vector<double> values(Condition condition, int candidate, int first, int last) const {
+        std::vector<double> values;
+        for (int world = first; world < last; ++world)
+            values.push_back(objective_of(objective_, table_.at(condition, candidate, world)));
+        return values;
+    }
+    std::vector<double> parts(Condition condition, int candidate, int first, int last) const {
+        return contributions(objective_, values(condition, candidate, first, last));
+    }
+    double score(int candidate, int first, int last) const {
+        const auto all = values(Condition::as_stated, candidate, first, last);
+        return objective_ == PlacementObjective::quantile_95 ? quantile_of(all, 0.95) : mean_of(all).value_N;
+    }
+    Estimated paired(Condition condition, int candidate, Condition other_condition, int other, int first,
+                     int last, double level = alpha) const {
+        return mean_of(
+            differences(parts(condition, candidate, first, last), parts(other_condition, other, first, last)),
+            level);
+    }
+    void fill(Condition condition, std::span<const int> candidates, int first, int last,
+              std::string_view activity) {
+        table_.fill(condition, candidates, first, last, activity);
+    }
+
+    /// From worlds that had no part in choosing it.
+    Expected expected(int candidate) const {
+        const int first = worlds();
+        const int last = 2 * worlds();
+        const auto all = values(Condition::as_stated, candidate, first, last);
+        Expected result;
+        result.candidate = candidate;
+        result.objective = mean_of(contributions(objective_, all));
+        result.error_95_N = quantile_of(all, 0.95);
+        double squares = 0.0;
+        for (int world = first; world < last; ++world) {
+            const WorldError& error = table_.at(Condition::as_stated, candidate, world);
+            squares += error.mean_square_N2 / worlds();
+            result.load_end_N += error.load_end_N / worlds();
+            result.whole_cable_N += error.mean_abs_N / worlds();
+            result.worst_place_N += error.worst_place_N / worlds();
+            result.covered_fraction += error.covered_fraction / worlds();
+        }
+        result.rms_N = std::sqrt(squares);
+        return result;
+    }
+
+  private:
+    ErrorTable& table_;
+    PlacementObjective objective_;
+};
+
+/// The best candidate of every price, and which price is worth it; without baselines and what is said beside.
+WorldAnswer choose_of_each_price(Choice& choice);
+
+}  // namespace capstan

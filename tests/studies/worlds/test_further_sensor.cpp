@@ -1,0 +1,198 @@
+// With worlds drawn from what the estimator is told, a further sensor cannot raise the expected squared error
+// of the posterior mean. The ensemble filter approximates that mean; here is how well.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+
+#include "capstan/config/plan_checks.h"
+#include "capstan/platform/parallel_for.h"
+#include "capstan/worlds/error_table.h"
+#include "particle_filter.h"
+
+namespace capstan {
+namespace {
+
+struct Rise {
+    double before_N2 = 0.0;
+    double mean_N2 = 0.0;
+    double standard_error_N2 = 0.0;
+
+    bool is_exception() const { return mean_N2 > std::max(3.0 * standard_error_N2, 0.02 * before_N2); }
+};
+
+Rise rise_of(const std::vector<double>& fewer_N2, const std::vector<double>& more_N2) {
+    Rise rise;
+    const double count = static_cast<double>(fewer_N2.size());
+    double squares = 0.0;
+    for (std::size_t w = 0; w < fewer_N2.size(); ++w) {
+        const double each = more_N2[w] - fewer_N2[w];
+        rise.before_N2 += fewer_N2[w] / count;
+        rise.mean_N2 += each / count;
+        squares += each * each / count;
+    }
+    rise.standard_error_N2 = std::sqrt((squares - rise.mean_N2 * rise.mean_N2) / (count - 1.0));
+    return rise;
+}
+
+std::vector<double> particle_squares_N2(const StudyPlan& plan, const std::vector<int>& sensors, int worlds) {
+    const WorldQuestion question = world_question(plan);
+    std::vector<double> squares_N2(static_cast<std::size_t>(worlds));
+    parallel_for_each_index(worlds, 0, [&](int w) {
+        const World world = draw_world(question, static_cast<std::uint32_t>(w));
+        squares_N2[static_cast<std::size_t>(w)] = testing::particle_square_N2(question, world, sensors);
+    });
+    return squares_N2;
+}
+
+// All nested pairs of a plan's sets that differ by one sensor, and no sensor against every single one.
+void expect_the_law(const StudyPlan& plan, int worlds, int& pairs, int& exceptions) {
+    ErrorTable table(plan, {});
+    const auto& candidates = table.candidates();
+    std::vector<int> all;
+    for (int k = 0; k < static_cast<int>(candidates.size()); ++k) all.push_back(k);
+    table.fill(Condition::as_stated, all, 0, worlds, "test");
+    const auto squares_N2 = [&](int candidate) {
+        std::vector<double> values;
+        for (int w = 0; w < worlds; ++w)
+            values.push_back(table.at(Condition::as_stated, candidate, w).mean_square_N2);
+        return values;
+    };
+    for (const int a : all) {
+        for (const int b : all) {
+            const auto& fewer = candidates[static_cast<std::size_t>(a)].sensors;
+            const auto& more = candidates[static_cast<std::size_t>(b)].sensors;
+            if (fewer.size() >= more.size() ||
+                !std::includes(more.begin(), more.end(), fewer.begin(), fewer.end()))
+                continue;
+            ++pairs;
+            const Rise rise = rise_of(squares_N2(a), squares_N2(b));
+            if (!rise.is_exception()) continue;
+            ++exceptions;
+            const int checked = std::min(worlds, 12);
+            const Rise reference =
+                rise_of(particle_squares_N2(plan, fewer, checked), particle_squares_N2(plan, more, checked));
+            std::printf(
+                "%s: from %s to %s the ensemble filter's squared error rises by %.4f +- %.4f N^2 of %.4f; a "
+                "particle filter's changes by %+.4f +- %.4f of %.4f\n",
+                plan.name.c_str(), words_of(candidates[static_cast<std::size_t>(a)], table.offers()).c_str(),
+                words_of(candidates[static_cast<std::size_t>(b)], table.offers()).c_str(), rise.mean_N2,
+                rise.standard_error_N2, rise.before_N2, reference.mean_N2, reference.standard_error_N2,
+                reference.before_N2);
+        }
+    }
+}
+
+void make_small(StudyPlan& plan) {
+    plan.motion.samples = std::min(plan.motion.samples, 120);
+    plan.layout_families = {"even", "distal", "both"};
+    plan.sensor_counts = {1, 2, 3};
+    plan.placement.search = ComparedSets::named;
+    plan.uncertainty.is_stated = true;
+}
+
+TEST(FurtherSensor, NeverRaisesTheSquaredErrorOnAShippedConfiguration) {
+    int configurations = 0;
+    int pairs = 0;
+    int exceptions = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(CONFIGS_FOLDER)) {
+        // A bench has no sensors to place.
+        const std::string name = entry.path().filename().string();
+        if (entry.path().extension() != ".toml" || name.starts_with("bench-")) continue;
+        StudyPlan plan = config::read_config(entry.path().string()).plan;
+        // A study over worlds prescribes the motor's position.
+        if (plan.motion.proximal.kind != EndKind::position) continue;
+        make_small(plan);
+        if (plan.uncertainty.far_end_range_m == 0.0) plan.uncertainty.far_end_range_m = 0.00063;
+        ++configurations;
+        expect_the_law(plan, 30, pairs, exceptions);
+    }
+    std::printf("%d configurations, %d pairs, %d exceptions\n", configurations, pairs, exceptions);
+    EXPECT_GE(configurations, 7);
+    EXPECT_GT(pairs, 100);
+    EXPECT_LE(exceptions, pairs / 100);
+}
+
+StudyPlan random_plan(unsigned number) {
+    std::mt19937 random(number);
+    const auto within = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    StudyPlan plan;
+    plan.name = "random " + std::to_string(number);
+    plan.seed = number;
+    CableSpecification& cable = plan.transmission.cable;
+    const int bends = static_cast<int>(within(1.0, 6.0));
+    for (int bend = 0; bend < bends; ++bend) {
+        cable.curvature.push_back({within(0.05, 0.4), straight});
+        cable.curvature.push_back({within(0.05, 0.3), within(0.05, 0.3)});
+    }
+    cable.segments = static_cast<int>(within(4.0, 17.0));
+    cable.axial_stiffness_N = within(1000.0, 20000.0);
+    cable.dynamic_friction = within(0.05, 0.4);
+    cable.static_friction = cable.dynamic_friction * within(1.0, 2.0);
+    cable.pretension_N = within(5.0, 30.0);
+    double length_m = 0.0;
+    for (const CurvaturePiece& piece : cable.curvature) length_m += piece.length_m;
+    const double stretch_m = cable.pretension_N * length_m / cable.axial_stiffness_N;
+    plan.motion.proximal = {.kind = EndKind::position,
+                            .amplitude = stretch_m * within(0.1, 0.8),
+                            .frequency_Hz = within(0.3, 2.0)};
+    plan.motion.distal.kind = number % 2 == 0 ? EndKind::position : EndKind::spring;
+    plan.motion.distal.spring_stiffness_N_per_m = number % 2 == 0 ? 0.0 : within(500.0, 5000.0);
+    plan.motion.sample_rate_Hz = 100.0;
+    plan.motion.samples = 120;
+    plan.uncertainty.friction_fraction = within(0.0, 0.4);
+    plan.uncertainty.wrap_fraction = within(0.0, 0.2);
+    plan.uncertainty.stiffness_fraction = within(0.0, 0.2);
+    plan.uncertainty.pretension_fraction = within(0.0, 0.3);
+    plan.uncertainty.far_end_range_m = stretch_m * within(0.05, 0.6);
+    plan.noise_levels = {{"random",
+                          {.multiplicative_ratio = within(0.01, 0.2),
+                           .additive_N = within(0.02, 0.3),
+                           .bias_N = within(0.0, 0.3)}}};
+    make_small(plan);
+    return plan;
+}
+
+TEST(FurtherSensor, NeverRaisesTheSquaredErrorOnTwentyRandomCables) {
+    int pairs = 0;
+    int exceptions = 0;
+    for (unsigned number = 101; number <= 120; ++number)
+        expect_the_law(random_plan(number), 30, pairs, exceptions);
+    std::printf("20 random cables, %d pairs, %d exceptions\n", pairs, exceptions);
+    EXPECT_GT(pairs, 300);
+    EXPECT_LE(exceptions, pairs / 100);
+}
+
+// The particle filter's error is the floor; the ensemble filter comes near it.
+TEST(FurtherSensor, LeavesTheEnsembleFilterNearAParticleFilter) {
+    for (const unsigned number : {1U, 2U, 3U}) {
+        StudyPlan plan = random_plan(200 + number);
+        plan.transmission.cable.segments = 4 + 2 * static_cast<int>(number % 2);
+        plan.motion.samples = 50;
+        plan.uncertainty.members = 128;
+        constexpr int worlds = 8;
+        ErrorTable table(plan, {});
+        const int one = 1;
+        const int most = static_cast<int>(table.candidates().size()) - 1;
+        const std::vector<int> some = {one, most};
+        table.fill(Condition::as_stated, some, 0, worlds, "test");
+        for (const int candidate : some) {
+            const auto& set = table.candidates()[static_cast<std::size_t>(candidate)];
+            std::vector<double> ensemble_N2;
+            for (int w = 0; w < worlds; ++w)
+                ensemble_N2.push_back(table.at(Condition::as_stated, candidate, w).mean_square_N2);
+            const Rise over = rise_of(particle_squares_N2(plan, set.sensors, worlds), ensemble_N2);
+            std::printf("%s, %s: particle filter %.5f N^2, ensemble filter %+.5f +- %.5f\n",
+                        plan.name.c_str(), words_of(set, table.offers()).c_str(), over.before_N2,
+                        over.mean_N2, over.standard_error_N2);
+            EXPECT_LT(over.mean_N2, 3.0 * over.standard_error_N2 + 0.2 * over.before_N2);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace capstan
