@@ -33,7 +33,8 @@ std::vector<KeyProblem> problems_of_pieces(const std::vector<CurvaturePiece>& pi
         const double radius = pieces[k].bend_radius_m;
         if (!positive(pieces[k].length_m)) {
             problems.push_back(
-                {piece + ".length_m", "is " + number(pieces[k].length_m) + ", but must be above 0"});
+                {piece + ".length_m", "is " + number(pieces[k].length_m) +
+                                          ", but must be above 0; give it, or an angle and a bend radius"});
         }
         if (std::isnan(radius) || radius <= 0.0) {
             problems.push_back(

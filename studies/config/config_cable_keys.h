@@ -1,6 +1,7 @@
 #pragma once
 // What both kinds of configuration say of a cable, in the same words.
 
+#include "capstan/cable/conduit.h"
 #include "capstan/config/config_key_makers.h"
 
 namespace capstan::config {
@@ -39,12 +40,12 @@ void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, c
     add({at, "pretension_N", "N", "Tension of the complete cable before the motion starts."}, zero_or_more,
         text.default_pretension_N, &CableSpecification::pretension_N);
 
-    const std::string piece = at + ".curvature";
-    keys.push_back(required(number<Plan>(
-        {piece, "length_m", "m", "Length of conduit along its axis."}, above_zero,
-        {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].length_m; })));
+    const std::string pieces = at + ".curvature";
+    keys.push_back(number<Plan>(
+        {pieces, "length_m", "m", "Length of conduit along its axis; or give angle_deg."}, above_zero,
+        {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].length_m; }));
     ConfigKey<Plan> radius = number<Plan>(
-        {piece, "bend_radius_m", "m", "Bend radius of the piece; leave it out for a straight piece."},
+        {pieces, "bend_radius_m", "m", "Bend radius of the piece; leave it out for a straight piece."},
         above_zero,
         {}, [cable](auto& plan, int row) -> auto& { return cable(plan).curvature[row].bend_radius_m; });
     radius.read = [cable](const Plan& plan, int row) -> ConfigValue {
@@ -52,6 +53,21 @@ void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, c
         return radius_m == straight ? ConfigValue{} : ConfigValue{radius_m};
     };
     keys.push_back(std::move(radius));
+    auto angle = unbound_key<Plan>(
+        {pieces, "angle_deg", "degrees",
+         "By how much the piece turns, in place of its length, which is angle times radius."},
+        ValueKind::number, {0.0, false, 3600.0}, {});
+    angle.condition = {[cable](const Plan& plan, int row) {
+                           const CurvaturePiece& piece = cable(plan).curvature[row];
+                           return piece.length_m == 0.0 && piece.bend_radius_m < straight;
+                       },
+                       "bend_radius_m and without length_m"};
+    angle.read = [](const Plan&, int) { return ConfigValue{}; };
+    angle.write = [cable](Plan& plan, int row, const ConfigValue& value) {
+        CurvaturePiece& piece = cable(plan).curvature[row];
+        piece.length_m = std::get<double>(value) * rad_per_degree * piece.bend_radius_m;
+    };
+    keys.push_back(std::move(angle));
 }
 
 /// The repeated section of the conduit's pieces. `CableOf{}(plan)` refers to a plan's specification.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "capstan/bench/bench_plan.h"
+#include "capstan/config/config_problem.h"
 #include "capstan/plan/study_plan.h"
 
 namespace capstan::config {
@@ -97,6 +99,10 @@ struct ConfigSchema {
     std::string introduction;                   ///< the comment that a printed default begins with
     std::vector<ConfigSection<Plan>> sections;  ///< in the order of reading and writing
     std::vector<ConfigKey<Plan>> keys;          ///< a key may rely on all keys before it
+    /// Called after the last key, for what follows from several sections: what is wrong with them. Files that
+    /// keys name lie in `folder`. Empty: nothing follows.
+    std::vector<KeyProblem> (*complete)(Plan&, const KeyLines&,
+                                        const std::filesystem::path& folder) = nullptr;
 };
 
 /// The one list of sections and keys of each kind of configuration.

@@ -48,9 +48,18 @@ void add_transmission_keys(std::vector<StudyKey>& keys) {
     add_cable_keys<StudyPlan>(
         keys, at,
         {10, 10.0,
-         "Number of equal segments of the cable. Nodes are their ends, numbered 1 (proximal, motor) "
+         "Number of segments of the cable. Nodes are their ends, numbered 1 (proximal, motor) "
          "to segments + 1 (distal, load). Sensors sit at nodes."},
         transmission_cable);
+    StudyKey cut = choice<CableCut>(
+        {at, "cut", "",
+         "Where nodes lie: \"even\" cuts equal segments; \"at_bends\" puts nodes at both ends of every bend and at the "
+         "places of the tension sensors, and spreads the others between them as evenly as possible. It is \"at_bends\" "
+         "with [uncertainty], else \"even\"."},
+        {{"even", CableCut::even}, {"at_bends", CableCut::at_bends}}, {},
+        [](auto& plan, int) -> auto& { return plan.transmission.cut; });
+    keys.push_back(std::move(cut));
+    add_conduit_keys(keys);
     keys.push_back(choice<ModelRules>(
         {at, "rules", "",
          "Interpretation of the model where the paper is silent or contradicts itself: \"consistent\" "
@@ -230,6 +239,7 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
                                      [](StudyPlan& plan) {
                                          plan.transmission.cable.curvature = {{2.0, 0.28}};
                                      }),
+        bend_section_of_conduit(),
         {"motion", "The true motion, which the estimators infer from the sensors."},
         {"motion.proximal", "The proximal end, where the motor is."},
         {"motion.distal", "The distal end, where the load is."},
@@ -278,6 +288,14 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
     return sections;
 }
 
+std::vector<KeyProblem> complete_study(StudyPlan& plan, const KeyLines& lines, const std::filesystem::path&) {
+    std::vector<KeyProblem> problems = make_pieces(plan, lines);
+    if (!lines.contains("transmission.cut"))
+        plan.transmission.cut = plan.uncertainty.is_stated ? CableCut::at_bends : CableCut::even;
+    place_nodes(plan);
+    return problems;
+}
+
 }  // namespace
 
 template <>
@@ -286,7 +304,7 @@ const ConfigSchema<StudyPlan>& config_schema<StudyPlan>() {
         "A study for capstan: where to put tension sensors in a cable-conduit transmission. Every "
         "key is listed with its default, which applies where the key is left out. Check a file with "
         "`capstan config check FILE`, run it with `capstan study run FILE`.",
-        all_sections(), all_keys()};
+        all_sections(), all_keys(), complete_study};
     return schema;
 }
 

@@ -36,7 +36,7 @@ void add_placement_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
     }
     keys.push_back(choice<PlacementObjective>(
         {at, "objective", "",
-         "The error to minimise: its mean over \"all_nodes\", at the \"load_end\", at the "
+         "The error to minimise: its mean over \"all_nodes\" (with [uncertainty] over the cable's length), at the \"load_end\", at the "
          "\"worst_node\", or its \"quantile_95\", which 95 % of the draws stay below."},
         objectives, std::string("all_nodes"),
         [](auto& plan, int) -> auto& { return plan.placement.objective; }));

@@ -32,4 +32,13 @@ std::vector<ConfigProblem> by_line(std::vector<ConfigProblem> problems) {
 ConfigError::ConfigError(const std::string& file, std::vector<ConfigProblem> problems)
     : InvalidInput(in_lines(file, by_line(problems))), problems_(by_line(std::move(problems))) {}
 
+int line_of_key(const KeyLines& lines, std::string key) {
+    while (true) {
+        if (const auto line = lines.find(key); line != lines.end()) return line->second;
+        const std::size_t end = key.find_last_of(".[");
+        if (end == std::string::npos) return 0;
+        key.resize(end);
+    }
+}
+
 }  // namespace capstan::config

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +17,12 @@ struct ConfigProblem {
     std::string key;      ///< full path, "regime[2].samples"; empty: no key in particular
     std::string message;  ///< what is wrong; what to try
 };
+
+/// Where keys stand in the text: "regime[2].samples" -> line, both from 1. Sections are in it too.
+using KeyLines = std::map<std::string, int, std::less<>>;
+
+/// The line of a key, or of the closest section around it that stands in the file; 0: none does.
+int line_of_key(const KeyLines& lines, std::string key);
 
 /// Every problem of a configuration, one a line: FILE:LINE: key: what is wrong; what to try.
 class ConfigError : public InvalidInput {

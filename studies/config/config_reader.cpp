@@ -27,6 +27,11 @@ class Reading {
         for (const Section& section : config_sections()) {
             section.is_repeated() ? read_repeated(section) : read_single(section);
         }
+        if (const auto complete = config_schema<Plan>().complete) {
+            const auto folder = std::filesystem::path(config_.file).parent_path();
+            for (const KeyProblem& each : complete(config_.plan, config_.lines, folder))
+                if (!is_broken(each.key.substr(0, each.key.find_first_of(".[")))) problem_at(each);
+        }
         return std::move(problems_);
     }
 
@@ -147,6 +152,15 @@ class Reading {
 
     void note_line(std::string_view path, const toml::node& node) {
         config_.lines.emplace(std::string(path), line_of(node));
+    }
+
+    bool is_broken(const std::string& section) const {
+        return std::any_of(problems_.begin(), problems_.end(),
+                           [&](const ConfigProblem& known) { return known.key.starts_with(section); });
+    }
+
+    void problem_at(const KeyProblem& problem) {
+        problems_.push_back({line_of_key(config_.lines, problem.key), 0, problem.key, problem.message});
     }
 
     void problem(const toml::node& node, std::string_view path, std::string message) {

@@ -1,17 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <string_view>
 
 #include "capstan/bench/bench_plan.h"
+#include "capstan/config/config_problem.h"
 #include "capstan/plan/study_plan.h"
 
 namespace capstan::config {
-
-/// Where keys stand in the text: "regime[2].samples" -> line, both from 1. Sections are in it too.
-using KeyLines = std::map<std::string, int, std::less<>>;
 
 /// A configuration read for its kind of plan.
 template <class Plan>

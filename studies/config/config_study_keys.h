@@ -9,6 +9,10 @@ namespace capstan::config {
 
 using StudyKeys = std::vector<ConfigKey<StudyPlan>>;
 
+void add_conduit_keys(StudyKeys& keys);  ///< [transmission] length_m, [[transmission.bend]]
+ConfigSection<StudyPlan> bend_section_of_conduit();
+/// Makes the pieces of a conduit that is stated otherwise; what is wrong with it.
+std::vector<KeyProblem> make_pieces(StudyPlan& plan, const KeyLines& lines);
 void add_layout_keys(StudyKeys& keys);       ///< [layouts]
 void add_estimation_keys(StudyKeys& keys);   ///< [estimation]: fusion methods and what they assume
 void add_placement_keys(StudyKeys& keys);    ///< [placement], for `capstan place`

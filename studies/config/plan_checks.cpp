@@ -30,16 +30,6 @@ bool is_news(const KeyProblem& problem, const std::vector<ConfigProblem>& known)
     });
 }
 
-// The line of a key, or of the closest section around it that stands in the file; 0: none does.
-int line_of_key(const KeyLines& lines, std::string key) {
-    while (true) {
-        if (const auto line = lines.find(key); line != lines.end()) return line->second;
-        const std::size_t end = key.find_last_of(".[");
-        if (end == std::string::npos) return 0;
-        key.resize(end);
-    }
-}
-
 std::vector<ConfigProblem> at_lines(const KeyLines& lines, const std::vector<KeyProblem>& problems,
                                     const std::vector<ConfigProblem>& known) {
     std::vector<ConfigProblem> placed;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimation/fusion_method.h"
 #include "capstan/plan/true_motion.h"
@@ -190,12 +191,11 @@ void check_worlds(const StudyPlan& plan, Problems& problems) {
              "\"recorded\" needs more than the " + std::to_string(plan.motion.samples) +
                  " samples of [motion], and there are " + std::to_string(recorded) +
                  "; give far_end_log, a file beside this one, or --far-end LOG, or far_end_samples_m"});
-    double length_m = 0.0;
-    for (const CurvaturePiece& piece : plan.transmission.cable.curvature) length_m += piece.length_m;
+    const double cable_m = length_m(plan.transmission.cable.curvature);
     const auto check_place = [&](double place_m, const std::string& key) {
-        if (place_m > length_m * (1.0 + 1e-9))
+        if (place_m > cable_m * (1.0 + 1e-9))
             problems.push_back(
-                {key, number(place_m) + " m is beyond the cable, which is " + number(length_m) + " m long"});
+                {key, number(place_m) + " m is beyond the cable, which is " + number(cable_m) + " m long"});
     };
     for (std::size_t row = 0; row < plan.sensors.size(); ++row) {
         for (const double place_m : plan.sensors[row].places_m)
@@ -210,6 +210,23 @@ void check_worlds(const StudyPlan& plan, Problems& problems) {
     if (plan.placement.forbidden_m.size() % 2 != 0)
         problems.push_back(
             {"placement.forbidden_m", "has an odd number of places; give from and to of each stretch"});
+}
+
+void check_cable(const StudyPlan& plan, Problems& problems) {
+    const CableSpecification& cable = plan.transmission.cable;
+    for (const KeyProblem& problem : problems_of(cable)) {
+        const bool too_few = problem.key == "segments" && !cable.node_places_m.empty();
+        problems.push_back(
+            {"transmission." + problem.key,
+             problem.message + (too_few ? " (the ends of bends and the tension sensors\' places); "
+                                          "raise it, or set transmission.cut = \"even\""
+                                        : "")});
+    }
+    if (!cable.node_places_m.empty() && !plan.uncertainty.is_stated &&
+        plan.placement.max_in_distal_half < cable.segments)
+        problems.push_back({"placement.max_in_distal_half",
+                            "counts nodes, of which as many lie in either half of the cable only with "
+                            "transmission.cut = \"even\""});
 }
 
 // The sum of the regimes' duty fractions may be off by the rounding of the digits given.
@@ -303,6 +320,17 @@ std::string_view name_of(Regime regime) {
     return {};
 }
 
+void place_nodes(StudyPlan& plan) {
+    CableSpecification& cable = plan.transmission.cable;
+    cable.node_places_m.clear();
+    if (plan.transmission.cut == CableCut::even) return;
+    std::vector<double> places_m = bend_ends_m(cable.curvature);
+    for (const SensorRow& row : plan.sensors)
+        if (row.kind == SensorKind::tension)
+            places_m.insert(places_m.end(), row.places_m.begin(), row.places_m.end());
+    cable.node_places_m = distinct_places_m(std::move(places_m), length_m(cable.curvature));
+}
+
 std::map<Regime, std::vector<int>> samples_by_regime(const StudyPlan& plan) {
     std::map<Regime, std::vector<int>> samples;
     const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
@@ -320,8 +348,7 @@ std::vector<KeyProblem> problems_of_values(const StudyPlan& plan) {
     if (!(plan.worthwhile_gain_N >= 0.0))
         problems.push_back({"recommendation.worthwhile_gain_N", "must be 0 or more"});
     const CableSpecification& cable = plan.transmission.cable;
-    for (const KeyProblem& problem : problems_of(cable))
-        problems.push_back({"transmission." + problem.key, problem.message});
+    check_cable(plan, problems);
     if (plan.uncertainty.is_stated) {
         check_motion(plan.motion, problems);
         check_noise(plan, problems);

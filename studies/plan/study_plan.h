@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capstan/cable/cable.h"
+#include "capstan/cable/conduit.h"
 #include "capstan/estimation/single_sensor.h"
 #include "capstan/plan/placement_plan.h"
 #include "capstan/plan/sensitivity_plan.h"
@@ -32,8 +33,23 @@ struct EndMotion {
     double spring_stiffness_N_per_m = 0.0;  ///< spring only
 };
 
+/// Where the nodes of the cable lie.
+enum class CableCut {
+    even,      ///< all segments are equal
+    at_bends,  ///< at both ends of every bend and at the places of the tension sensors, the others between
+};
+
+/// Another way to state a conduit than its pieces. A configuration is read into this and then made into
+/// pieces; a plan that runs has none.
+struct ConduitCourse {
+    double length_m = 0.0;  ///< with bends; 0: not stated
+    std::vector<Bend> bends{};
+};
+
 struct Transmission {
     CableSpecification cable;
+    ConduitCourse course{};
+    CableCut cut = CableCut::even;  ///< place_nodes() does it
     ModelRules rules = ModelRules::consistent();
 };
 
@@ -129,6 +145,10 @@ struct StudyPlan {
     SensitivityPlan sensitivity;  ///< for the sensitivity of the recommendation
     Sweep sweep;                  ///< studies_in_sweep() makes the studies; each of them has none
 };
+
+/// Puts the nodes of the plan's cable where its cut says. To be called again where bends move or sensors
+/// come.
+void place_nodes(StudyPlan& plan);
 
 /// Everything wrong with the plan's values, each with the key it belongs to and what to try. Simulates
 /// nothing.

@@ -8,14 +8,12 @@
 #include <map>
 #include <set>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/worlds/sensor_places.h"
 
 namespace capstan {
 
 namespace {
-
-// Two places closer than this are one.
-constexpr double same_place_m = 1e-6;
 
 double price_of(const std::vector<int>& sensors, const std::vector<SensorOffer>& offers) {
     double price = 0.0;
@@ -27,10 +25,7 @@ double price_of(const std::vector<int>& sensors, const std::vector<SensorOffer>&
 class Constraints {
   public:
     Constraints(const StudyPlan& plan, const std::vector<SensorOffer>& offers)
-        : plan_(plan.placement), offers_(offers) {
-        for (const CurvaturePiece& piece : plan.transmission.cable.curvature) length_m_ += piece.length_m;
-        segment_m_ = length_m_ / plan.transmission.cable.segments;
-    }
+        : plan_(plan.placement), offers_(offers), cable_(plan.transmission.cable) {}
 
     bool allow(const std::vector<int>& sensors) const {
         return may_grow(sensors) && has_all_required(sensors);
@@ -45,20 +40,22 @@ class Constraints {
         for (const int sensor : sensors) {
             const SensorOffer& offer = offers_[static_cast<std::size_t>(sensor)];
             if (is_forbidden(offer)) return false;
-            if (offer.place_m > 0.5 * length_m_ + same_place_m) ++in_distal_half;
+            if (offer.place_m > 0.5 * cable_.length_m() + same_place_m) ++in_distal_half;
             if (offer.kind == SensorKind::tension) places_m.push_back(offer.place_m);
         }
         if (in_distal_half > plan_.max_in_distal_half) return false;
         std::sort(places_m.begin(), places_m.end());
         for (std::size_t k = 1; k < places_m.size(); ++k)
-            if (places_m[k] - places_m[k - 1] < spacing_m() - same_place_m) return false;
+            if (are_too_close(places_m[k - 1], places_m[k])) return false;
         return true;
     }
 
   private:
-    double spacing_m() const {
-        return std::max(plan_.minimum_spacing * segment_m_ * (plan_.minimum_spacing > 1),
-                        plan_.minimum_spacing_m);
+    bool are_too_close(double place_m, double next_m) const {
+        const bool by_nodes =
+            plan_.minimum_spacing > 1 &&
+            cable_.nearest_node(next_m) - cable_.nearest_node(place_m) < plan_.minimum_spacing;
+        return by_nodes || next_m - place_m < plan_.minimum_spacing_m - same_place_m;
     }
     bool is_near(double place_m, const std::vector<double>& places_m) const {
         return std::any_of(places_m.begin(), places_m.end(),
@@ -66,7 +63,7 @@ class Constraints {
     }
     std::vector<double> places_of(const std::vector<int>& nodes) const {
         std::vector<double> places_m;
-        for (const int node : nodes) places_m.push_back(node * segment_m_);
+        for (const int node : nodes) places_m.push_back(cable_.node_position_m(node));
         return places_m;
     }
     bool is_forbidden(const SensorOffer& offer) const {
@@ -92,8 +89,7 @@ class Constraints {
 
     const PlacementPlan& plan_;
     const std::vector<SensorOffer>& offers_;
-    double length_m_ = 0.0;
-    double segment_m_ = 0.0;
+    Cable cable_;
 };
 
 // Sensors by kind: where a family may put tension sensors, and what else can be bought.
@@ -111,22 +107,33 @@ Shelf shelf_of(const std::vector<SensorOffer>& offers) {
     return shelf;
 }
 
-// Evenly spread from end to end; one sensor in the middle.
-std::vector<std::vector<int>> evenly_spread(int count, int places) {
+// The places closest to those evenly spread from the first to the last one; a single one in the middle.
+std::vector<int> evenly_spread(int count, const std::vector<double>& places_m) {
     std::vector<int> chosen;
+    const double span_m = places_m.back() - places_m.front();
+    const auto places = static_cast<int>(places_m.size());
     for (int k = 0; k < count; ++k) {
-        const double at = count == 1 ? 0.5 * (places - 1) : k * (places - 1.0) / (count - 1);
-        chosen.push_back(static_cast<int>(std::lround(at)));
+        const double at_m = places_m.front() + span_m * (count == 1 ? 0.5 : k / (count - 1.0));
+        const auto away_m = [&](int place) {
+            return std::abs(places_m[static_cast<std::size_t>(place)] - at_m);
+        };
+        int best = chosen.empty() ? 0 : chosen.back() + 1;
+        const int last = places - (count - k);  // leaves a place for each that follows
+        for (int place = best + 1; place <= last; ++place)
+            if (away_m(place) <= away_m(best) + same_place_m) best = place;
+        chosen.push_back(best);
     }
-    return {chosen};
+    return chosen;
 }
 
-std::vector<std::vector<int>> family_sets(const std::string& family, int count, int places) {
-    if (family == "even") return evenly_spread(count, places);
+std::vector<std::vector<int>> family_sets(const std::string& family, int count,
+                                          const std::vector<double>& places_m) {
+    if (family == "even") return {evenly_spread(count, places_m)};
     std::vector<std::vector<int>> sets;
     const LayoutFamily* found = find_layout_family(family);
     if (found == nullptr) return sets;
-    for (const Layout& layout : found->layouts(count, places)) sets.push_back(layout.nodes);
+    for (const Layout& layout : found->layouts(count, static_cast<int>(places_m.size())))
+        sets.push_back(layout.nodes);
     return sets;
 }
 
@@ -142,11 +149,13 @@ void add(NamedSets& sets, std::vector<int> sensors, const std::string& name) {
 NamedSets named_sets(const StudyPlan& plan, const std::vector<SensorOffer>& offers) {
     const Shelf shelf = shelf_of(offers);
     const int places = static_cast<int>(shelf.along.size());
+    std::vector<double> places_m;
+    for (const int sensor : shelf.along) places_m.push_back(offers[static_cast<std::size_t>(sensor)].place_m);
     NamedSets along;
     for (const std::string& family : plan.layout_families) {
         for (const int count : plan.sensor_counts) {
             if (count > places) continue;
-            for (const std::vector<int>& set : family_sets(family, count, places)) {
+            for (const std::vector<int>& set : family_sets(family, count, places_m)) {
                 std::vector<int> sensors;
                 for (const int place : set) sensors.push_back(shelf.along[static_cast<std::size_t>(place)]);
                 add(along, sensors, family);

@@ -38,10 +38,11 @@ StudyPlan plan_under(Condition condition, StudyPlan plan) {
     return plan;
 }
 
-int segments_under(Condition condition, int segments) {
-    if (condition == Condition::finer_grid) return 2 * segments;
-    if (condition == Condition::finest_grid) return 4 * segments;
-    return segments;
+// Into how many each segment is cut.
+int pieces_under(Condition condition) {
+    if (condition == Condition::finer_grid) return 2;
+    if (condition == Condition::finest_grid) return 4;
+    return 1;
 }
 
 // What the estimator believes in a world in which one thing is known.
@@ -117,8 +118,7 @@ const WorldQuestion& ErrorTable::question_of(Condition condition) {
     if (!question) {
         StudyPlan plan = plan_under(condition, plan_);
         if (condition == Condition::sensors_known) plan.sensors = calibrated_sensors(plan);
-        question = std::make_unique<WorldQuestion>(
-            world_question(plan, segments_under(condition, plan.transmission.cable.segments)));
+        question = std::make_unique<WorldQuestion>(world_question(plan, pieces_under(condition)));
         // The offers stay where they are, whatever the grid.
         question->offers = condition == Condition::sensors_known ? sensor_offers(plan) : sensor_offers(plan_);
     }

@@ -2,22 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "capstan/cable/cable_cut.h"
+
 namespace capstan {
 
 namespace {
-
-double length_of_m(const CableSpecification& cable) {
-    double length_m = 0.0;
-    for (const CurvaturePiece& piece : cable.curvature) length_m += piece.length_m;
-    return length_m;
-}
-
-std::vector<double> nodes_m(const CableSpecification& cable) {
-    std::vector<double> places_m;
-    const double length_m = length_of_m(cable);
-    for (int node = 0; node <= cable.segments; ++node) places_m.push_back(length_m * node / cable.segments);
-    return places_m;
-}
 
 std::vector<SensorRow> rows_of(const StudyPlan& plan) {
     if (!plan.sensors.empty() || plan.noise_levels.empty()) return plan.sensors;
@@ -45,14 +34,14 @@ std::vector<SensorOffer> sensor_offers(const StudyPlan& plan) {
         std::vector<double> places_m = row.places_m;
         switch (row.kind) {
             case SensorKind::tension:
-                if (places_m.empty()) places_m = nodes_m(cable);
+                if (places_m.empty()) places_m = node_positions_m(cable);
                 break;
             case SensorKind::motor_torque:
                 places_m = {0.0};
                 break;
             case SensorKind::load_torque:
             case SensorKind::load_displacement:
-                places_m = {length_of_m(cable)};
+                places_m = {length_m(cable.curvature)};
                 break;
         }
         for (const double place_m : places_m) offers.push_back({row.kind, place_m, row.errors, row.price});

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/sensing/random_stream.h"
 #include "capstan/worlds/sensor_places.h"
@@ -136,10 +137,8 @@ class TrueMover {
 
 }  // namespace
 
-WorldQuestion world_question(const StudyPlan& plan, int segments) {
-    CableSpecification nominal = plan.transmission.cable;
-    if (segments > 0) nominal.segments = segments;
-    WorldQuestion question{.cable = UncertainCable(nominal),
+WorldQuestion world_question(const StudyPlan& plan, int pieces) {
+    WorldQuestion question{.cable = UncertainCable(refined(plan.transmission.cable, pieces)),
                            .rules = plan.transmission.rules,
                            .motion = plan.motion,
                            .uncertainty = plan.uncertainty,

@@ -21,8 +21,8 @@ struct WorldQuestion {
     std::uint64_t seed = 1;
 };
 
-/// Throws InvalidInput with problems_of(plan). `segments`: 0 for the plan's, else the grid to solve on.
-WorldQuestion world_question(const StudyPlan& plan, int segments = 0);
+/// Throws InvalidInput with problems_of(plan). `pieces`: into how many each of the plan's segments is cut.
+WorldQuestion world_question(const StudyPlan& plan, int pieces = 1);
 
 /// One cable that the sensors could be fitted to, with everything that happened to it.
 struct World {

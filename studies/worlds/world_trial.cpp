@@ -9,38 +9,51 @@ namespace capstan {
 
 namespace {
 
+// The fraction of the cable that each node stands for: half of the segments beside it.
+std::vector<double> fractions_of_nodes(const Cable& cable) {
+    std::vector<double> fraction(static_cast<std::size_t>(cable.nodes()), 0.0);
+    for (std::size_t segment = 0; segment + 1 < fraction.size(); ++segment) {
+        const double half = 0.5 * cable.relative_length()[segment] / cable.segments();
+        fraction[segment] += half;
+        fraction[segment + 1] += half;
+    }
+    return fraction;
+}
+
 // Adds up what one sample says, and divides in the end.
 class ErrorSums {
   public:
-    explicit ErrorSums(int nodes) : node_abs_N_(static_cast<std::size_t>(nodes), 0.0) {}
+    explicit ErrorSums(const Cable& cable)
+        : fraction_(fractions_of_nodes(cable)), node_abs_N_(fraction_.size(), 0.0) {}
 
     void add(std::span<const double> truth_N, std::span<const double> mean_N,
              std::span<const double> deviation_N) {
         for (std::size_t node = 0; node < truth_N.size(); ++node) {
             const double error_N = std::abs(mean_N[node] - truth_N[node]);
             node_abs_N_[node] += error_N;
-            squares_N2_ += error_N * error_N;
+            squares_N2_ += fraction_[node] * error_N * error_N;
             // Rounding of a band without width, where everything is known.
-            covered_ += error_N <= deviations_of_95 * deviation_N[node] + 1e-9 ? 1.0 : 0.0;
+            covered_ += error_N <= deviations_of_95 * deviation_N[node] + 1e-9 ? fraction_[node] : 0.0;
         }
         ++samples_;
     }
 
     WorldError error() && {
         WorldError error;
-        const double count = samples_ * static_cast<double>(node_abs_N_.size());
-        for (double& each : node_abs_N_) each /= samples_;
-        for (const double each : node_abs_N_)
-            error.mean_abs_N += each / static_cast<double>(node_abs_N_.size());
+        for (std::size_t node = 0; node < node_abs_N_.size(); ++node) {
+            node_abs_N_[node] /= samples_;
+            error.mean_abs_N += fraction_[node] * node_abs_N_[node];
+        }
         error.load_end_N = node_abs_N_.back();
         error.worst_place_N = *std::max_element(node_abs_N_.begin(), node_abs_N_.end());
-        error.mean_square_N2 = squares_N2_ / count;
-        error.covered_fraction = covered_ / count;
+        error.mean_square_N2 = squares_N2_ / samples_;
+        error.covered_fraction = covered_ / samples_;
         error.node_abs_N = std::move(node_abs_N_);
         return error;
     }
 
   private:
+    std::vector<double> fraction_;    // nodes
     std::vector<double> node_abs_N_;  // nodes
     double squares_N2_ = 0.0;
     double covered_ = 0.0;
@@ -60,7 +73,7 @@ EnsembleDraws ensemble_draws(const WorldQuestion& question, std::uint32_t world)
 WorldError filter_error(const WorldQuestion& question, const CableBelief& belief, const World& world,
                         const EnsembleDraws& draws, std::span<const int> sensors) {
     EnsembleFilter filter(question.cable, belief, question.offers, sensors, draws);
-    ErrorSums sums(world.nodes);
+    ErrorSums sums(Cable(question.cable.nominal()));
     std::vector<double> readings;
     for (int sample = 0; sample < world.samples(); ++sample) {
         world.read(sample, question.offers, sensors, readings);
@@ -84,7 +97,7 @@ WorldError paper_error(const WorldQuestion& question, const World& world, std::s
     }
     RecursiveFusion fusion(step, start, method, DistalSide::admitted, weight_of_node);
     const std::vector<double> band(static_cast<std::size_t>(world.nodes), 0.0);
-    ErrorSums sums(world.nodes);
+    ErrorSums sums(cable);
     double proximal_m = start.displacement_m.front();
     std::vector<double> all;
     std::vector<NodeReading> readings;

@@ -9,11 +9,11 @@ namespace capstan {
 
 /// How far an estimate was from the truth in one world, over all of its samples.
 struct WorldError {
-    double mean_abs_N = 0.0;         ///< over samples and nodes
-    double load_end_N = 0.0;         ///< mean absolute error at the distal node
-    double worst_place_N = 0.0;      ///< of the node where the mean absolute error is largest
-    double mean_square_N2 = 0.0;     ///< over samples and nodes
-    double covered_fraction = 0.0;   ///< of the truth that lies within the estimate's 95% band
+    double mean_abs_N = 0.0;        ///< over samples and the cable's length
+    double load_end_N = 0.0;        ///< mean absolute error at the distal node
+    double worst_place_N = 0.0;     ///< of the node where the mean absolute error is largest
+    double mean_square_N2 = 0.0;    ///< over samples and the cable's length
+    double covered_fraction = 0.0;  ///< of the truth, over the same, that lies within the estimate's 95% band
     std::vector<double> node_abs_N;  // nodes: mean absolute error over samples
 
     bool operator==(const WorldError&) const = default;

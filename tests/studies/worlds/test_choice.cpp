@@ -199,6 +199,76 @@ TEST(SensorChoice, EvenMeansFromEndToEnd) {
     for (std::size_t k = 1; k < sensors.size(); ++k) EXPECT_LE(sensors[k] - sensors[k - 1], 2);
 }
 
+TEST(SensorChoice, EvenChoosesByPlaceWhereNodesAreNotEvenlySpread) {
+    StudyPlan plan = arm_plan(20);
+    plan.sensors = {{SensorKind::tension, {0.0, 0.1, 0.2, 0.55, 0.9, 1.0}, {0.03, 0.1, 0.0, 0.0}, 1.0}};
+    plan.layout_families = {"even"};
+    const auto places_of = [&](int count) {
+        plan.sensor_counts = {count};
+        const auto offers = sensor_offers(plan);
+        std::vector<double> places_m;
+        const Candidate chosen = candidates_of(plan, offers).at(1);
+        for (const int sensor : chosen.sensors)
+            places_m.push_back(offers[static_cast<std::size_t>(sensor)].place_m);
+        return places_m;
+    };
+    EXPECT_EQ(places_of(1), (std::vector<double>{0.55}));
+    EXPECT_EQ(places_of(3), (std::vector<double>{0.0, 0.55, 1.0}));
+    EXPECT_EQ(places_of(4), (std::vector<double>{0.0, 0.2, 0.55, 1.0}));
+    EXPECT_EQ(places_of(6), (std::vector<double>{0.0, 0.1, 0.2, 0.55, 0.9, 1.0}));
+}
+
+// With nodes at both ends of every bend and at the sensors' places, readings are tensions of nodes.
+TEST(SensorChoice, NodesLieAtBendsAndSensorsOnEveryGrid) {
+    StudyPlan plan = arm_plan(20);
+    plan.sensors = {{SensorKind::tension, {0.0, 0.33, 0.97}, {0.0, 1e-12, 0.0, 0.0}, 1.0}};
+    plan.transmission.cut = CableCut::at_bends;
+    place_nodes(plan);
+    ASSERT_TRUE(problems_of(plan).empty());
+    for (const int pieces : {1, 2, 4}) {
+        const WorldQuestion question = world_question(plan, pieces);
+        const Cable cable(question.cable.nominal());
+        ASSERT_EQ(cable.segments(), 10 * pieces);
+        for (const double place_m : {0.4, 0.6, 0.8, 0.33, 0.97})
+            EXPECT_NEAR(cable.node_position_m(cable.nearest_node(place_m)), place_m, 1e-12);
+        const World world = draw_world(question, 2);
+        for (std::size_t s = 0; s < question.offers.size(); ++s) {
+            const auto node = static_cast<std::size_t>(cable.nearest_node(question.offers[s].place_m));
+            EXPECT_NEAR(world.sensed[40 * question.offers.size() + s], world.tensions_N(40)[node], 1e-9);
+        }
+    }
+}
+
+TEST(SensorChoice, TooFewSegmentsForBendsAndSensorsAreRefusedWithTheNumberNeeded) {
+    StudyPlan plan = arm_plan(20);
+    plan.sensors = {{SensorKind::tension, {0.0, 0.33, 0.97}, {0.0, 0.1, 0.0, 0.0}, 1.0}};
+    plan.transmission.cut = CableCut::at_bends;
+    plan.transmission.cable.segments = 5;
+    place_nodes(plan);
+    const auto problems = problems_of_values(plan);
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_EQ(problems.front().key, "transmission.segments");
+    EXPECT_NE(problems.front().message.find("need at least 6 segments"), std::string::npos);
+}
+
+// Where nodes lie closer together they must not count for more of the cable.
+TEST(SensorChoice, TheErrorIsAMeanOverTheLengthAndNotOverNodes) {
+    StudyPlan plan = arm_plan(20);
+    plan.transmission.cable.segments = 40;
+    const WorldQuestion even = world_question(plan);
+    for (double at_m = 0.01; at_m < 0.2; at_m += 0.01) plan.transmission.cable.node_places_m.push_back(at_m);
+    const WorldQuestion crowded = world_question(plan);
+    const auto error_N = [](const WorldQuestion& question) {
+        double sum_N = 0.0;
+        for (std::uint32_t index = 0; index < 10; ++index)
+            sum_N += filter_error(question, question.belief, draw_world(question, index),
+                                  ensemble_draws(question, index), {})
+                         .mean_abs_N;
+        return sum_N / 10.0;
+    };
+    EXPECT_NEAR(error_N(crowded), error_N(even), 0.03 * error_N(even));
+}
+
 TEST(SensorChoice, SensorsOfOtherKindsComeWithEverySet) {
     StudyPlan plan = arm_plan(20);
     plan.sensors = {{SensorKind::tension, {0.0, 0.5, 1.0}, {0.03, 0.1, 0.0, 0.0}, 1.0},
