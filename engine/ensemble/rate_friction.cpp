@@ -15,15 +15,13 @@ constexpr double min_response = -100.0;
 }  // namespace
 
 RateFrictionStep::RateFrictionStep(const RateFriction& friction, const CableEnsemble& members,
-                                   double mean_segment_m, double interval_s)
+                                   double segment_m, double interval_s)
     : friction_(friction),
       interval_s_(interval_s),
+      drag_N_s_per_m_(interval_s * laws::sliding_drag_N_per_m(friction.viscous, segment_m, interval_s)),
       count_(static_cast<std::size_t>(members.members())),
       before_(members),
       response_(count_, 0.0) {
-    for (const double relative : members.relative_length())
-        drag_N_s_per_m_.push_back(
-            interval_s * laws::sliding_drag_N_per_m(friction.viscous, relative * mean_segment_m, interval_s));
     for (auto* rows : {&exponent_, &lagging_m_per_s_, &speed_m_per_s_, &tension_N_, &drag_N_, &last_drag_N_,
                        &last_found_N_})
         rows->assign(count_ * static_cast<std::size_t>(members.segments()), 0.0);
@@ -103,7 +101,7 @@ void RateFrictionStep::learn_response() {
         double squares = 0.0;
         for (std::size_t k = j; k < drag_N_.size(); k += count_) {
             const double assumed_N = drag_N_[k] - last_drag_N_[k];
-            cross += assumed_N * (drag_N_s_per_m_[k / count_] * speed_m_per_s_[k] - last_found_N_[k]);
+            cross += assumed_N * (found_drag_N(k) - last_found_N_[k]);
             squares += assumed_N * assumed_N;
         }
         if (squares > 0.0) response_[j] = std::clamp(cross / squares, min_response, 0.0);
@@ -113,7 +111,7 @@ void RateFrictionStep::learn_response() {
 // The drag that the next trial would find if it followed the one assumed so.
 void RateFrictionStep::put_drag_right() {
     for (std::size_t k = 0; k < drag_N_.size(); ++k) {
-        const double found_N = drag_N_s_per_m_[k / count_] * speed_m_per_s_[k];
+        const double found_N = found_drag_N(k);
         last_drag_N_[k] = drag_N_[k];
         last_found_N_[k] = found_N;
         drag_N_[k] = std::max(drag_N_[k] + (found_N - drag_N_[k]) / (1.0 - response_[k % count_]), 0.0);

@@ -24,7 +24,7 @@ struct RateFriction {
 /// put right by the speed that comes out, and the step is taken again.
 class RateFrictionStep {
   public:
-    RateFrictionStep(const RateFriction& friction, const CableEnsemble& members, double mean_segment_m,
+    RateFrictionStep(const RateFriction& friction, const CableEnsemble& members, double segment_m,
                      double interval_s);
 
     /// One step as CableEnsemble::advance. `wrap_rad`: segments x members. The members' sliding exponents are
@@ -37,11 +37,14 @@ class RateFrictionStep {
     void observe(const CableEnsemble& members);
     void learn_response();
     void put_drag_right();
+    double found_drag_N(std::size_t k) const {
+        return drag_N_s_per_m_ * before_.relative_length()[k / count_] * speed_m_per_s_[k];
+    }
 
     // Rows are segments x members.
     RateFriction friction_;
     double interval_s_;
-    std::vector<double> drag_N_s_per_m_;   // segments
+    double drag_N_s_per_m_;                // of a segment of mean length
     std::size_t count_;                    // members
     CableEnsemble before_;                 // as the step found them
     std::vector<double> exponent_;         // without what depends on speed

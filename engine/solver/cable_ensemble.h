@@ -75,6 +75,7 @@ class CableEnsemble {
     NodeTable displacement_m_;             // nodes x members
     NodeTable sliding_exponent_;           // segments x members
     NodeTable sliding_ratio_;              // segments x members
+    NodeTable inverse_ratio_;              // segments x members: 1 / sliding ratio
     NodeTable breakaway_ratio_;            // segments x members
     NodeTable compliance_m_per_N_;         // members
     std::vector<double> relative_length_;  // segments

@@ -321,7 +321,8 @@ TEST(SensorChoice, EachWorldMovesTheFarEndByAnotherStretchOfTheLog) {
         starts.insert(start);
         for (int sample = 0; sample < drawn.samples(); ++sample) {
             const double moved = start + sample + 1.0;
-            EXPECT_NEAR(drawn.sensed[static_cast<std::size_t>(sample)], 1e-6 * (moved * moved - start * start), 1e-10);
+            EXPECT_NEAR(drawn.sensed[static_cast<std::size_t>(sample)],
+                        1e-6 * (moved * moved - start * start), 1e-10);
         }
     }
     EXPECT_GT(starts.size(), 30U);
