@@ -29,6 +29,15 @@ struct CableSpecification {
     std::vector<double> node_places_m{};
 };
 
+/// How many cables a transmission has.
+enum class CableArrangement {
+    single,     ///< one cable with its far end held
+    pull_pull,  ///< two cables between pulleys (E15)
+};
+constexpr int cables_of(CableArrangement arrangement) {
+    return arrangement == CableArrangement::pull_pull ? 2 : 1;
+}
+
 /// The largest friction exponent (mu times total wrap angle) taken: beyond it a tension ratio leaves the
 /// range of double precision, and the far end of a real cable feels nothing long before.
 inline constexpr double largest_friction_exponent = 300.0;

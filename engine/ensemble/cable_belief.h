@@ -16,8 +16,9 @@ struct FarEndSupport {
 
 /// What an estimator believes before it has seen a reading.
 struct CableBelief {
-    CableFactors expected;  ///< log_wrap: of every bend, or empty
-    CableUncertainty uncertainty;
+    CableArrangement arrangement = CableArrangement::single;
+    std::array<CableFactors, 2> expected;  ///< of cable A and of cable B; log_wrap: of every bend, or empty
+    CableUncertainty uncertainty;          ///< of each cable on its own
     FarEndMotion far_end;
     FarEndSupport support;
     double interval_s = 0.01;  ///< between samples

@@ -15,21 +15,21 @@ Cable nominal_cable(CableSpecification nominal, const RateFriction& friction) {
 }  // namespace
 
 EnsembleCable::EnsembleCable(const UncertainCable& cable, const CableBelief& belief,
-                             const EnsembleDraws& draws, int first_draw)
+                             const EnsembleDraws& draws, int which)
     : cable_(cable),
       members_(nominal_cable(cable.nominal(), belief.rate_friction), draws.members()),
       support_(belief.support),
       nominal_compliance_m_per_N_(Cable(cable.nominal()).mean_segment_compliance_m_per_N()),
       nominal_pretension_N_(cable.nominal().pretension_N) {
     const CableUncertainty& unknown = belief.uncertainty;
-    log_friction_ = spread(belief.expected.log_friction, unknown.friction, draws.parameter(first_draw));
-    log_stiffness_ =
-        spread(belief.expected.log_stiffness, unknown.stiffness, draws.parameter(first_draw + 1));
-    log_pretension_ =
-        spread(belief.expected.log_pretension, unknown.pretension, draws.parameter(first_draw + 2));
+    const CableFactors& believed = belief.expected[static_cast<std::size_t>(which)];
+    const int first_draw = which * drawn_numbers(cable);
+    log_friction_ = spread(believed.log_friction, unknown.friction, draws.parameter(first_draw));
+    log_stiffness_ = spread(believed.log_stiffness, unknown.stiffness, draws.parameter(first_draw + 1));
+    log_pretension_ = spread(believed.log_pretension, unknown.pretension, draws.parameter(first_draw + 2));
     for (int bend = 0; bend < cable_.bends(); ++bend) {
         const auto b = static_cast<std::size_t>(bend);
-        const double expected = b < belief.expected.log_wrap.size() ? belief.expected.log_wrap[b] : 0.0;
+        const double expected = b < believed.log_wrap.size() ? believed.log_wrap[b] : 0.0;
         log_wrap_.push_back(spread(expected, unknown.wrap, draws.parameter(first_draw + 3 + bend)));
     }
     const auto count = static_cast<std::size_t>(members_.members());
@@ -46,6 +46,7 @@ EnsembleCable::EnsembleCable(const UncertainCable& cable, const CableBelief& bel
 }
 
 EnsembleReport EnsembleCable::advance(double proximal_increment_m, std::span<const double> far_end_m) {
+    moved_m_ += proximal_increment_m;
     const double stiffness = support_.spring_stiffness_N_per_m;
     for (std::size_t j = 0; j < distal_value_.size(); ++j)
         distal_value_[j] = stiffness > 0.0 ? pretension_N_[j] + stiffness * far_end_m[j] : far_end_m[j];
@@ -79,6 +80,40 @@ void EnsembleCable::settle(std::span<const double> far_end_m) {
         if (!(highest_N[j] > 0.0) && !is_slack(static_cast<int>(j))) members_.make_slack(static_cast<int>(j));
     take_numbers();
     take_displacements(far_end_m);
+}
+
+// E2 from the distal end to the proximal one, less where the motor has put it.
+void EnsembleCable::find_off_motor_m(std::span<double> off_m) const {
+    const auto proximal_m = members_.displacement_m(0);
+    const auto compliance = members_.compliance_m_per_N();
+    for (std::size_t j = 0; j < off_m.size(); ++j) {
+        const double rest_m = -members_.segments() * compliance[j] * pretension_N_[j];
+        off_m[j] = is_slack(static_cast<int>(j)) ? 0.0 : proximal_m[j] - rest_m - moved_m_;
+    }
+}
+
+void EnsembleCable::stretch(std::span<const double> far_end_by_m, std::span<const double> proximal_by_m) {
+    const double stiffness = support_.spring_stiffness_N_per_m;
+    const double spring_m_per_N = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
+    const auto compliance = members_.compliance_m_per_N();
+    std::vector<double>& further_N = workspace_;
+    for (std::size_t j = 0; j < further_N.size(); ++j) {
+        const double all_m_per_N = members_.segments() * compliance[j] + spring_m_per_N;
+        further_N[j] = (far_end_by_m[j] - proximal_by_m[j]) / all_m_per_N;
+        if (is_slack(static_cast<int>(j))) further_N[j] = 0.0;
+    }
+    double relative_m_per_N = 0.0;  // beyond the distal end, in compliances
+    for (int node = members_.segments(); node >= 0; --node) {
+        const auto tension_N = members_.tension_N(node);
+        const auto displacement_m = members_.displacement_m(node);
+        for (std::size_t j = 0; j < further_N.size(); ++j) {
+            if (is_slack(static_cast<int>(j))) continue;
+            displacement_m[j] +=
+                far_end_by_m[j] - further_N[j] * (spring_m_per_N + relative_m_per_N * compliance[j]);
+            tension_N[j] = std::max(tension_N[j] + further_N[j], 0.0);
+        }
+        if (node > 0) relative_m_per_N += members_.relative_length()[static_cast<std::size_t>(node - 1)];
+    }
 }
 
 double EnsembleCable::tension_N(const SensorSpot& spot, int member) const {

@@ -16,10 +16,12 @@ namespace capstan {
 /// stiffness, log pretension and log wrap of every bend. All arrays are rows of members.
 class EnsembleCable {
   public:
-    /// The cable under its pretension, its distal end at 0. `cable` must outlive it; the draws of its numbers
-    /// begin at row `first_draw`.
+    /// Cable `which` of the belief under its pretension, its distal end at 0. `cable` must outlive it; each
+    /// cable has draws of its own.
     EnsembleCable(const UncertainCable& cable, const CableBelief& belief, const EnsembleDraws& draws,
-                  int first_draw);
+                  int which);
+    /// Numbers that are drawn for a cable.
+    static int drawn_numbers(const UncertainCable& cable) { return 3 + cable.bends(); }
 
     /// One step. The distal end, or its spring's wall, is at `far_end_m` (members).
     EnsembleReport advance(double proximal_increment_m, std::span<const double> far_end_m);
@@ -30,6 +32,11 @@ class EnsembleCable {
     /// Makes what was corrected a state again: no cable pushes, the numbers count, and displacements follow
     /// from tensions and compliances, back from the far end (E2).
     void settle(std::span<const double> far_end_m);
+    /// By how much the proximal end is beyond where the motor has put it (members; 0 where slack).
+    void find_off_motor_m(std::span<double> off_m) const;
+    /// Moves the distal end (or its spring's wall) and the proximal end by these (members), under a tension
+    /// that changes by as much everywhere along the cable.
+    void stretch(std::span<const double> far_end_by_m, std::span<const double> proximal_by_m);
 
     int nodes() const { return members_.nodes(); }
     bool is_slack(int member) const { return members_.is_slack(member); }
@@ -48,6 +55,7 @@ class EnsembleCable {
     CableEnsemble members_;
     FarEndSupport support_;
     std::optional<RateFrictionStep> rate_step_;
+    double moved_m_ = 0.0;  // by the motor since the start
     double nominal_compliance_m_per_N_;
     double nominal_pretension_N_;
     std::vector<double> log_friction_;           // members

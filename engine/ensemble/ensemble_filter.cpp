@@ -10,11 +10,18 @@ namespace capstan {
 EnsembleFilter::EnsembleFilter(const UncertainCable& cable, const CableBelief& belief,
                                std::span<const SensorOffer> offers, std::span<const int> sensors,
                                const EnsembleDraws& draws)
-    : draws_(draws), member_cable_(cable, belief, draws, 0), far_end_(belief.far_end, belief.interval_s) {
+    : draws_(draws), far_end_(belief.far_end, belief.interval_s) {
+    const int cables = cables_of(belief.arrangement);
+    if (cables == 2 && belief.support.spring_stiffness_N_per_m > 0.0)
+        throw InvalidInput(
+            {"ensemble filter: a spring at the load of a pull-pull pair is not known to it; "
+             "prescribe the load's motion"});
+    for (int which = 0; which < cables; ++which) cables_.emplace_back(cable, belief, draws, which);
     const auto count = static_cast<std::size_t>(draws.members());
-    for (auto* row : {&far_end_m_, &far_end_m_per_s_, &sensed_, &pull_, &tension_pull_})
+    for (auto* row : {&far_end_m_, &far_end_m_per_s_, &opposite_m_, &off_m_[0], &off_m_[1], &far_end_by_m_,
+                      &sensed_, &pull_, &tension_pull_})
         row->assign(count, 0.0);
-    mean_N_.assign(static_cast<std::size_t>(member_cable_.nodes()), 0.0);
+    mean_N_.assign(static_cast<std::size_t>(cables * cables_.front().nodes()), 0.0);
     deviation_N_ = mean_N_;
     const Cable nominal(cable.nominal());
     for (int rank = 0; rank < static_cast<int>(sensors.size()); ++rank) {
@@ -37,11 +44,18 @@ void EnsembleFilter::step(double proximal_increment_m, std::span<const double> r
     if (!finite) throw InvalidInput({"ensemble filter: an input of this step is not a finite number"});
     if (sample_ >= draws_.samples()) throw InvalidInput({"ensemble filter: a step after the last sample"});
     move_far_end();
-    const EnsembleReport report = member_cable_.advance(proximal_increment_m, far_end_m_);
-    report_.searched += report.searched;
-    report_.unverified += report.unverified;
+    for (std::size_t cable = 0; cable < cables_.size(); ++cable) {
+        const double increment_m = cable == 0 ? proximal_increment_m : -proximal_increment_m;
+        const EnsembleReport report = cables_[cable].advance(increment_m, far_end_m(cable));
+        report_.searched += report.searched;
+        report_.unverified += report.unverified;
+    }
     for (std::size_t s = 0; s < sensors_.size(); ++s) correct(sensors_[s], readings[s]);
-    if (!sensors_.empty()) member_cable_.settle(far_end_m_);
+    if (!sensors_.empty()) {
+        oppose_far_end();
+        for (std::size_t cable = 0; cable < cables_.size(); ++cable) cables_[cable].settle(far_end_m(cable));
+        hold_motor();
+    }
     take_moments();
     ++sample_;
 }
@@ -53,13 +67,54 @@ void EnsembleFilter::move_far_end() {
     const auto second = draws_.second(sample_);
     for (std::size_t j = 0; j < far_end_m_.size(); ++j)
         far_end_.advance(far_end_m_[j], far_end_m_per_s_[j], first[j], second[j]);
+    oppose_far_end();
+}
+
+// E15.
+void EnsembleFilter::oppose_far_end() {
+    for (std::size_t j = 0; j < far_end_m_.size(); ++j) opposite_m_[j] = -far_end_m_[j];
+}
+
+// E42. A reading corrects each row by its own correlation, screened against chance, so that the far end and
+// the stretch of a cable no longer add up to where the motor is, which is known.
+void EnsembleFilter::hold_motor() {
+    const double shared_by = static_cast<double>(cables_.size()) + (far_end_.moves() ? 1.0 : 0.0);
+    for (std::size_t cable = 0; cable < cables_.size(); ++cable)
+        cables_[cable].find_off_motor_m(off_m_[cable]);
+    for (std::size_t j = 0; j < far_end_m_.size(); ++j) {
+        const double off_m = cables_.size() == 1 ? off_m_[0][j] : off_m_[0][j] - off_m_[1][j];
+        far_end_by_m_[j] = far_end_.moves() ? -off_m / shared_by : 0.0;
+        far_end_m_[j] += far_end_by_m_[j];
+    }
+    for (std::size_t cable = 0; cable < cables_.size(); ++cable) {
+        for (double& each : off_m_[cable]) each = -each;
+        cables_[cable].stretch(far_end_by_m_, off_m_[cable]);
+        for (double& each : far_end_by_m_) each = -each;  // of cable B
+    }
+    oppose_far_end();
+}
+
+// E16 over the pulley's radius, or the tension of a single cable's end.
+double EnsembleFilter::end_tension_N(const SensorSpot& spot, int member) const {
+    const double of_a_N = cables_.front().tension_N(spot, member);
+    return cables_.size() == 1 ? of_a_N : of_a_N - cables_.back().tension_N(spot, member);
 }
 
 double EnsembleFilter::sensed(const Fitted& sensor, int member) const {
     const auto j = static_cast<std::size_t>(member);
-    const double value = measures_tension(sensor.offer.kind)
-                             ? member_cable_.tension_N(sensor.spot, member)
-                             : far_end_m_[j] + member_cable_.beyond_wall_m(member);
+    double value = 0.0;
+    switch (sensor.offer.kind) {
+        case SensorKind::tension:
+            value = cables_[static_cast<std::size_t>(sensor.offer.cable)].tension_N(sensor.spot, member);
+            break;
+        case SensorKind::motor_torque:
+        case SensorKind::load_torque:
+            value = end_tension_N(sensor.spot, member);
+            break;
+        case SensorKind::load_displacement:
+            value = far_end_m_[j] + cables_.front().beyond_wall_m(member);
+            break;
+    }
     return value * (1.0 + sensor.gain[j]) + sensor.zero[j];
 }
 
@@ -81,16 +136,19 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
     for (std::size_t j = 0; j < count; ++j) {
         sensed_[j] -= before.mean;
         pull_[j] = reading - before.mean - fraction * sensed_[j];
-        tension_pull_[j] = member_cable_.is_slack(static_cast<int>(j)) ? 0.0 : pull_[j];
     }
     const double degrees = static_cast<double>(count) - 1.0;
     RowCorrection correction{sensed_, tension_pull_, variance * degrees, total * degrees, chance_variances};
-    corrected_.clear();
-    member_cable_.add_tensions(corrected_);
-    correct_rows(correction, corrected_);
+    for (EnsembleCable& cable : cables_) {
+        for (std::size_t j = 0; j < count; ++j)
+            tension_pull_[j] = cable.is_slack(static_cast<int>(j)) ? 0.0 : pull_[j];
+        corrected_.clear();
+        cable.add_tensions(corrected_);
+        correct_rows(correction, corrected_);
+    }
     correction.pull = pull_;
     corrected_ = {far_end_m_.data(), far_end_m_per_s_.data()};
-    member_cable_.add_numbers(corrected_);
+    for (EnsembleCable& cable : cables_) cable.add_numbers(corrected_);
     for (Fitted& each : sensors_) {
         if (each.offer.errors.zero > 0.0) corrected_.push_back(each.zero.data());
         if (each.offer.errors.gain_ratio > 0.0) corrected_.push_back(each.gain.data());
@@ -99,10 +157,13 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
 }
 
 void EnsembleFilter::take_moments() {
-    for (int node = 0; node < member_cable_.nodes(); ++node) {
-        const RowMoments moments = member_cable_.tension_moments_N(node);
-        mean_N_[static_cast<std::size_t>(node)] = moments.mean;
-        deviation_N_[static_cast<std::size_t>(node)] = moments.deviation;
+    std::size_t at = 0;
+    for (const EnsembleCable& cable : cables_) {
+        for (int node = 0; node < cable.nodes(); ++node, ++at) {
+            const RowMoments moments = cable.tension_moments_N(node);
+            mean_N_[at] = moments.mean;
+            deviation_N_[at] = moments.deviation;
+        }
     }
 }
 

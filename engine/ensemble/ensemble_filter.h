@@ -15,8 +15,11 @@ namespace capstan {
 /// the numbers are estimated with the state: log friction, log wrap of every bend, log stiffness, log
 /// pretension, the far end's displacement and speed (E40), the zero and gain of every sensor. A reading
 /// corrects each of them by its correlation with what the members would read (E37). Displacements follow from
-/// tensions and compliances on from the motor, whose position is known (E2); they put the far end where it
-/// is.
+/// tensions and compliances, back from the distal end (E2).
+///
+/// A member can also be a pull-pull pair between two pulleys (E15): two cables with numbers of their own,
+/// whose ends move by as much in opposite directions. They share the far end, and a torque is the difference
+/// of their tensions, so that a reading on one cable corrects the other.
 class EnsembleFilter {
   public:
     /// `cable` and `draws` must outlive the filter. `sensors` are indices into `offers`, and their ranks
@@ -25,15 +28,17 @@ class EnsembleFilter {
                    std::span<const SensorOffer> offers, std::span<const int> sensors,
                    const EnsembleDraws& draws);
 
-    /// One sample later: the motor has moved the proximal end by this, and the sensors read `readings` [N or
-    /// m, displacements from the start]. Throws InvalidInput where one is not a finite number, or after the
-    /// last sample that has draws.
+    /// One sample later: the motor has moved the proximal end (of a pair that of cable A) by this, and the
+    /// sensors read `readings` [N or m, displacements from the start]. Throws InvalidInput where one is not a
+    /// finite number, or after the last sample that has draws.
     void step(double proximal_increment_m, std::span<const double> readings);
 
-    std::span<const double> mean_N() const { return mean_N_; }            ///< nodes
-    std::span<const double> deviation_N() const { return deviation_N_; }  ///< nodes
+    std::span<const double> mean_N() const { return mean_N_; }            ///< cables x nodes
+    std::span<const double> deviation_N() const { return deviation_N_; }  ///< cables x nodes
 
-    RowMoments log_friction() const { return member_cable_.log_friction(); }
+    RowMoments log_friction(int cable = 0) const {
+        return cables_[static_cast<std::size_t>(cable)].log_friction();
+    }
     RowMoments far_end_m() const { return moments_of_row(far_end_m_); }
     const EnsembleReport& report() const { return report_; }  ///< summed over all steps
 
@@ -46,23 +51,32 @@ class EnsembleFilter {
     };
 
     void move_far_end();
+    std::span<const double> far_end_m(std::size_t cable) const {
+        return cable == 0 ? far_end_m_ : opposite_m_;
+    }
+    double end_tension_N(const SensorSpot& spot, int member) const;
+    void oppose_far_end();
+    void hold_motor();
     void correct(Fitted& sensor, double reading);
     double sensed(const Fitted& sensor, int member) const;
     void take_moments();
 
     const EnsembleDraws& draws_;
-    EnsembleCable member_cable_;
+    std::vector<EnsembleCable> cables_;
     FarEndProcess far_end_;
     int sample_ = 0;
     std::vector<double> far_end_m_;        // members
     std::vector<double> far_end_m_per_s_;  // members
+    std::vector<double> opposite_m_;       // members: where the far end of cable B is
+    std::vector<double> off_m_[2];         // members: of each cable's proximal end
+    std::vector<double> far_end_by_m_;     // members
     std::vector<Fitted> sensors_;
     std::vector<double> sensed_;        // members: what each would read, then its distance from their mean
     std::vector<double> pull_;          // members
     std::vector<double> tension_pull_;  // members: 0 for those that are slack
     std::vector<double*> corrected_;    // rows that a reading corrects
-    std::vector<double> mean_N_;        // nodes
-    std::vector<double> deviation_N_;   // nodes
+    std::vector<double> mean_N_;        // cables x nodes
+    std::vector<double> deviation_N_;   // cables x nodes
     EnsembleReport report_;
 };
 

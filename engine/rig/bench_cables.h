@@ -9,11 +9,6 @@
 
 namespace capstan {
 
-enum class CableArrangement {
-    single,     ///< one cable with its far end held
-    pull_pull,  ///< two cables between pulleys (E15)
-};
-
 /// The cables of up to four benches that differ in their numbers: one each, or a pair.
 ///
 /// A node stands for the cable from the middle of one segment to that of the next: tension is constant in a

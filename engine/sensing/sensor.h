@@ -6,10 +6,11 @@ namespace capstan {
 
 /// What a sensor measures. Tensions are in N, displacements in m.
 enum class SensorKind {
-    tension,            ///< of the cable, anywhere along it
-    motor_torque,       ///< tension at the proximal end, as the motor's torque shows it
-    load_torque,        ///< tension at the distal end
-    load_displacement,  ///< of the distal end: an encoder at the joint
+    tension,            ///< of a cable, anywhere along it
+    motor_torque,       ///< tension at the proximal end, as the motor's torque over its pulley's radius shows
+                        ///< it; of a pull-pull pair that of cable A less that of cable B (E16)
+    load_torque,        ///< the same at the distal end
+    load_displacement,  ///< of the distal end, of a pair that of cable A: an encoder at the joint
 };
 
 inline constexpr SensorKind all_sensor_kinds[] = {SensorKind::tension, SensorKind::motor_torque,
@@ -47,6 +48,7 @@ struct SensorOffer {
     double place_m = 0.0;  ///< arc length from the proximal end
     SensorErrors errors;
     double price = 1.0;  ///< in whatever unit the maker counts
+    int cable = 0;       ///< of a tension sensor on a pair: 0 on cable A, 1 on cable B
 };
 
 }  // namespace capstan

@@ -8,6 +8,7 @@
 #include "capstan/config/config_writer.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/storage/study_store.h"
+#include "capstan/worlds/sensor_places.h"
 #include "capstan/worlds/stored_worlds.h"
 
 namespace capstan::answers {
@@ -32,7 +33,10 @@ Data sensors_data(const StudyPlan& plan, const WorldAnswer& found, int candidate
     for (const int sensor : found.set(candidate).sensors) {
         const SensorOffer& offer = found.offers[static_cast<std::size_t>(sensor)];
         const int node = cable.nearest_node(offer.place_m) + 1;
-        sensors.push_back({{"kind", name_of(offer.kind)}, {"place_m", offer.place_m}, {"node", node}});
+        Data data{{"kind", name_of(offer.kind)}, {"place_m", offer.place_m}, {"node", node}};
+        if (offer.kind == SensorKind::tension && has_two_cables(found.offers))
+            data["cable"] = offer.cable == 0 ? "A" : "B";
+        sensors.push_back(std::move(data));
     }
     return sensors;
 }
@@ -232,8 +236,9 @@ Table place_table(const WorldAnswer& found) {
         const Expected& expected = found.prices[k].expected;
         for (const int sensor : found.set(expected.candidate).sensors) {
             const SensorOffer& offer = found.offers[static_cast<std::size_t>(sensor)];
-            table.rows.push_back({found.prices[k].price, std::string(name_of(offer.kind)), offer.place_m,
-                                  expected.objective.value_N, std::int64_t{found.recommended == k ? 1 : 0}});
+            const std::string kind = std::string(name_of(offer.kind)) + (offer.cable == 1 ? ", cable B" : "");
+            table.rows.push_back({found.prices[k].price, kind, offer.place_m, expected.objective.value_N,
+                                  std::int64_t{found.recommended == k ? 1 : 0}});
         }
     }
     return table;

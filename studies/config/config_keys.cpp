@@ -51,6 +51,18 @@ void add_transmission_keys(std::vector<StudyKey>& keys) {
          "Number of segments of the cable. Nodes are their ends, numbered 1 (proximal, motor) "
          "to segments + 1 (distal, load). Sensors sit at nodes."},
         transmission_cable);
+    StudyKey arrangement = choice<CableArrangement>(
+        {at, "arrangement", "",
+         "\"single\": one cable; \"pull_pull\": two such cables, A and B, between a motor pulley and a load pulley, of "
+         "studies with [uncertainty]. Motions are then those of the ends of cable A, on the pulleys' rims; cable B "
+         "moves by as much the other way. It is \"single\" if left out."},
+        {{"single", CableArrangement::single}, {"pull_pull", CableArrangement::pull_pull}}, {},
+        [](auto& plan, int) -> auto& { return plan.transmission.arrangement; });
+    arrangement.read = [](const StudyPlan& plan, int) -> ConfigValue {
+        if (plan.transmission.arrangement == CableArrangement::single) return {};
+        return std::string("pull_pull");
+    };
+    keys.push_back(std::move(arrangement));
     StudyKey cut = choice<CableCut>(
         {at, "cut", "",
          "Where nodes lie: \"even\" cuts equal segments; \"at_bends\" puts nodes at both ends of every bend and at the "

@@ -76,7 +76,8 @@ void add_sensor_keys(StudyKeys& keys) {
     keys.push_back(required(choice<SensorKind>(
         {"sensor", "kind", "",
          "What it measures: \"tension\" of the cable, anywhere along it; the tension at an end as \"motor_torque\" or "
-         "\"load_torque\" shows it; \"load_displacement\", an encoder at the far end."},
+         "\"load_torque\" shows it; \"load_displacement\", an encoder at the far end. Of a pull-pull pair a torque is the "
+         "difference of both cables' tensions there, so that its noise_N is a torque over the pulley's radius."},
         kinds, {}, [](auto& plan, int row) -> auto& { return sensor_of(plan, row).kind; })));
     StudyKey places = number_list<StudyPlan>(
         {"sensor", "places_m", "m", "Where it fits, from the motor along the cable; empty: at every node."},
@@ -86,6 +87,17 @@ void add_sensor_keys(StudyKeys& keys) {
                                                 return sensor_of(plan, row).kind == SensorKind::tension;
                                             },
                                             "kind = \"tension\""}));
+    keys.push_back(only(
+        choice<OfferedOn>(
+            {"sensor", "cable", "",
+             "On which cable of a pull-pull pair it can be had: \"A\", \"B\", or \"both\", on each of them."},
+            {{"both", OfferedOn::both}, {"A", OfferedOn::cable_a}, {"B", OfferedOn::cable_b}},
+            std::string("both"), [](auto& plan, int row) -> auto& { return sensor_of(plan, row).cable; }),
+        {[](const StudyPlan& plan, int row) {
+             return plan.transmission.arrangement == CableArrangement::pull_pull &&
+                    sensor_of(plan, row).kind == SensorKind::tension;
+         },
+         "kind = \"tension\" and transmission.arrangement = \"pull_pull\""}));
     keys.push_back(
         sensor_error({"", "noise_ratio", "",
                       "Standard deviation of the part of each reading's error that is proportional to what "

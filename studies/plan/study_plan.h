@@ -47,7 +47,8 @@ struct ConduitCourse {
 };
 
 struct Transmission {
-    CableSpecification cable;
+    CableSpecification cable;  ///< of a pull-pull pair each of the two
+    CableArrangement arrangement = CableArrangement::single;
     ConduitCourse course{};
     CableCut cut = CableCut::even;  ///< place_nodes() does it
     ModelRules rules = ModelRules::consistent();
@@ -153,6 +154,9 @@ void place_nodes(StudyPlan& plan);
 /// Everything wrong with the plan's values, each with the key it belongs to and what to try. Simulates
 /// nothing.
 std::vector<KeyProblem> problems_of_values(const StudyPlan& plan);
+
+/// What problems_of_values() says of a plan that draws worlds, beside what it says of every plan.
+std::vector<KeyProblem> problems_of_worlds(const StudyPlan& plan);
 
 /// The same, and each instant that is not in its regime, which takes a simulation of the motion; empty when
 /// the plan can run.

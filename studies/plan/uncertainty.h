@@ -46,12 +46,16 @@ struct Uncertainty {
         1.0;  ///< that a world has what [truth] says; else it is about the nominal cable
 };
 
+/// The cables of a pair that a sensor can be had on.
+enum class OfferedOn { both, cable_a, cable_b };
+
 /// One or more sensors of a kind that can be bought, a row of [[sensor]].
 struct SensorRow {
     SensorKind kind = SensorKind::tension;
     std::vector<double> places_m;  ///< of a tension sensor; empty: every node
     SensorErrors errors;
     double price = 1.0;
+    OfferedOn cable = OfferedOn::both;  ///< of a tension sensor on a pull-pull pair
 };
 
 }  // namespace capstan

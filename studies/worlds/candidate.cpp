@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -36,17 +37,20 @@ class Constraints {
         if (static_cast<int>(sensors.size()) > plan_.max_sensors) return false;
         if (price_of(sensors, offers_) > plan_.budget * (1.0 + 1e-12)) return false;
         int in_distal_half = 0;
-        std::vector<double> places_m;
+        std::array<std::vector<double>, 2> places_m;  // of each cable
         for (const int sensor : sensors) {
             const SensorOffer& offer = offers_[static_cast<std::size_t>(sensor)];
             if (is_forbidden(offer)) return false;
             if (offer.place_m > 0.5 * cable_.length_m() + same_place_m) ++in_distal_half;
-            if (offer.kind == SensorKind::tension) places_m.push_back(offer.place_m);
+            if (offer.kind == SensorKind::tension)
+                places_m[static_cast<std::size_t>(offer.cable)].push_back(offer.place_m);
         }
         if (in_distal_half > plan_.max_in_distal_half) return false;
-        std::sort(places_m.begin(), places_m.end());
-        for (std::size_t k = 1; k < places_m.size(); ++k)
-            if (are_too_close(places_m[k - 1], places_m[k])) return false;
+        for (std::vector<double>& of_cable : places_m) {
+            std::sort(of_cable.begin(), of_cable.end());
+            for (std::size_t k = 1; k < of_cable.size(); ++k)
+                if (are_too_close(of_cable[k - 1], of_cable[k])) return false;
+        }
         return true;
     }
 
@@ -94,16 +98,19 @@ class Constraints {
 
 // Sensors by kind: where a family may put tension sensors, and what else can be bought.
 struct Shelf {
-    std::vector<int> along;  // tension sensors, by place
+    std::array<std::vector<int>, 2> along;  // tension sensors of each cable, by place
     std::vector<int> others;
 };
 
 Shelf shelf_of(const std::vector<SensorOffer>& offers) {
     Shelf shelf;
-    for (std::size_t k = 0; k < offers.size(); ++k)
-        (offers[k].kind == SensorKind::tension ? shelf.along : shelf.others).push_back(static_cast<int>(k));
-    std::stable_sort(shelf.along.begin(), shelf.along.end(),
-                     [&](int a, int b) { return offers[a].place_m < offers[b].place_m; });
+    for (std::size_t k = 0; k < offers.size(); ++k) {
+        std::vector<int>& along = shelf.along[static_cast<std::size_t>(offers[k].cable)];
+        (offers[k].kind == SensorKind::tension ? along : shelf.others).push_back(static_cast<int>(k));
+    }
+    for (std::vector<int>& along : shelf.along)
+        std::stable_sort(along.begin(), along.end(),
+                         [&](int a, int b) { return offers[a].place_m < offers[b].place_m; });
     return shelf;
 }
 
@@ -146,30 +153,44 @@ void add(NamedSets& sets, std::vector<int> sensors, const std::string& name) {
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-NamedSets named_sets(const StudyPlan& plan, const std::vector<SensorOffer>& offers) {
-    const Shelf shelf = shelf_of(offers);
-    const int places = static_cast<int>(shelf.along.size());
+// The named sets of tension sensors on one cable, in the order of their making: `along` are its sensors.
+std::vector<std::pair<std::string, std::vector<int>>> sets_along(const StudyPlan& plan,
+                                                                 const std::vector<SensorOffer>& offers,
+                                                                 const std::vector<int>& along) {
+    std::vector<std::pair<std::string, std::vector<int>>> sets;
+    const int places = static_cast<int>(along.size());
     std::vector<double> places_m;
-    for (const int sensor : shelf.along) places_m.push_back(offers[static_cast<std::size_t>(sensor)].place_m);
-    NamedSets along;
+    for (const int sensor : along) places_m.push_back(offers[static_cast<std::size_t>(sensor)].place_m);
+    const auto take = [&](const std::string& name, const std::vector<int>& chosen) {
+        sets.push_back({name, {}});
+        for (const int place : chosen)
+            if (place < places) sets.back().second.push_back(along[static_cast<std::size_t>(place)]);
+    };
     for (const std::string& family : plan.layout_families) {
         for (const int count : plan.sensor_counts) {
             if (count > places) continue;
-            for (const std::vector<int>& set : family_sets(family, count, places_m)) {
-                std::vector<int> sensors;
-                for (const int place : set) sensors.push_back(shelf.along[static_cast<std::size_t>(place)]);
-                add(along, sensors, family);
-            }
+            for (const std::vector<int>& set : family_sets(family, count, places_m)) take(family, set);
         }
     }
-    for (const std::vector<int>& nodes : plan.explicit_layouts) {
-        std::vector<int> sensors;
-        for (const int node : nodes)
-            if (node < places) sensors.push_back(shelf.along[static_cast<std::size_t>(node)]);
-        add(along, sensors, "explicit");
+    for (const std::vector<int>& nodes : plan.explicit_layouts) take("explicit", nodes);
+    return sets;
+}
+
+NamedSets named_sets(const StudyPlan& plan, const std::vector<SensorOffer>& offers) {
+    const Shelf shelf = shelf_of(offers);
+    NamedSets along;
+    const auto on_a = sets_along(plan, offers, shelf.along[0]);
+    const auto on_b = sets_along(plan, offers, shelf.along[1]);
+    for (const auto& [name, sensors] : on_a) add(along, sensors, name);
+    for (const auto& [name, sensors] : on_b) add(along, sensors, name);
+    // The same on both cables of a pair.
+    for (std::size_t k = 0; k < std::min(on_a.size(), on_b.size()); ++k) {
+        std::vector<int> both = on_a[k].second;
+        both.insert(both.end(), on_b[k].second.begin(), on_b[k].second.end());
+        if (on_a.size() == on_b.size()) add(along, both, on_a[k].first);
     }
     add(along, {}, "");
-    // With each set along the cable every selection of the other sensors.
+    // With each set of tension sensors every selection of the other sensors.
     NamedSets sets;
     const auto selections = std::size_t{1} << std::min<std::size_t>(shelf.others.size(), 10);
     for (const auto& [sensors, names] : along) {
@@ -226,22 +247,26 @@ std::vector<Candidate> candidates_of(const StudyPlan& plan, const std::vector<Se
 
 std::string words_of(const Candidate& candidate, const std::vector<SensorOffer>& offers) {
     if (candidate.sensors.empty()) return "no sensor";
-    std::vector<std::string> along;
+    std::array<std::vector<std::string>, 2> along;  // places on each cable
     std::vector<std::string> parts;
     for (const int sensor : candidate.sensors) {
         const SensorOffer& offer = offers[static_cast<std::size_t>(sensor)];
         if (offer.kind == SensorKind::tension) {
-            along.push_back(fmt::format("{:.3g}", offer.place_m));
+            along[static_cast<std::size_t>(offer.cable)].push_back(fmt::format("{:.3g}", offer.place_m));
         } else {
             parts.push_back(words_of(offer));
         }
     }
-    if (!along.empty()) {
-        const std::string last = along.back();
-        along.pop_back();
-        parts.insert(parts.begin(),
-                     along.empty() ? fmt::format("tension at {} m", last)
-                                   : fmt::format("tension at {} and {} m", fmt::join(along, ", "), last));
+    const bool names_cable = has_two_cables(offers);
+    for (const int cable : {1, 0}) {
+        std::vector<std::string>& places = along[static_cast<std::size_t>(cable)];
+        if (places.empty()) continue;
+        const std::string last = places.back();
+        places.pop_back();
+        const std::string at =
+            places.empty() ? last : fmt::format("{} and {}", fmt::join(places, ", "), last);
+        const std::string_view of = !names_cable ? "" : cable == 0 ? " of cable A" : " of cable B";
+        parts.insert(parts.begin(), fmt::format("tension at {} m{}", at, of));
     }
     return fmt::format("{}", fmt::join(parts, "; "));
 }

@@ -47,23 +47,18 @@ int pieces_under(Condition condition) {
 
 // What the estimator believes in a world in which one thing is known.
 CableBelief belief_under(Condition condition, CableBelief belief, const World& world) {
-    const CableFactors& true_factors = world.factors;
-    if (condition == Condition::friction_known) {
-        belief.expected.log_friction = true_factors.log_friction;
-        belief.uncertainty.friction = 0.0;
+    for (std::size_t cable = 0; cable < belief.expected.size(); ++cable) {
+        CableFactors& expected = belief.expected[cable];
+        const CableFactors& truth = world.factors[cable];
+        if (condition == Condition::friction_known) expected.log_friction = truth.log_friction;
+        if (condition == Condition::wrap_known) expected.log_wrap = truth.log_wrap;
+        if (condition == Condition::stiffness_known) expected.log_stiffness = truth.log_stiffness;
+        if (condition == Condition::pretension_known) expected.log_pretension = truth.log_pretension;
     }
-    if (condition == Condition::wrap_known) {
-        belief.expected.log_wrap = true_factors.log_wrap;
-        belief.uncertainty.wrap = 0.0;
-    }
-    if (condition == Condition::stiffness_known) {
-        belief.expected.log_stiffness = true_factors.log_stiffness;
-        belief.uncertainty.stiffness = 0.0;
-    }
-    if (condition == Condition::pretension_known) {
-        belief.expected.log_pretension = true_factors.log_pretension;
-        belief.uncertainty.pretension = 0.0;
-    }
+    if (condition == Condition::friction_known) belief.uncertainty.friction = 0.0;
+    if (condition == Condition::wrap_known) belief.uncertainty.wrap = 0.0;
+    if (condition == Condition::stiffness_known) belief.uncertainty.stiffness = 0.0;
+    if (condition == Condition::pretension_known) belief.uncertainty.pretension = 0.0;
     return belief;
 }
 

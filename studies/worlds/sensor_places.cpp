@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "capstan/cable/cable_cut.h"
 
 namespace capstan {
@@ -44,9 +46,20 @@ std::vector<SensorOffer> sensor_offers(const StudyPlan& plan) {
                 places_m = {length_m(cable.curvature)};
                 break;
         }
-        for (const double place_m : places_m) offers.push_back({row.kind, place_m, row.errors, row.price});
+        const bool on_pair =
+            plan.transmission.arrangement == CableArrangement::pull_pull && row.kind == SensorKind::tension;
+        for (int cable = 0; cable < (on_pair ? 2 : 1); ++cable) {
+            if (on_pair && row.cable == (cable == 0 ? OfferedOn::cable_b : OfferedOn::cable_a)) continue;
+            for (const double place_m : places_m)
+                offers.push_back({row.kind, place_m, row.errors, row.price, cable});
+        }
     }
     return offers;
+}
+
+bool has_two_cables(const std::vector<SensorOffer>& offers) {
+    return std::any_of(offers.begin(), offers.end(),
+                       [](const SensorOffer& offer) { return offer.cable == 1; });
 }
 
 std::string words_of(const SensorOffer& offer) {

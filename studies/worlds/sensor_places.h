@@ -14,6 +14,9 @@ std::vector<SensorOffer> sensor_offers(const StudyPlan& plan);
 /// The plan's rows of sensors, with neither zero nor gain error.
 std::vector<SensorRow> calibrated_sensors(const StudyPlan& plan);
 
+/// Whether sensors are offered on both cables of a pair, so that words must name the cable.
+bool has_two_cables(const std::vector<SensorOffer>& offers);
+
 /// "tension at 0.35 m", "encoder at the load".
 std::string words_of(const SensorOffer& offer);
 

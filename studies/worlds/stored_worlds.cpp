@@ -18,7 +18,11 @@ std::string sensors_json(const Candidate& candidate, const std::vector<SensorOff
     std::vector<std::string> sensors;
     for (const int sensor : candidate.sensors) {
         const SensorOffer& offer = offers[static_cast<std::size_t>(sensor)];
-        sensors.push_back(fmt::format(R"({{"kind":"{}","place_m":{}}})", name_of(offer.kind), offer.place_m));
+        const std::string_view cable = !has_two_cables(offers) || offer.kind != SensorKind::tension ? ""
+                                       : offer.cable == 0 ? R"(,"cable":"A")"
+                                                          : R"(,"cable":"B")";
+        sensors.push_back(
+            fmt::format(R"({{"kind":"{}","place_m":{}{}}})", name_of(offer.kind), offer.place_m, cable));
     }
     return fmt::format("[{}]", fmt::join(sensors, ","));
 }

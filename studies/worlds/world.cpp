@@ -8,6 +8,7 @@
 #include "capstan/cable/cable_cut.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/sensing/random_stream.h"
+#include "capstan/solver/pull_pull.h"
 #include "capstan/worlds/sensor_places.h"
 
 namespace capstan {
@@ -28,11 +29,13 @@ double log_factor(const Uncertainty& uncertainty, double fraction, double normal
     return std::log(std::max(1.0 + width * evenly, 0.01));
 }
 
-CableFactors draw_factors(const WorldQuestion& question, std::uint32_t index) {
+CableFactors draw_factors(const WorldQuestion& question, std::uint32_t index, int cable) {
+    const auto first = static_cast<std::uint32_t>(cable * EnsembleCable::drawn_numbers(question.cable));
     const Uncertainty& unknown = question.uncertainty;
     const auto factor = [&](double fraction, std::uint32_t which) {
-        return log_factor(unknown, fraction,
-                          standard_normals({question.seed, RandomPurpose::world_cable, 0, index, which})[0]);
+        return log_factor(
+            unknown, fraction,
+            standard_normals({question.seed, RandomPurpose::world_cable, 0, index, first + which})[0]);
     };
     CableFactors factors{factor(unknown.friction_fraction, 0),
                          factor(unknown.stiffness_fraction, 1),
@@ -83,57 +86,91 @@ std::vector<double> far_end_of(const WorldQuestion& question, std::uint32_t inde
     return displacement_m;
 }
 
-// The true cable of a world over time: by the closed-form step, or with effects by the bench.
+// The true transmission of a world over time: by the closed-form step, a single cable with effects by the
+// bench.
 class TrueMover {
   public:
     TrueMover(const WorldQuestion& question, const World& world, std::uint32_t index)
-        : step_(Cable(specification_of(question, world, index)), ModelRules::consistent()),
-          stiffness_N_per_m_(question.belief.support.spring_stiffness_N_per_m),
-          state_(pretensioned(step_.cable())),
-          begun_m_(state_.displacement_m.front()) {
+        : stiffness_N_per_m_(question.belief.support.spring_stiffness_N_per_m) {
+        const Cable first(specification_of(question, world.factors[0], index));
+        if (question.belief.arrangement == CableArrangement::pull_pull) {
+            const Cable second(specification_of(question, world.factors[1], index));
+            pair_.emplace(first, second, Pulleys{1.0, 1.0});  // angles are metres
+            pair_state_ = pair_->at_rest();
+            return;
+        }
+        step_.emplace(first, ModelRules::consistent());
+        pair_state_.cable_a = pretensioned(first);
+        begun_m_ = pair_state_.cable_a.displacement_m.front();
         if (!question.truth.has_effects() || !is_as_truth_says(question, index)) return;
-        effects_.emplace(specification_of(question, world, index), question.truth.effects,
+        effects_.emplace(specification_of(question, world.factors[0], index), question.truth.effects,
                          question.motion.sample_rate_Hz);
     }
 
     bool has_effects() const { return effects_.has_value(); }
     int unsolved_steps() const { return unsolved_steps_; }
+    int cables() const { return pair_ ? 2 : 1; }
+    const CableState& state(int cable) const {
+        if (effects_) return effects_->state();
+        return cable == 0 ? pair_state_.cable_a : pair_state_.cable_b;
+    }
 
-    // Both ends as they moved since the start; of a spring its wall.
-    const CableState& advance(int sample, double proximal_m, double far_end_m) {
-        if (effects_) {
-            if (!effects_->advance(sample, proximal_m, far_end_m)) ++unsolved_steps_;
-            return effects_->state();
-        }
-        const EndCondition distal =
-            stiffness_N_per_m_ > 0.0
-                ? EndCondition{stiffness_N_per_m_, 1.0,
-                               step_.cable().pretension_N() + stiffness_N_per_m_ * far_end_m}
-                : EndCondition::position_m(far_end_m);
-        const StepReport report =
-            step_.advance(state_, {EndCondition::position_m(begun_m_ + proximal_m), distal});
-        unsolved_steps_ += report.verified ? 0 : 1;
-        return state_;
+    // Both ends (of a pair those of cable A) as they moved since the start; of a spring its wall.
+    void advance(int sample, double proximal_m, double far_end_m) {
+        const bool is_solved = effects_ ? effects_->advance(sample, proximal_m, far_end_m)
+                               : pair_  ? advance_pair(proximal_m, far_end_m)
+                                        : advance_cable(proximal_m, far_end_m);
+        unsolved_steps_ += is_solved ? 0 : 1;
     }
 
   private:
+    bool advance_pair(double proximal_m, double far_end_m) {
+        return pair_->advance(pair_state_, {MotorAngle{-proximal_m}, LoadAngle{-far_end_m}}).solved();  // E15
+    }
+    bool advance_cable(double proximal_m, double far_end_m) {
+        const EndCondition distal =
+            stiffness_N_per_m_ > 0.0
+                ? EndCondition{stiffness_N_per_m_, 1.0,
+                               step_->cable().pretension_N() + stiffness_N_per_m_ * far_end_m}
+                : EndCondition::position_m(far_end_m);
+        return step_->advance(pair_state_.cable_a, {EndCondition::position_m(begun_m_ + proximal_m), distal})
+            .verified;
+    }
     static bool is_as_truth_says(const WorldQuestion& question, std::uint32_t index) {
         const double normal = standard_normals({question.seed, RandomPurpose::world_cable, 1, index, 0})[0];
         return 0.5 * std::erfc(-normal / std::numbers::sqrt2) < question.uncertainty.truth_probability;
     }
-    static CableSpecification specification_of(const WorldQuestion& question, const World& world,
+    static CableSpecification specification_of(const WorldQuestion& question, const CableFactors& factors,
                                                std::uint32_t index) {
-        const CableSpecification cable = question.cable.with(world.factors);
+        const CableSpecification cable = question.cable.with(factors);
         return is_as_truth_says(question, index) ? true_specification(cable, question.truth) : cable;
     }
 
-    QuasiStaticStep step_;
     double stiffness_N_per_m_;
-    CableState state_;
-    double begun_m_;
+    std::optional<QuasiStaticStep> step_;
+    std::optional<PullPull> pair_;
+    PullPullState pair_state_;  // of a single cable its cable A
+    double begun_m_ = 0.0;
     std::optional<CableWithEffects> effects_;
     int unsolved_steps_ = 0;
 };
+
+// What a sensor without errors would read.
+double sensed_by(const SensorOffer& offer, const Cable& nominal, const TrueMover& mover) {
+    const SensorSpot spot = spot_at(nominal, offer.place_m);
+    switch (offer.kind) {
+        case SensorKind::tension:
+            return tension_at_N(mover.state(offer.cable), spot);
+        case SensorKind::motor_torque:
+        case SensorKind::load_torque: {
+            const double of_a_N = tension_at_N(mover.state(0), spot);
+            return mover.cables() == 1 ? of_a_N : of_a_N - tension_at_N(mover.state(1), spot);  // E16
+        }
+        case SensorKind::load_displacement:
+            return mover.state(0).displacement_m.back();
+    }
+    return 0.0;
+}
 
 }  // namespace
 
@@ -148,6 +185,7 @@ WorldQuestion world_question(const StudyPlan& plan, int pieces) {
                            .seed = plan.seed};
     const Uncertainty& unknown = plan.uncertainty;
     CableBelief& belief = question.belief;
+    belief.arrangement = plan.transmission.arrangement;
     belief.uncertainty = {.friction = deviation_of(unknown, unknown.friction_fraction),
                           .stiffness = deviation_of(unknown, unknown.stiffness_fraction),
                           .pretension = deviation_of(unknown, unknown.pretension_fraction),
@@ -170,7 +208,9 @@ WorldQuestion world_question(const StudyPlan& plan, int pieces) {
 
 World draw_world(const WorldQuestion& question, std::uint32_t index) {
     World world;
-    world.factors = draw_factors(question, index);
+    const int cables = cables_of(question.belief.arrangement);
+    for (int cable = 0; cable < cables; ++cable)
+        world.factors[static_cast<std::size_t>(cable)] = draw_factors(question, index, cable);
     const Cable nominal(question.cable.nominal());
     TrueMover mover(question, world, index);
     const std::vector<double> far_end_m = far_end_of(question, index);
@@ -181,21 +221,20 @@ World draw_world(const WorldQuestion& question, std::uint32_t index) {
     };
     for (std::size_t rank = 0; rank < question.offers.size(); ++rank)
         draw(RandomPurpose::world_sensor, 0, rank, world.fault);
-    world.nodes = nominal.nodes();
+    world.nodes = cables * nominal.nodes();
     const double started_m = ends_at(nominal, question.motion, 0).proximal.value;
     double before_m = started_m;
     for (int sample = 1; sample <= question.motion.samples; ++sample) {
         const double now_m = ends_at(nominal, question.motion, sample).proximal.value;
         world.proximal_increment_m.push_back(now_m - before_m);
         before_m = now_m;
-        const CableState& state =
-            mover.advance(sample, now_m - started_m, far_end_m[static_cast<std::size_t>(sample - 1)]);
-        world.tension_N.insert(world.tension_N.end(), state.tension_N.begin(), state.tension_N.end());
+        mover.advance(sample, now_m - started_m, far_end_m[static_cast<std::size_t>(sample - 1)]);
+        for (int cable = 0; cable < cables; ++cable) {
+            const std::vector<double>& tension_N = mover.state(cable).tension_N;
+            world.tension_N.insert(world.tension_N.end(), tension_N.begin(), tension_N.end());
+        }
         for (std::size_t s = 0; s < question.offers.size(); ++s) {
-            const SensorOffer& offer = question.offers[s];
-            world.sensed.push_back(measures_tension(offer.kind)
-                                       ? tension_at_N(state, spot_at(nominal, offer.place_m))
-                                       : state.displacement_m.back());
+            world.sensed.push_back(sensed_by(question.offers[s], nominal, mover));
             draw(RandomPurpose::world_reading, sample, s, world.noise);
         }
     }

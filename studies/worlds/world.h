@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -24,20 +25,21 @@ struct WorldQuestion {
 /// Throws InvalidInput with problems_of(plan). `pieces`: into how many each of the plan's segments is cut.
 WorldQuestion world_question(const StudyPlan& plan, int pieces = 1);
 
-/// One cable that the sensors could be fitted to, with everything that happened to it.
+/// One cable, or one pull-pull pair, that the sensors could be fitted to, with everything that happened to
+/// it.
 struct World {
-    CableFactors factors;
+    std::array<CableFactors, 2> factors;       // of cable A and of cable B, which only a pair has
     std::vector<double> proximal_increment_m;  // samples
-    std::vector<double> tension_N;             // samples x nodes
+    std::vector<double> tension_N;             // samples x (cables x nodes)
     std::vector<double> sensed;                // samples x offers: without any error, N or m
     std::vector<double> fault;                 // offers x 2: zero and gain, standard normal
     std::vector<double> noise;                 // samples x offers x 2: multiplicative, additive
     bool has_effects = false;
     int unsolved_steps = 0;  ///< of the true cable: no pattern verified, or the effects had no solution
-    int nodes = 0;
+    int nodes = 0;           ///< of all cables
 
     int samples() const { return static_cast<int>(proximal_increment_m.size()); }
-    std::span<const double> tensions_N(int sample) const {  // nodes
+    std::span<const double> tensions_N(int sample) const {  // cables x nodes
         return std::span(tension_N).subspan(static_cast<std::size_t>(sample) * nodes, nodes);
     }
     /// What these sensors read in a sample [N or m]. The draws are those of a sensor's rank in its set, so

@@ -153,6 +153,7 @@ void add_paper(Choice& choice, WorldAnswer& answer) {
     const bool has_tension = std::any_of(sensors.begin(), sensors.end(), [&](int sensor) {
         return measures_tension(offers[static_cast<std::size_t>(sensor)].kind);
     });
+    if (choice.table().plan().transmission.arrangement == CableArrangement::pull_pull) return;
     if (!has_tension || choice.table().plan().transmission.cable.segments > max_estimated_segments) return;
     const int first = choice.worlds();
     const int last = first + std::min(choice.worlds(), worlds_for_paper);

@@ -20,11 +20,23 @@ std::vector<double> fractions_of_nodes(const Cable& cable) {
     return fraction;
 }
 
+// The same over both cables of a pair.
+std::vector<double> fractions_of_nodes(const WorldQuestion& question) {
+    std::vector<double> fraction = fractions_of_nodes(Cable(question.cable.nominal()));
+    if (question.belief.arrangement == CableArrangement::single) return fraction;
+    for (double& each : fraction) each *= 0.5;
+    const std::vector<double> of_one = fraction;
+    fraction.insert(fraction.end(), of_one.begin(), of_one.end());
+    return fraction;
+}
+
 // Adds up what one sample says, and divides in the end.
 class ErrorSums {
   public:
-    explicit ErrorSums(const Cable& cable)
-        : fraction_(fractions_of_nodes(cable)), node_abs_N_(fraction_.size(), 0.0) {}
+    explicit ErrorSums(const WorldQuestion& question)
+        : fraction_(fractions_of_nodes(question)),
+          cables_(static_cast<std::size_t>(cables_of(question.belief.arrangement))),
+          node_abs_N_(fraction_.size(), 0.0) {}
 
     void add(std::span<const double> truth_N, std::span<const double> mean_N,
              std::span<const double> deviation_N) {
@@ -44,7 +56,9 @@ class ErrorSums {
             node_abs_N_[node] /= samples_;
             error.mean_abs_N += fraction_[node] * node_abs_N_[node];
         }
-        error.load_end_N = node_abs_N_.back();
+        const std::size_t nodes = node_abs_N_.size() / cables_;
+        for (std::size_t end = nodes; end <= node_abs_N_.size(); end += nodes)
+            error.load_end_N += node_abs_N_[end - 1] / static_cast<double>(cables_);
         error.worst_place_N = *std::max_element(node_abs_N_.begin(), node_abs_N_.end());
         error.mean_square_N2 = squares_N2_ / samples_;
         error.covered_fraction = covered_ / samples_;
@@ -53,8 +67,9 @@ class ErrorSums {
     }
 
   private:
-    std::vector<double> fraction_;    // nodes
-    std::vector<double> node_abs_N_;  // nodes
+    std::vector<double> fraction_;  // cables x nodes
+    std::size_t cables_;
+    std::vector<double> node_abs_N_;  // cables x nodes
     double squares_N2_ = 0.0;
     double covered_ = 0.0;
     double samples_ = 0.0;
@@ -65,7 +80,7 @@ class ErrorSums {
 EnsembleDraws ensemble_draws(const WorldQuestion& question, std::uint32_t world) {
     return {{question.seed, world},
             question.uncertainty.members,
-            3 + question.cable.bends(),
+            cables_of(question.belief.arrangement) * EnsembleCable::drawn_numbers(question.cable),
             static_cast<int>(question.offers.size()),
             question.motion.samples};
 }
@@ -73,7 +88,7 @@ EnsembleDraws ensemble_draws(const WorldQuestion& question, std::uint32_t world)
 WorldError filter_error(const WorldQuestion& question, const CableBelief& belief, const World& world,
                         const EnsembleDraws& draws, std::span<const int> sensors) {
     EnsembleFilter filter(question.cable, belief, question.offers, sensors, draws);
-    ErrorSums sums(Cable(question.cable.nominal()));
+    ErrorSums sums(question);
     std::vector<double> readings;
     for (int sample = 0; sample < world.samples(); ++sample) {
         world.read(sample, question.offers, sensors, readings);
@@ -97,7 +112,7 @@ WorldError paper_error(const WorldQuestion& question, const World& world, std::s
     }
     RecursiveFusion fusion(step, start, method, DistalSide::admitted, weight_of_node);
     const std::vector<double> band(static_cast<std::size_t>(world.nodes), 0.0);
-    ErrorSums sums(cable);
+    ErrorSums sums(question);
     double proximal_m = start.displacement_m.front();
     std::vector<double> all;
     std::vector<NodeReading> readings;

@@ -65,12 +65,12 @@ TEST(SensorChoice, WorldsAreThoseOfTheSeedAndOfTheTruth) {
     const World world = draw_world(world_question(plan), 3);
     StudyPlan other = plan;
     other.seed = 12;
-    EXPECT_NE(draw_world(world_question(other), 3).factors.log_friction, world.factors.log_friction);
+    EXPECT_NE(draw_world(world_question(other), 3).factors[0].log_friction, world.factors[0].log_friction);
     StudyPlan rough = plan;
     rough.truth.friction_ratio = 1.5;
     const World about_truth = draw_world(world_question(rough), 3);
-    EXPECT_EQ(about_truth.factors.log_friction,
-              world.factors.log_friction);  // the draw is about another centre
+    EXPECT_EQ(about_truth.factors[0].log_friction,
+              world.factors[0].log_friction);  // the draw is about another centre
     EXPECT_NE(about_truth.tensions_N(60).back(), world.tensions_N(60).back());
     StudyPlan soft = plan;
     soft.transmission.cable.segments = 4;
