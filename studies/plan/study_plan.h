@@ -44,11 +44,14 @@ enum class CableCut {
 struct ConduitCourse {
     double length_m = 0.0;  ///< with bends; 0: not stated
     std::vector<Bend> bends{};
+    std::string centre_line;           ///< a CSV file of points; empty: not stated
+    double centre_line_noise_m = 0.0;  ///< standard deviation of each coordinate of its points
 };
 
 struct Transmission {
     CableSpecification cable;
     ConduitCourse course{};
+    std::string conduit_note{};     ///< where the pieces come from, for the reader
     CableCut cut = CableCut::even;  ///< place_nodes() does it
     ModelRules rules = ModelRules::consistent();
 };
