@@ -13,7 +13,7 @@ namespace capstan {
 namespace {
 
 // Points are averaged in groups down to this number: smoothing gains nothing from more.
-constexpr Eigen::Index most_points = 300;
+constexpr Eigen::Index max_points = 300;
 // Smoothed lines with fresh noise; a standard deviation of 200 is known to 5%.
 constexpr int replicates = 200;
 // The turning angle of a piece of constant radius is off by this at most, or by what noise leaves open: it
@@ -34,7 +34,7 @@ struct Grouped {
 
 Grouped grouped(const CentreLine& line) {
     const auto count = static_cast<Eigen::Index>(line.points_m.size());
-    const Eigen::Index size = (count + most_points - 1) / most_points;
+    const Eigen::Index size = (count + max_points - 1) / max_points;
     const Eigen::Index groups = count / size;
     LinePoints points = LinePoints::Zero(groups, 3);
     for (Eigen::Index group = 0; group < groups; ++group) {
@@ -102,17 +102,17 @@ Eigen::VectorXd turning_rad(const Curvatures& all, const LinePoints& curvature) 
 void split(const Eigen::VectorXd& at_m, const Eigen::VectorXd& turned_rad, double tolerance_rad,
            Eigen::Index first, Eigen::Index last, std::vector<Eigen::Index>& ends) {
     Eigen::Index worst = first;
-    double most_rad = 0.0;
+    double max_rad = 0.0;
     for (Eigen::Index k = first + 1; k < last; ++k) {
-        const double share = (at_m[k] - at_m[first]) / (at_m[last] - at_m[first]);
+        const double fraction = (at_m[k] - at_m[first]) / (at_m[last] - at_m[first]);
         const double off_rad =
-            std::abs(turned_rad[k] - turned_rad[first] - share * (turned_rad[last] - turned_rad[first]));
-        if (off_rad > most_rad) {
-            most_rad = off_rad;
+            std::abs(turned_rad[k] - turned_rad[first] - fraction * (turned_rad[last] - turned_rad[first]));
+        if (off_rad > max_rad) {
+            max_rad = off_rad;
             worst = k;
         }
     }
-    if (most_rad > tolerance_rad) {
+    if (max_rad > tolerance_rad) {
         split(at_m, turned_rad, tolerance_rad, first, worst, ends);
         split(at_m, turned_rad, tolerance_rad, worst, last, ends);
     } else {
@@ -127,7 +127,7 @@ Eigen::VectorXd summed(const Eigen::VectorXd& each) {
     return sums;
 }
 
-// Mean and root of the mean square about `centre`.
+// Root of the mean square about `centre`.
 double deviation_about(const std::vector<double>& values, double centre) {
     double squares = 0.0;
     for (const double value : values) squares += (value - centre) * (value - centre);
@@ -247,6 +247,10 @@ std::vector<KeyProblem> problems_of(const CentreLine& line) {
                                           std::to_string(min_centre_line_points) + " are needed"});
     if (!(line.noise_m > 0.0) || !std::isfinite(line.noise_m))
         problems.push_back({"noise_m", "is " + metres(line.noise_m) + ", but must be above 0"});
+    for (std::size_t k = 0; k < count; ++k)
+        for (const double coordinate : line.points_m[k])
+            if (!std::isfinite(coordinate))
+                problems.push_back({"points[" + std::to_string(k + 1) + "]", "is not finite"});
     if (!problems.empty()) return problems;
     double extent_m = 0.0;
     for (const auto& point : line.points_m)

@@ -13,7 +13,8 @@ namespace {
 constexpr double largest_log_penalty = 11.0;
 constexpr double smallest_log_penalty = -6.0;
 
-// Lengths along noisy points: chords so long that noise hardly lengthens them, shared by the points between.
+// Lengths along noisy points: chords of ten deviations of noise, which it lengthens by 1%, shared evenly by
+// the points between.
 Eigen::VectorXd first_lengths_m(const LinePoints& points, double noise_m) {
     const Eigen::Index count = points.rows();
     Eigen::VectorXd at = Eigen::VectorXd::Zero(count);

@@ -153,6 +153,9 @@ struct StudyPlan {
 /// come.
 void place_nodes(StudyPlan& plan);
 
+/// What is wrong with the plan's cable and its cut.
+std::vector<KeyProblem> problems_of_cable(const StudyPlan& plan);
+
 /// Everything wrong with the plan's values, each with the key it belongs to and what to try. Simulates
 /// nothing.
 std::vector<KeyProblem> problems_of_values(const StudyPlan& plan);

@@ -171,6 +171,9 @@ TEST(CentreLine, OfTooFewPointsOrTooMuchNoiseIsRefused) {
     silent.noise_m = 0.0;
     EXPECT_NE(problem(silent).find("noise_m"), std::string::npos);
     EXPECT_THROW(measured_conduit(silent), InvalidInput);
+    CentreLine lost = measured(on_a_circle, 0.3, 50, 1e-3, 1);
+    lost.points_m[4][1] = std::nan("");
+    EXPECT_NE(problem(lost).find("points[5]"), std::string::npos);
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ TEST_F(CentreLineKeys, AreRefusedBesideOtherWaysAndWithoutTheirNoise) {
     EXPECT_THAT(problems_in(with_line + "length_m = 1\n"), ElementsAre(HasSubstr("beside other keys")));
 }
 
-// The service takes configurations from strangers.
+// The service takes configurations from untrusted input.
 TEST_F(CentreLineKeys, OfATextWithoutAFolderReadNoFile) {
     try {
         parse_config("[transmission]\ncentre_line = \"/etc/hostname\"\ncentre_line_noise_m = 1e-4\n",
