@@ -98,7 +98,9 @@ std::string in_words(const std::string& file, const StudyPlan& plan, const std::
     const PlanSize size = size_of(studies);
     const std::string sweep =
         studies.size() > 1 ? fmt::format("  a sweep of {} studies, together:\n", studies.size()) : "";
-    return fmt::format("{}: ok\n{}  {} nodes, {}, {}, {}, {}: {} of {} repetitions\n", file, sweep,
+    const std::string conduit =
+        plan.transmission.conduit_note.empty() ? "" : "  conduit: " + plan.transmission.conduit_note + "\n";
+    return fmt::format("{}: ok\n{}{}  {} nodes, {}, {}, {}, {}: {} of {} repetitions\n", file, sweep, conduit,
                        size.nodes, counted(size.scenarios, "instant"),
                        counted(size.noise_levels, "noise level"), counted(size.sensor_sets, "sensor set"),
                        counted(size.methods, "method"), counted(size.cells, "cell"), plan.repetitions);
@@ -109,6 +111,7 @@ Data in_json(const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
     return {{"ok", true},
             {"name", plan.name},
             {"studies", studies.size()},
+            {"conduit", plan.transmission.conduit_note},
             {"nodes", size.nodes},
             {"scenarios", size.scenarios},
             {"noise_levels", size.noise_levels},

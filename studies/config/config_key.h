@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -100,9 +101,9 @@ struct ConfigSchema {
     std::vector<ConfigSection<Plan>> sections;  ///< in the order of reading and writing
     std::vector<ConfigKey<Plan>> keys;          ///< a key may rely on all keys before it
     /// Called after the last key, for what follows from several sections: what is wrong with them. Files that
-    /// keys name lie in `folder`. Empty: nothing follows.
+    /// keys name lie in `folder`; without one they may name none. Empty: nothing follows.
     std::vector<KeyProblem> (*complete)(Plan&, const KeyLines&,
-                                        const std::filesystem::path& folder) = nullptr;
+                                        const std::optional<std::filesystem::path>& folder) = nullptr;
 };
 
 /// The one list of sections and keys of each kind of configuration.

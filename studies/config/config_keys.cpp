@@ -300,8 +300,9 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
     return sections;
 }
 
-std::vector<KeyProblem> complete_study(StudyPlan& plan, const KeyLines& lines, const std::filesystem::path&) {
-    std::vector<KeyProblem> problems = make_pieces(plan, lines);
+std::vector<KeyProblem> complete_study(StudyPlan& plan, const KeyLines& lines,
+                                       const std::optional<std::filesystem::path>& folder) {
+    std::vector<KeyProblem> problems = make_pieces(plan, lines, folder);
     if (!lines.contains("transmission.cut"))
         plan.transmission.cut = plan.uncertainty.is_stated ? CableCut::at_bends : CableCut::even;
     place_nodes(plan);

@@ -20,7 +20,9 @@ namespace {
 template <class Plan>
 class Reading {
   public:
-    Reading(const toml::table& root, ReadPlan<Plan>& config) : root_(root), config_(config) {}
+    Reading(const toml::table& root, ReadPlan<Plan>& config,
+            const std::optional<std::filesystem::path>& folder)
+        : root_(root), config_(config), folder_(folder) {}
 
     std::vector<ConfigProblem> run() {
         note_problems(unknown_keys<Plan>(root_, "", ""));
@@ -28,8 +30,7 @@ class Reading {
             section.is_repeated() ? read_repeated(section) : read_single(section);
         }
         if (const auto complete = config_schema<Plan>().complete) {
-            const auto folder = std::filesystem::path(config_.file).parent_path();
-            for (const KeyProblem& each : complete(config_.plan, config_.lines, folder))
+            for (const KeyProblem& each : complete(config_.plan, config_.lines, folder_))
                 if (!is_broken(each.key.substr(0, each.key.find_first_of(".[")))) problem_at(each);
         }
         return std::move(problems_);
@@ -173,13 +174,15 @@ class Reading {
 
     const toml::table& root_;
     ReadPlan<Plan>& config_;
+    const std::optional<std::filesystem::path>& folder_;
     std::vector<ConfigProblem> problems_;
 };
 
-// `complete` adds what other files say, before the values are checked.
+}  // namespace
+
 template <class Plan>
-ReadPlan<Plan> parse_and_complete(std::string_view toml, const std::string& file,
-                                  void (*complete)(ReadPlan<Plan>&)) {
+ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file,
+                          const std::optional<std::filesystem::path>& folder) {
     ReadPlan<Plan> config{file, {}, {}};
     toml::table root;
     try {
@@ -189,22 +192,18 @@ ReadPlan<Plan> parse_and_complete(std::string_view toml, const std::string& file
         throw ConfigError(file, {{static_cast<int>(at.line), static_cast<int>(at.column), "",
                                   "not valid TOML: " + std::string(error.description())}});
     }
-    std::vector<ConfigProblem> problems = Reading<Plan>(root, config).run();
-    if (problems.empty() && complete != nullptr) complete(config);
+    std::vector<ConfigProblem> problems = Reading<Plan>(root, config, folder).run();
+    if constexpr (std::is_same_v<Plan, StudyPlan>)
+        if (problems.empty() && folder) take_named_far_end_log(config);
     const std::vector<ConfigProblem> more = value_problems(config, problems);
     problems.insert(problems.end(), more.begin(), more.end());
     if (!problems.empty()) throw ConfigError(file, std::move(problems));
     return config;
 }
-
-}  // namespace
-
-template <class Plan>
-ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file) {
-    return parse_and_complete<Plan>(toml, file, nullptr);
-}
-template ReadPlan<StudyPlan> parse_plan(std::string_view toml, const std::string& file);
-template ReadPlan<bench::BenchPlan> parse_plan(std::string_view toml, const std::string& file);
+template ReadPlan<StudyPlan> parse_plan(std::string_view, const std::string&,
+                                        const std::optional<std::filesystem::path>&);
+template ReadPlan<bench::BenchPlan> parse_plan(std::string_view, const std::string&,
+                                               const std::optional<std::filesystem::path>&);
 
 ReadConfig parse_config(std::string_view toml, const std::string& file) {
     return parse_plan<StudyPlan>(toml, file);
@@ -217,7 +216,7 @@ ReadConfig read_config(const std::filesystem::path& path) {
                                            "describes a bench, not a study; run it with `capstan simulate " +
                                                path.string() + "`"}});
     }
-    return parse_and_complete<StudyPlan>(toml, path.string(), take_named_far_end_log);
+    return parse_plan<StudyPlan>(toml, path.string(), path.parent_path());
 }
 
 ReadBench read_bench(const std::filesystem::path& path) {

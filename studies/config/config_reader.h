@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,9 +21,11 @@ struct ReadPlan {
 using ReadConfig = ReadPlan<StudyPlan>;
 using ReadBench = ReadPlan<bench::BenchPlan>;
 
-/// Throws ConfigError with every problem that can be seen without simulating.
+/// Throws ConfigError with every problem that can be seen without simulating. Files that the text names are
+/// read from `folder`; without one it may name none, so that a text from elsewhere reads nothing here.
 template <class Plan>
-ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file);
+ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file,
+                          const std::optional<std::filesystem::path>& folder = {});
 ReadConfig parse_config(std::string_view toml, const std::string& file);
 /// The same of a file, with the log that it names for the far end. Refuses a bench with what it is good for.
 ReadConfig read_config(const std::filesystem::path& path);

@@ -1,6 +1,8 @@
 #pragma once
 // The rows of the sections of a study's configuration, one source for each group of sections.
 
+#include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "capstan/config/config_key.h"
@@ -9,10 +11,12 @@ namespace capstan::config {
 
 using StudyKeys = std::vector<ConfigKey<StudyPlan>>;
 
-void add_conduit_keys(StudyKeys& keys);  ///< [transmission] length_m, [[transmission.bend]]
+void add_conduit_keys(StudyKeys& keys);  ///< [transmission] length_m, centre_line, [[transmission.bend]]
 ConfigSection<StudyPlan> bend_section_of_conduit();
-/// Makes the pieces of a conduit that is stated otherwise; what is wrong with it.
-std::vector<KeyProblem> make_pieces(StudyPlan& plan, const KeyLines& lines);
+/// Makes the pieces of a conduit that is stated otherwise; what is wrong with it. A centre line lies in
+/// `folder`; without one the configuration may name no file.
+std::vector<KeyProblem> make_pieces(StudyPlan& plan, const KeyLines& lines,
+                                    const std::optional<std::filesystem::path>& folder);
 void add_layout_keys(StudyKeys& keys);       ///< [layouts]
 void add_estimation_keys(StudyKeys& keys);   ///< [estimation]: fusion methods and what they assume
 void add_placement_keys(StudyKeys& keys);    ///< [placement], for `capstan place`

@@ -168,23 +168,6 @@ void check_noise(const StudyPlan& plan, Problems& problems) {
     }
 }
 
-void check_cable(const StudyPlan& plan, Problems& problems) {
-    const CableSpecification& cable = plan.transmission.cable;
-    for (const KeyProblem& problem : problems_of(cable)) {
-        const bool too_few = problem.key == "segments" && !cable.node_places_m.empty();
-        problems.push_back(
-            {"transmission." + problem.key,
-             problem.message + (too_few ? " (the ends of bends and the tension sensors\' places); "
-                                          "raise it, or set transmission.cut = \"even\""
-                                        : "")});
-    }
-    if (!cable.node_places_m.empty() && !plan.uncertainty.is_stated &&
-        plan.placement.max_in_distal_half < cable.segments)
-        problems.push_back({"placement.max_in_distal_half",
-                            "counts nodes, of which as many lie in either half of the cable only with "
-                            "transmission.cut = \"even\""});
-}
-
 // The sum of the regimes' duty fractions may be off by the rounding of the digits given.
 constexpr double duty_rounding = 1e-9;
 
@@ -276,17 +259,6 @@ std::string_view name_of(Regime regime) {
     return {};
 }
 
-void place_nodes(StudyPlan& plan) {
-    CableSpecification& cable = plan.transmission.cable;
-    cable.node_places_m.clear();
-    if (plan.transmission.cut == CableCut::even) return;
-    std::vector<double> places_m = bend_ends_m(cable.curvature);
-    for (const SensorRow& row : plan.sensors)
-        if (row.kind == SensorKind::tension)
-            places_m.insert(places_m.end(), row.places_m.begin(), row.places_m.end());
-    cable.node_places_m = distinct_places_m(std::move(places_m), length_m(cable.curvature));
-}
-
 std::map<Regime, std::vector<int>> samples_by_regime(const StudyPlan& plan) {
     std::map<Regime, std::vector<int>> samples;
     const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
@@ -304,7 +276,7 @@ std::vector<KeyProblem> problems_of_values(const StudyPlan& plan) {
     if (!(plan.worthwhile_gain_N >= 0.0))
         problems.push_back({"recommendation.worthwhile_gain_N", "must be 0 or more"});
     const CableSpecification& cable = plan.transmission.cable;
-    check_cable(plan, problems);
+    for (KeyProblem& problem : problems_of_cable(plan)) problems.push_back(std::move(problem));
     if (plan.transmission.arrangement == CableArrangement::pull_pull && !plan.uncertainty.is_stated)
         problems.push_back({"transmission.arrangement",
                             "\"pull_pull\" needs [uncertainty]; studies at instants are for a single cable"});

@@ -44,12 +44,15 @@ enum class CableCut {
 struct ConduitCourse {
     double length_m = 0.0;  ///< with bends; 0: not stated
     std::vector<Bend> bends{};
+    std::string centre_line;           ///< a CSV file of points; empty: not stated
+    double centre_line_noise_m = 0.0;  ///< standard deviation of each coordinate of its points
 };
 
 struct Transmission {
     CableSpecification cable;  ///< of a pull-pull pair each of the two
     CableArrangement arrangement = CableArrangement::single;
     ConduitCourse course{};
+    std::string conduit_note{};     ///< where the pieces come from, for the reader
     CableCut cut = CableCut::even;  ///< place_nodes() does it
     ModelRules rules = ModelRules::consistent();
 };
@@ -150,6 +153,9 @@ struct StudyPlan {
 /// Puts the nodes of the plan's cable where its cut says. To be called again where bends move or sensors
 /// come.
 void place_nodes(StudyPlan& plan);
+
+/// What is wrong with the plan's cable and its cut.
+std::vector<KeyProblem> problems_of_cable(const StudyPlan& plan);
 
 /// Everything wrong with the plan's values, each with the key it belongs to and what to try. Simulates
 /// nothing.

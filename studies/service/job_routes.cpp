@@ -13,9 +13,11 @@ namespace capstan::service {
 
 namespace {
 
-std::vector<StudyPlan> studies_of(const std::string& toml, const std::string& name) {
+// Files that a configuration names are read only beside those of the service's own folder.
+std::vector<StudyPlan> studies_of(const std::string& toml, const std::string& name,
+                                  const std::optional<std::filesystem::path>& folder) {
     try {
-        return config::runnable_studies(config::parse_config(toml, name));
+        return config::runnable_studies(config::parse_plan<StudyPlan>(toml, name, folder));
     } catch (const InvalidInput& error) {
         throw BadRequest(error.what());
     }
@@ -46,7 +48,7 @@ ordered_json start(RouteContext& context, const nlohmann::json& body) {
     const std::string toml =
         by_name ? config_named(context.options, name) : member<std::string>(body, "config_toml");
     ordered_json started = ordered_json::array();
-    for (const StudyPlan& plan : studies_of(toml, name))
+    for (const StudyPlan& plan : studies_of(toml, name, by_name ? context.options.configs : std::nullopt))
         started.push_back(
             job_json(context.queue.add_study(plan.name, config::config_text(plan, config::Comments::none))));
     return started;

@@ -311,7 +311,7 @@ at_m = 0.1
     const std::string written = config_text(parse_config(bends, "x.toml").plan, Comments::none);
     EXPECT_THAT(conduit_of(written).size(), 5u);  // as pieces
     EXPECT_THAT(problems_in(bends + "[[transmission.curvature]]\nlength_m = 1\n"),
-                ElementsAre(HasSubstr("state it in one way")));
+                ElementsAre(HasSubstr("beside other keys")));
     std::string overlapping = bends;
     overlapping.replace(overlapping.find("at_m = 0.1"), 10, "at_m = 0.7");
     EXPECT_THAT(problems_in(overlapping), ElementsAre(StartsWith("11: transmission.bend[2].at_m")));
