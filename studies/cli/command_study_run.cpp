@@ -12,7 +12,7 @@
 #include "capstan/placement/study_merge.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
-#include "capstan/worlds/stored_worlds.h"
+#include "capstan/worlds/world_shard.h"
 
 namespace capstan::cli {
 
@@ -102,8 +102,28 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
     return code;
 }
 
+ExitCode run_world_part(const Invocation& invocation, const std::vector<StudyPlan>& plans) {
+    const Shard shard = parse_shard(invocation.text("shard"));
+    if (plans.size() > 1)
+        throw UsageError(
+            "capstan: --shard takes a configuration of one study over worlds, and this one has a [sweep]");
+    const std::string& file = invocation.text("db");
+    storage::Database database = storage::Database::open_or_create(file, storage::Journal::rollback);
+    const std::string name = fmt::format("{}, {}", plans.front().name, words_of(shard));
+    const WatchedTable watched = watch_table(invocation, name, [&](const TableOptions& options) {
+        run_world_shard(database, plans.front(), {shard.number, shard.count}, program_version(), options);
+    });
+    if (!watched.is_complete) {
+        say("Stopped; every finished block of worlds is kept. The same command goes on.");
+        return ExitCode::stopped;
+    }
+    say(fmt::format("{} of {} is done in {}, after {:.2f} s; `capstan study merge` joins all {}.",
+                    words_of(shard), plans.front().name, file, watched.wall_s, shard.count));
+    return ExitCode::success;
+}
+
 ExitCode run_all_worlds(const Invocation& invocation, const std::vector<StudyPlan>& plans) {
-    if (invocation.has("shard")) refuse_worlds(plans.front(), "--shard");
+    if (invocation.has("shard")) return run_world_part(invocation, plans);
     storage::Database database = storage::Database::open_or_create(invocation.text("db"));
     refuse_shard_file(database);
     std::vector<std::int64_t> ids;
@@ -221,10 +241,27 @@ Command study_resume_command() {
 
 namespace {
 
+bool first_holds_worlds(const std::vector<std::filesystem::path>& shards) {
+    if (!std::filesystem::exists(shards.front())) return false;  // reported with the others
+    storage::Database database = storage::Database::open_read_only(shards.front());
+    return holds_worlds(database);
+}
+
 ExitCode run_study_merge(const Invocation& invocation) {
     const std::string& file = invocation.text("db");
     const auto& names = invocation.repeated_argument();
     const std::vector<std::filesystem::path> shards(names.begin(), names.end());
+    if (first_holds_worlds(shards)) {
+        const WatchedTable watched = watch_table(invocation, "merge", [&](const TableOptions& options) {
+            merge_world_shards(file, shards, options);
+        });
+        say(watched.is_complete
+                ? fmt::format(
+                      "Merged {} shards into {}; `capstan recommend --db {}` shows the recommendation.",
+                      shards.size(), file, file)
+                : std::string("Stopped; nothing was written, and the shards are as they were."));
+        return watched.is_complete ? ExitCode::success : ExitCode::stopped;
+    }
     return watch(invocation, "merge", [&](const RunOptions& options) -> WatchedEnd {
         const RunEnd end = merge_shards(file, shards, options);
         const std::string words =

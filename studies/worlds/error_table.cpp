@@ -128,11 +128,15 @@ void ErrorTable::take(const TableEntry& entry) {
     row[static_cast<std::size_t>(entry.world)] = entry.error;
 }
 
+void ErrorTable::offer(const TableEntry& entry) {
+    offered_.insert({{entry.condition, entry.candidate, entry.world}, entry.error});
+}
+
 void ErrorTable::fill(Condition condition, std::span<const int> candidates, int first, int last,
-                      std::string_view activity) {
+                      std::string_view activity, int stride) {
     std::vector<Task> tasks;
     std::size_t trials = 0;
-    for (int world = first; world < last; ++world) {
+    for (int world = first; world < last; world += stride) {
         Task task{world, {}};
         for (const int candidate : candidates) {
             if (has(condition, candidate, world)) continue;
@@ -187,11 +191,21 @@ void ErrorTable::weigh(std::span<const int> candidates) {
 
 std::vector<TableEntry> ErrorTable::run(Condition condition, const WorldQuestion& question,
                                         const Task& task) const {
+    std::vector<TableEntry> entries;
+    std::vector<int> candidates;
+    for (const int candidate : task.candidates) {
+        const auto found = offered_.find({condition, candidate, task.world});
+        if (found == offered_.end()) {
+            candidates.push_back(candidate);
+        } else {
+            entries.push_back({condition, candidate, task.world, found->second});
+        }
+    }
+    if (candidates.empty()) return entries;
     const World world = draw_world(question, static_cast<std::uint32_t>(task.world));
     const EnsembleDraws draws = ensemble_draws(question, static_cast<std::uint32_t>(task.world));
     const CableBelief belief = belief_under(condition, question.belief, world);
-    std::vector<TableEntry> entries;
-    for (const int candidate : task.candidates) {
+    for (const int candidate : candidates) {
         const std::vector<int>& sensors = candidates_[static_cast<std::size_t>(candidate)].sensors;
         const FusionMethod* paper = paper_method(condition);
         entries.push_back({condition, candidate, task.world,

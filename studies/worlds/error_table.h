@@ -3,10 +3,12 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "capstan/worlds/candidate.h"
@@ -76,9 +78,12 @@ class ErrorTable {
     /// Takes over an entry that was computed before; entries of unknown candidates are ignored.
     void take(const TableEntry& entry);
 
-    /// Computes what is missing of these candidates in worlds `first` to `last` - 1.
+    /// An entry that another run computed: fill() takes and keeps it instead of computing it.
+    void offer(const TableEntry& entry);
+
+    /// Computes what is missing of these candidates in worlds `first` to `last` - 1, every `stride`th.
     void fill(Condition condition, std::span<const int> candidates, int first, int last,
-              std::string_view activity);
+              std::string_view activity, int stride = 1);
 
     bool has(Condition condition, int candidate, int world) const;
     /// Must be filled.
@@ -101,6 +106,7 @@ class ErrorTable {
     std::vector<double> paper_weight_;                       // offers; 0: not needed yet
     std::vector<std::unique_ptr<WorldQuestion>> questions_;  // conditions
     std::vector<std::vector<Row>> rows_;                     // conditions x candidates
+    std::map<std::tuple<Condition, int, int>, WorldError> offered_;
 };
 
 }  // namespace capstan

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "capstan/config/config_writer.h"
 #include "capstan/storage/study_store.h"
@@ -129,8 +130,7 @@ std::string sentence_of(const StudyPlan& plan, const WorldAnswer& answer) {
     return text;
 }
 
-std::int64_t begin_worlds(storage::Database& database, const StudyPlan& plan,
-                          const std::string& program_version) {
+storage::StudyDescription describe_worlds(const StudyPlan& plan, const std::string& program_version) {
     if (const auto problems = problems_of(plan); !problems.empty()) throw InvalidInput(problems);
     storage::StudyDescription description;
     description.study = {0,
@@ -153,26 +153,51 @@ std::int64_t begin_worlds(storage::Database& database, const StudyPlan& plan,
         description.world_candidates.push_back({sensors_json(candidate, offers), words_of(candidate, offers),
                                                 fmt::format("{}", fmt::join(candidate.names, " ")),
                                                 candidate.count(), candidate.price});
-    return storage::begin_study(database, description);
+    return description;
 }
 
-WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
-                       const TableOptions& options) {
-    const bool is_complete = storage::read_world_recommendation(database, study_id).has_value();
-    TableOptions table_options = options;
+std::int64_t begin_worlds(storage::Database& database, const StudyPlan& plan,
+                          const std::string& program_version) {
+    return storage::begin_study(database, describe_worlds(plan, program_version));
+}
+
+namespace {
+
+// The study's table with what is stored of it; it stores what it computes, unless the study is complete.
+ErrorTable stored_table(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                        TableOptions options, bool is_complete) {
     if (!is_complete) {
-        table_options.keep = [&](std::span<const TableEntry> entries) {
+        options.keep = [&database, study_id](std::span<const TableEntry> entries) {
             std::vector<storage::WorldErrorRecord> records;
             for (const TableEntry& entry : entries) records.push_back(record_of(entry));
             storage::write_world_errors(database, study_id, records);
         };
     }
-    ErrorTable table(plan, std::move(table_options));
+    ErrorTable table(plan, std::move(options));
     for (const storage::WorldErrorRecord& record : storage::read_world_errors(database, study_id))
         if (const auto entry = entry_of(record)) table.take(*entry);
+    return table;
+}
+
+}  // namespace
+
+WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                       const TableOptions& options, std::span<const storage::WorldErrorRecord> computed) {
+    const bool is_complete = storage::read_world_recommendation(database, study_id).has_value();
+    ErrorTable table = stored_table(database, study_id, plan, options, is_complete);
+    for (const storage::WorldErrorRecord& record : computed)
+        if (const auto entry = entry_of(record)) table.offer(*entry);
     WorldAnswer answer = choose_sensors(table);
     if (!is_complete) storage::finish_world_study(database, study_id, recommendation_record(plan, answer));
     return answer;
+}
+
+void fill_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                 const TableOptions& options, int first, int last, int stride) {
+    ErrorTable table = stored_table(database, study_id, plan, options, false);
+    std::vector<int> all(table.candidates().size());
+    std::iota(all.begin(), all.end(), 0);
+    table.fill(Condition::as_stated, all, first, last, "its share of the worlds", stride);
 }
 
 WorldAnswer run_worlds(const StudyPlan& plan, const TableOptions& options) {

@@ -32,7 +32,7 @@ STUDIES = {
 SHORT = sorted(set(STUDIES) - {"atlas"})
 # Its estimator's patterns may fall either way by the rounding of an exponential, so two widths agree in distribution only.
 WORLDS = ("wrist-exosuit", "noise-sweep")
-SHARDED = ("noise-instants", "wrist-instants")  # enough parts for four shards
+SHARDED = ("noise-instants", "wrist-instants", "wrist-exosuit")  # enough parts for four shards
 BENCHES = ("bench-handle", "bench-ramps", "bench-slack")
 # Between widths, compilers and degrees of optimisation only the order of sums differs. Errors are of the order of 0.1 N.
 BOUND_N = 1e-11

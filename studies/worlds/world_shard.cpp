@@ -1,0 +1,163 @@
+#include "capstan/worlds/world_shard.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <numeric>
+
+#include "capstan/config/config_reader.h"
+#include "capstan/platform/files.h"
+#include "capstan/storage/error.h"
+#include "capstan/storage/study_store.h"
+#include "capstan/storage/world_store.h"
+#include "capstan/worlds/choice.h"
+
+namespace capstan {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of so many sets every one runs in every world.
+constexpr std::size_t few_candidates = 100;
+
+// The worlds that shards run, of all candidates.
+int sharded_worlds(const StudyPlan& plan, std::size_t candidates) {
+    return candidates <= few_candidates ? 2 * plan.repetitions : std::min(fewest_worlds, plan.repetitions);
+}
+
+// How many errors the shard holds when it is done.
+std::size_t errors_of(const StudyPlan& plan, std::size_t candidates, const storage::ShardRecord& shard) {
+    const int worlds = sharded_worlds(plan, candidates);
+    const int own = (worlds - shard.shard) / shard.shards + (worlds >= shard.shard ? 1 : 0);
+    return candidates * static_cast<std::size_t>(std::max(own, 0));
+}
+
+std::string words(const storage::ShardRecord& shard) {
+    return fmt::format("shard {} of {}", shard.shard, shard.shards);
+}
+
+std::int64_t begin_or_find(storage::Database& database, const storage::ShardRecord& shard,
+                           const storage::StudyDescription& description) {
+    if (storage::list_studies(database).empty())
+        if (const auto begun = storage::begin_shard(database, shard, {description})) return begun->front();
+    const std::string file = database.path().string();
+    const std::string try_this = " Name a new file, or remove this one.";
+    const auto mark = storage::read_shard(database);
+    if (!mark)
+        throw storage::Error(file + " holds complete studies, so no shard can be run in it." + try_this);
+    if (*mark != shard)
+        throw storage::Error(fmt::format("{} is {}, not {}.{}", file, words(*mark), words(shard), try_this));
+    const std::int64_t id = storage::list_studies(database).front().study_id;
+    const storage::StudyRecord stored = storage::load_study(database, id).study;
+    if (stored.config_toml != description.study.config_toml ||
+        stored.program_version != description.study.program_version)
+        throw storage::Error(file + " is a shard of another study, or of another version of the program." +
+                             try_this);
+    return id;
+}
+
+// The files of a merge, checked.
+struct WorldShards {
+    std::map<int, fs::path> files;
+    storage::StudyDescription study;
+    StudyPlan plan;
+    std::vector<storage::WorldErrorRecord> errors;
+};
+
+WorldShards read_shards(const std::vector<fs::path>& paths) {
+    WorldShards shards;
+    std::vector<std::string> problems;
+    int count = 0;
+    for (const fs::path& path : paths) {
+        storage::Database database = storage::Database::open_read_only(path);
+        const auto mark = storage::read_shard(database);
+        if (!mark || !holds_worlds(database)) {
+            problems.push_back(path.string() + " is not the file of a shard of a study over worlds.");
+            continue;
+        }
+        const std::int64_t id = storage::list_studies(database).front().study_id;
+        const storage::StudyDescription study = storage::load_study(database, id);
+        if (shards.files.empty()) {
+            shards.study = study;
+            shards.plan = config::parse_config(study.study.config_toml, path.string()).plan;
+            count = mark->shards;
+        } else if (mark->shards != count || study.study.config_toml != shards.study.study.config_toml ||
+                   study.study.program_version != shards.study.study.program_version) {
+            problems.push_back(
+                fmt::format("{} belongs to another study, version or number of shards than {}.",
+                            path.string(), shards.files.begin()->second.string()));
+            continue;
+        }
+        const auto [at, is_new] = shards.files.try_emplace(mark->shard, path);
+        if (!is_new) {
+            problems.push_back(fmt::format("{} is {}, and so is {}; leave one out.", path.string(),
+                                           words(*mark), at->second.string()));
+            continue;
+        }
+        auto errors = storage::read_world_errors(database, id);
+        const std::size_t all = errors_of(shards.plan, study.world_candidates.size(), *mark);
+        if (errors.size() < all)
+            problems.push_back(fmt::format(
+                "{} is unfinished: {} of its {} trials are done; go on with: capstan study run CONFIG --shard {}/{} "
+                "--db {}.",
+                path.string(), errors.size(), all, mark->shard, mark->shards, path.string()));
+        shards.errors.insert(shards.errors.end(), errors.begin(), errors.end());
+    }
+    for (int number = 1; number <= count; ++number)
+        if (shards.files.count(number) == 0)
+            problems.push_back(fmt::format(
+                "Shard {} of {} is missing; name its file, or run it: capstan study run CONFIG --shard {}/{} --db "
+                "FILE.",
+                number, count, number, count));
+    if (problems.empty()) return shards;
+    throw storage::Error(std::accumulate(
+        problems.begin(), problems.end(), std::string("These shards cannot be merged; nothing was written."),
+        [](const std::string& text, const std::string& problem) { return text + "\n  " + problem; }));
+}
+
+void remove_database(const fs::path& path) {
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(path.string() + end);
+}
+
+}  // namespace
+
+bool holds_worlds(storage::Database& database) {
+    const auto studies = storage::list_studies(database);
+    return !studies.empty() &&
+           !storage::load_study(database, studies.front().study_id).world_candidates.empty();
+}
+
+void run_world_shard(storage::Database& database, const StudyPlan& plan, const storage::ShardRecord& shard,
+                     const std::string& program_version, const TableOptions& options) {
+    const storage::StudyDescription description = describe_worlds(plan, program_version);
+    const std::size_t candidates = description.world_candidates.size();
+    if (errors_of(plan, candidates, shard) == 0)
+        throw InvalidInput({fmt::format("{} would have no world to run; use at most {} shards", words(shard),
+                                        sharded_worlds(plan, candidates))});
+    const std::int64_t id = begin_or_find(database, shard, description);
+    fill_worlds(database, id, plan, options, shard.shard - 1, sharded_worlds(plan, candidates), shard.shards);
+}
+
+void merge_world_shards(const fs::path& merged, const std::vector<fs::path>& paths,
+                        const TableOptions& options) {
+    if (fs::exists(merged))
+        throw storage::Error(
+            merged.string() +
+            " exists already, and a merge makes a new file. Name another one, or remove it.");
+    const WorldShards shards = read_shards(paths);
+    const fs::path unfinished = merged.string() + ".unfinished";
+    remove_database(unfinished);
+    try {
+        storage::Database database = storage::Database::open_or_create(unfinished);
+        const std::int64_t id = storage::begin_study(database, shards.study);
+        run_worlds(database, id, shards.plan, options, shards.errors);
+        storage::fold_write_ahead_log(database);
+    } catch (...) {
+        remove_database(unfinished);
+        throw;
+    }
+    rename_durably(unfinished, merged);
+}
+
+}  // namespace capstan
