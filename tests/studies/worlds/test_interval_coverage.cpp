@@ -1,0 +1,78 @@
+// What a study says of the error to expect, against what many worlds say.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <map>
+
+#include "capstan/platform/parallel_for.h"
+#include "capstan/worlds/choice.h"
+
+namespace capstan {
+namespace {
+
+StudyPlan small_plan(std::uint64_t seed, int worlds) {
+    StudyPlan plan;
+    plan.name = "small";
+    plan.seed = seed;
+    plan.repetitions = worlds;
+    plan.transmission.cable = {.curvature = {{0.4, straight}, {0.3, 0.1}, {0.3, straight}},
+                               .segments = 6,
+                               .axial_stiffness_N = 9000.0,
+                               .dynamic_friction = 0.12,
+                               .static_friction = 0.16,
+                               .pretension_N = 15.0};
+    plan.motion.proximal = {.kind = EndKind::position, .amplitude = 0.002, .frequency_Hz = 1.0};
+    plan.motion.distal.kind = EndKind::position;
+    plan.motion.sample_rate_Hz = 50.0;
+    plan.motion.samples = 40;
+    plan.uncertainty.is_stated = true;
+    plan.uncertainty.far_end_range_m = 0.001;
+    plan.uncertainty.members = 32;
+    plan.layout_families = {"even", "distal", "both"};
+    plan.sensor_counts = {1, 2, 3};
+    plan.noise_levels = {{"3 %", {.multiplicative_ratio = 0.03, .additive_N = 0.1}}};
+    plan.worthwhile_gain_N = 0.02;
+    return plan;
+}
+
+TEST(IntervalCoverage, TheMonteCarloIntervalHoldsTheExpectedErrorAsOftenAsItSays) {
+    constexpr int studies = 400;
+    constexpr int many = 3000;
+    ErrorTable reference(small_plan(1000000, many), {});
+    std::vector<int> all;
+    for (int k = 0; k < static_cast<int>(reference.candidates().size()); ++k) all.push_back(k);
+    reference.fill(Condition::as_stated, all, 0, many, "test");
+    const auto truth_N = [&](int candidate) {
+        double mean_N = 0.0;
+        for (int w = 0; w < many; ++w)
+            mean_N += reference.at(Condition::as_stated, candidate, w).mean_abs_N / many;
+        return mean_N;
+    };
+    std::vector<Expected> recommended(studies);
+    std::vector<int> with_no_sensor(studies);
+    parallel_for_each_index(studies, 0, [&](int k) {
+        ErrorTable table(small_plan(5000 + static_cast<std::uint64_t>(k), 40), {.jobs = 1});
+        Choice choice(table);
+        const WorldAnswer answer = choose_of_each_price(choice);
+        recommended[static_cast<std::size_t>(k)] = answer.best().expected;
+        with_no_sensor[static_cast<std::size_t>(k)] = answer.recommended ? 0 : 1;
+    });
+    int held = 0;
+    int worse_than_none = 0;
+    std::map<int, int> chosen;
+    for (const Expected& each : recommended) {
+        const double value_N = truth_N(each.candidate);
+        held += each.objective.low_N <= value_N && value_N <= each.objective.high_N ? 1 : 0;
+        worse_than_none += value_N >= truth_N(0) ? 1 : 0;
+        ++chosen[each.candidate];
+    }
+    std::printf("%d small studies: the 95%% interval held the expected error in %.1f%%; %zu different sets\n",
+                studies, 100.0 * held / studies, chosen.size());
+    // Three standard deviations of 400 draws about 95%.
+    EXPECT_GT(held, 0.917 * studies);
+    EXPECT_LT(held, 0.983 * studies);
+    EXPECT_EQ(worse_than_none, 0);
+}
+
+}  // namespace
+}  // namespace capstan
