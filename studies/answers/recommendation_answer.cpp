@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "capstan/answers/placement_answers.h"
+#include "capstan/config/config_reader.h"
+#include "capstan/placement/no_sensor_error.h"
 #include "capstan/placement/recommendation.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/report_queries.h"
@@ -149,6 +151,40 @@ std::string headline_of(const Conclusions& conclusions) {
         conclusions.study.noise_levels[static_cast<std::size_t>(last.noise_index)].label, last.error_N);
 }
 
+// ---- what the numbers take for granted
+
+std::string samples_words(const StudyPlan& plan) {
+    std::vector<std::string> regimes;
+    for (const RegimeInstants& each : plan.regimes)
+        regimes.push_back(fmt::format("{} ({})", fmt::join(each.samples, ", "), name_of(each.regime)));
+    return fmt::format("{}", fmt::join(regimes, "; "));
+}
+
+std::string assumption_words(const StudyPlan& plan) {
+    return fmt::format(
+        "The estimator knows friction, bends, stiffness and pretension exactly, and the exact state one sample before. Of "
+        "the far end it assumes that it moves by at most {:g} mm in a sample{}. Errors are those of the samples {}, not of "
+        "a complete motion. On a rig none of this holds; with [uncertainty] a study drops these assumptions.",
+        1e3 * plan.largest_distal_increment_m,
+        plan.motion.distal.amplitude == 0.0 ? ", and in truth it is blocked" : "", samples_words(plan));
+}
+
+// Of a choice whose error can be set beside the error without any sensor.
+std::optional<double> no_sensor_error_N(const std::map<std::string, double>& errors_N,
+                                        const RecommendationRecord& r) {
+    const auto found = errors_N.find(r.scope == "regime" ? r.regime : r.scope);
+    return found == errors_N.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string no_sensor_words(const std::optional<double>& none_N, const RecommendationRecord& r) {
+    if (!none_N) return {};
+    if (*none_N <= r.interval_high_N)
+        return fmt::format(
+            " This is not better than no sensor at all: the mean of the feasible states errs {:.3f} N.",
+            *none_N);
+    return fmt::format(" Without any sensor the error is {:.3f} N.", *none_N);
+}
+
 // ---- the advice under another truth
 
 const RecommendationRecord* same_question(const Conclusions& conclusions, const RecommendationRecord& asked) {
@@ -212,8 +248,16 @@ reports::Answer recommendation_answer(const Conclusions& conclusions) {
                      {"repetitions", study.repetitions},
                      {"recommendations", Data::list()},
                      {"paper_comparison", comparison_data(conclusions.paper_comparison)}};
-    for (const auto& each : conclusions.recommendations)
-        answer.values["recommendations"].push_back(recommendation_data(conclusions.study, each));
+    const StudyPlan plan = config::parse_config(study.config_toml, "the stored configuration").plan;
+    const std::map<std::string, double> errors_N = no_sensor_errors_N(plan);
+    for (const auto& each : conclusions.recommendations) {
+        Data data = recommendation_data(conclusions.study, each);
+        const std::optional<double> none_N = no_sensor_error_N(errors_N, each);
+        data["no_sensor_error_N"] = none_N ? Data(*none_N) : Data();
+        data["beats_no_sensor"] = none_N ? Data(*none_N > each.interval_high_N) : Data();
+        answer.values["recommendations"].push_back(std::move(data));
+    }
+    answer.values["assumptions"] = assumption_words(plan);
     answer.sections = {{.id = "recommendations",
                         .heading = "Recommendations",
                         .tables = {{"recommendations",
@@ -225,12 +269,16 @@ reports::Answer recommendation_answer(const Conclusions& conclusions) {
                                      {"method_title", "method"},
                                      {"error_N", "error", "N", ".3f"},
                                      {"interval_95_N", "95% interval", "N", ".3f"},
+                                     {"no_sensor_error_N", "no sensor", "N", ".3f"},
                                      {"optimism_N", "optimism", "N", "+.4f"},
                                      {"indistinguishable_count", "not worse"}},
-                                    answer.values["recommendations"]}}}};
+                                    answer.values["recommendations"]}},
+                        .note = assumption_words(plan)}};
     for (const auto& each : conclusions.recommendations)
-        answer.sections.push_back(
-            {.id = "sentence", .prose = each.sentence + alternatives_words(conclusions.study, each)});
+        answer.sections.push_back({.id = "sentence",
+                                   .prose = each.sentence +
+                                            no_sensor_words(no_sensor_error_N(errors_N, each), each) +
+                                            alternatives_words(conclusions.study, each)});
     if (!conclusions.paper_comparison.empty())
         answer.sections.push_back(comparison_section(answer.values["paper_comparison"]));
     return answer;
