@@ -75,7 +75,7 @@ CREATE TABLE world_error (
     FOREIGN KEY (study_id, candidate_index) REFERENCES world_candidate ON DELETE CASCADE
 ) STRICT, WITHOUT ROWID;
 
--- What a study with [uncertainty] recommends, from worlds that had no part in choosing it.
+-- What a study with [uncertainty] recommends; its errors are from worlds that had no part in choosing the set of a price.
 CREATE TABLE world_recommendation (
     study_id          INTEGER PRIMARY KEY REFERENCES study ON DELETE CASCADE,  -- its study
     objective         TEXT    NOT NULL,            -- 'all_nodes', 'load_end', 'worst_node' or 'quantile_95'
