@@ -61,10 +61,55 @@ class Worlds(CapstanTest):
         run = json.loads(self.run_capstan("study", "run", "arm.toml", "--db", "arm.db", "--json").stdout)
         recommended = json.loads(self.run_capstan("recommend", "--db", "arm.db", "--json").stdout)
         self.assertEqual(run, recommended)
-        for command in ("place", "sensitivity"):
-            placed = json.loads(self.run_capstan(command, "arm.toml", "--json").stdout)
-            self.assertEqual(placed["recommendations"], run["recommendations"])
-            self.assertEqual(placed["prices"], run["prices"])
+        placed = json.loads(self.run_capstan("place", "arm.toml", "--json").stdout)
+        self.assertEqual(placed["recommendations"], run["recommendations"])
+        self.assertEqual(placed["prices"], run["prices"])
+        varied = json.loads(self.run_capstan("sensitivity", "arm.toml", "--json").stdout)
+        self.assertEqual(varied["set"], run["recommendations"][0]["set"])
+        self.assertEqual(varied["error_N"], run["recommendations"][0]["expected_error_N"])
+
+    def test_sensitivity_varies_each_stated_number(self):
+        self.write("noisy.toml", ARM + "\n[sensitivity]\nvalues = 3\nnoise_ratio = [0.1, 1000]\nfriction_ratio = [1, 1]\n")
+        answer = json.loads(self.run_capstan("sensitivity", "noisy.toml", "--json", "--html", "noisy.html").stdout)
+        rows = {}
+        for row in answer["rows"]:
+            rows.setdefault(row["title"], []).append(row)
+        for title in ("range of the far end", "bandwidth of the far end", "uncertainty of friction", "pretension"):
+            self.assertEqual(len(rows[title]), 3)
+        self.assertNotIn("friction coefficient", rows)  # [1, 1]: it is certain
+        noise = rows["noise at the pretension"]
+        self.assertLess(noise[0]["error_N"], noise[1]["error_N"])
+        # Sensors with a thousand times the noise tell nothing, and the answer says so.
+        self.assertFalse(noise[2]["beats_no_sensor"])
+        self.assertEqual(noise[2]["set"], "no sensor")
+        self.assertTrue(noise[2]["advice_changes"])
+        # A wider range of the far end is more to find out.
+        far_end = rows["range of the far end"]
+        self.assertLess(far_end[0]["no_sensor_error_N"], far_end[2]["no_sensor_error_N"])
+        self.assertIn("world_sensitivity", (self.folder / "noisy.html").read_text())
+
+    def test_shards_give_the_bits_of_one_run(self):
+        self.run_capstan("study", "run", "arm.toml", "--db", "one.db")
+        parts = [f"part{number}.db" for number in (1, 2, 3)]
+        for number, part in enumerate(parts, 1):
+            self.run_capstan("study", "run", "arm.toml", "--shard", f"{number}/3", "--db", part)
+        refused = self.run_capstan("study", "merge", "--db", "merged.db", parts[0], parts[2], parts[2], expect=3)
+        self.assertIn("Shard 2 of 3 is missing", refused.stderr)
+        self.assertIn("leave one out", refused.stderr)
+        self.assertFalse((self.folder / "merged.db").exists())
+        refused = self.run_capstan("study", "run", "arm.toml", "--shard", "2/3", "--db", parts[0], expect=3)
+        self.assertIn("is shard 1 of 3, not shard 2 of 3", refused.stderr)
+        self.run_capstan("study", "merge", "--db", "merged.db", *parts)
+        self.assert_same_bits(self.tables("one.db"), self.tables("merged.db"))
+
+    def test_instants_say_where_no_sensor_is_as_good(self):
+        text = (CONFIGS / "noise-instants.toml").read_text().replace("repetitions = 1000", "repetitions = 60")
+        self.write("instants.toml", text)
+        answer = json.loads(self.run_capstan("study", "run", "instants.toml", "--db", "i.db", "--json").stdout)
+        by_noise = {r["noise"]: r for r in answer["recommendations"] if r["scope"] == "duty_cycle"}
+        self.assertTrue(by_noise["1 %"]["beats_no_sensor"])
+        self.assertFalse(by_noise["20 %"]["beats_no_sensor"])
+        self.assertIn("knows friction", answer["assumptions"])
 
     def test_a_recommendation_says_what_a_buyer_asks(self):
         answer = json.loads(self.run_capstan("place", "arm.toml", "--json").stdout)
