@@ -43,7 +43,7 @@ std::string headline_of(const sensitivity::WorldSensitivity& found) {
         if (number.changes()) deciding.push_back(number.title);
     const std::string stated = fmt::format("the stated numbers advise {}", advised_words(found.stated));
     if (deciding.empty()) return stated + "; no number changes that within its range.";
-    return fmt::format("{}; it depends on: {}.", stated, fmt::join(deciding, ", "));
+    return fmt::format("{}; the advice depends on: {}.", stated, fmt::join(deciding, ", "));
 }
 
 reports::Table where_table(const sensitivity::WorldSensitivity& found) {
