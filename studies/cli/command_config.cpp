@@ -11,6 +11,8 @@
 #include "capstan/config/config_reader.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
+#include "capstan/worlds/candidate.h"
+#include "capstan/worlds/sensor_places.h"
 
 namespace capstan::cli {
 
@@ -53,12 +55,16 @@ struct PlanSize {
     std::size_t noise_levels = 0;
     std::size_t sensor_sets = 0;
     std::size_t methods = 0;
-    std::size_t cells = 0;
+    std::size_t cells = 0;  ///< 0: over worlds
 };
 
 PlanSize size_of(const StudyPlan& plan) {
     PlanSize size;
     size.nodes = plan.transmission.cable.segments + 1;
+    if (plan.uncertainty.is_stated) {
+        size.sensor_sets = candidates_of(plan, sensor_offers(plan)).size() - 1;  // one of them is empty
+        return size;
+    }
     for (const RegimeInstants& regime : plan.regimes) size.scenarios += regime.samples.size();
     std::set<std::vector<int>> sets;
     for (const std::string& family : plan.layout_families) {
@@ -100,6 +106,10 @@ std::string in_words(const std::string& file, const StudyPlan& plan, const std::
         studies.size() > 1 ? fmt::format("  a sweep of {} studies, together:\n", studies.size()) : "";
     const std::string conduit =
         plan.transmission.conduit_note.empty() ? "" : "  conduit: " + plan.transmission.conduit_note + "\n";
+    if (plan.uncertainty.is_stated)
+        return fmt::format("{}: ok\n{}{}  {} nodes, {}, {} worlds to choose and as many to judge\n", file,
+                           sweep, conduit, size.nodes, counted(size.sensor_sets, "set") + " of sensors",
+                           plan.repetitions);
     return fmt::format("{}: ok\n{}{}  {} nodes, {}, {}, {}, {}: {} of {} repetitions\n", file, sweep, conduit,
                        size.nodes, counted(size.scenarios, "instant"),
                        counted(size.noise_levels, "noise level"), counted(size.sensor_sets, "sensor set"),
@@ -108,6 +118,14 @@ std::string in_words(const std::string& file, const StudyPlan& plan, const std::
 
 Data in_json(const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
     const PlanSize size = size_of(studies);
+    if (plan.uncertainty.is_stated)
+        return {{"ok", true},
+                {"name", plan.name},
+                {"studies", studies.size()},
+                {"conduit", plan.transmission.conduit_note},
+                {"nodes", size.nodes},
+                {"sensor_sets", size.sensor_sets},
+                {"worlds", plan.repetitions}};
     return {{"ok", true},
             {"name", plan.name},
             {"studies", studies.size()},
