@@ -46,7 +46,7 @@ struct Limits {
 /// The values that a key takes.
 struct AllowedValues {
     ValueKind kind = ValueKind::string;
-    std::string unit;
+    std::string unit{};
     Limits limits{};
     std::vector<std::string> names{};
     bool takes_all = false;     ///< the text "all" stands for the complete list

@@ -14,7 +14,7 @@ struct WorldError {
     double worst_place_N = 0.0;     ///< of the node where the mean absolute error is largest
     double mean_square_N2 = 0.0;    ///< over samples and the cable's length
     double covered_fraction = 0.0;  ///< of the truth, over the same, that lies within the estimate's 95% band
-    std::vector<double> node_abs_N;  // cables x nodes: mean absolute error over samples
+    std::vector<double> node_abs_N{};  // cables x nodes: mean absolute error over samples
 
     bool operator==(const WorldError&) const = default;
 };
