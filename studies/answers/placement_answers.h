@@ -37,7 +37,8 @@ struct Conclusions {
 void require_complete(storage::Database& database, std::int64_t study_id,
                       const storage::StudyDescription& description);
 Conclusions read_conclusions(storage::Database& database, std::int64_t study_id);
-reports::Answer recommendation_answer(const Conclusions& conclusions);
+/// `plan`: of the study.
+reports::Answer recommendation_answer(const Conclusions& conclusions, const StudyPlan& plan);
 
 /// What a study over worlds found; `study_id` 0: it is not stored.
 reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, std::int64_t study_id = 0);

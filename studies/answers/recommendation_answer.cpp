@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "capstan/answers/placement_answers.h"
-#include "capstan/config/config_reader.h"
-#include "capstan/placement/no_sensor_error.h"
+#include "capstan/placement/prepared_study.h"
 #include "capstan/placement/recommendation.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/report_queries.h"
@@ -235,7 +234,7 @@ Conclusions read_conclusions(storage::Database& database, std::int64_t study_id)
     return conclusions;
 }
 
-reports::Answer recommendation_answer(const Conclusions& conclusions) {
+reports::Answer recommendation_answer(const Conclusions& conclusions, const StudyPlan& plan) {
     const auto& study = conclusions.study.study;
     reports::Answer answer{.id = "recommendation",
                            .kind = "Sensor placement",
@@ -248,7 +247,6 @@ reports::Answer recommendation_answer(const Conclusions& conclusions) {
                      {"repetitions", study.repetitions},
                      {"recommendations", Data::list()},
                      {"paper_comparison", comparison_data(conclusions.paper_comparison)}};
-    const StudyPlan plan = config::parse_config(study.config_toml, "the stored configuration").plan;
     const std::map<std::string, double> errors_N = no_sensor_errors_N(plan);
     for (const auto& each : conclusions.recommendations) {
         Data data = recommendation_data(conclusions.study, each);

@@ -433,7 +433,7 @@ reports::Answer stored_world_answer(storage::Database& database, std::int64_t st
 reports::Answer conclusions_answer(storage::Database& database, std::int64_t study_id) {
     const StoredStudy stored = load_stored_study(database, study_id);
     if (stored.plan.uncertainty.is_stated) return stored_world_answer(database, study_id, stored.plan);
-    return recommendation_answer(read_conclusions(database, study_id));
+    return recommendation_answer(read_conclusions(database, study_id), stored.plan);
 }
 
 }  // namespace capstan::answers

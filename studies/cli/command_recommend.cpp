@@ -28,7 +28,7 @@ ExitCode run_recommend(const Invocation& invocation) {
             database, id, {invocation.number("worthwhile-gain")},
             independent_errors(database, id, stored.plan, static_cast<int>(invocation.integer("jobs"))));
     }
-    deliver_answer(invocation, answers::recommendation_answer(conclusions));
+    deliver_answer(invocation, answers::recommendation_answer(conclusions, stored.plan));
     return ExitCode::success;
 }
 

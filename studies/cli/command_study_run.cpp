@@ -104,9 +104,7 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
 
 ExitCode run_world_part(const Invocation& invocation, const std::vector<StudyPlan>& plans) {
     const Shard shard = parse_shard(invocation.text("shard"));
-    if (plans.size() > 1)
-        throw UsageError(
-            "capstan: --shard takes a configuration of one study over worlds, and this one has a [sweep]");
+    require_one_of_worlds(plans);
     const std::string& file = invocation.text("db");
     storage::Database database = storage::Database::open_or_create(file, storage::Journal::rollback);
     const std::string name = fmt::format("{}, {}", plans.front().name, words_of(shard));

@@ -9,6 +9,7 @@
 #include "capstan/cluster/slurm_queue.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
+#include "capstan/worlds/world_shard.h"
 
 namespace capstan::cli {
 
@@ -95,14 +96,18 @@ ExitCode run_study_submit(const Invocation& invocation) {
     }
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
-    refuse_worlds(config.plan, "study submit");
     StudyDirectory directory;
     directory.path = absolute_directory(invocation.text("directory"));
     directory.name = config.plan.name;
     directory.shards = static_cast<int>(invocation.integer("shards"));
     directory.processors_per_shard = static_cast<int>(invocation.integer("processors"));
     directory.program = fs::read_symlink("/proc/self/exe");
-    require_useful(plans, {1, directory.shards});
+    if (config.plan.uncertainty.is_stated) {
+        require_one_of_worlds(plans);
+        require_worlds_for(plans.front(), directory.shards);
+    } else {
+        require_useful(plans, {1, directory.shards});
+    }
     const bool dry_run = invocation.has("dry-run");
     if (!dry_run && !cluster::slurm_is_there()) {
         throw UsageError(

@@ -168,6 +168,13 @@ void refuse_worlds(const StudyPlan& plan, const std::string& what) {
                      "complete motions in one part");
 }
 
+void require_one_of_worlds(const std::vector<StudyPlan>& plans) {
+    if (plans.size() == 1) return;
+    throw UsageError(
+        "capstan: shards are of one study over worlds, and this configuration has a [sweep]; run each of its "
+        "studies from a configuration of its own");
+}
+
 const Option from_diagnosis_option{
     .name = "from-diagnosis",
     .value = "ID",

@@ -52,6 +52,9 @@ std::optional<WorldAnswer> watch_worlds(const Invocation& invocation, storage::D
 /// is a command or an option.
 void refuse_worlds(const StudyPlan& plan, const std::string& what);
 
+/// Throws UsageError where a configuration with [uncertainty] has a [sweep]: shards are of one study.
+void require_one_of_worlds(const std::vector<StudyPlan>& plans);
+
 extern const Option from_diagnosis_option;
 /// The truth of the plan's worlds is what the diagnosis of --from-diagnosis found, in the database of --db.
 void take_diagnosis(const Invocation& invocation, StudyPlan& plan);

@@ -8,6 +8,7 @@
 #include "capstan/placement/study_merge.h"
 #include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
+#include "capstan/worlds/world_shard.h"
 
 namespace capstan::cluster {
 
@@ -67,7 +68,10 @@ ShardProgress progress_of(const StudyDirectory& directory, int number) {
     if (!fs::exists(file) || fs::file_size(file) == 0) return progress;
     try {
         storage::Database database = storage::Database::open_read_only(file);
-        if (const auto state = read_shard_state(database)) {
+        if (const auto worlds = read_world_shard_state(database)) {
+            progress.units_done = static_cast<int>(worlds->trials_done);
+            progress.units = static_cast<int>(worlds->trials);
+        } else if (const auto state = read_shard_state(database)) {
             progress.units_done = state->units_done;
             progress.units = state->units;
         }

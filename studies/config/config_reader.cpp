@@ -183,7 +183,8 @@ class Reading {
 template <class Plan>
 ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file,
                           const std::optional<std::filesystem::path>& folder) {
-    ReadPlan<Plan> config{file, {}, {}};
+    ReadPlan<Plan> config;  // not in braces: g++ 12 then cleans up what a failed member leaves unmade
+    config.file = file;
     toml::table root;
     try {
         root = parsed(toml, file);

@@ -11,6 +11,7 @@
 #include "capstan/storage/study_store.h"
 #include "capstan/storage/world_store.h"
 #include "capstan/worlds/choice.h"
+#include "capstan/worlds/sensor_places.h"
 
 namespace capstan {
 
@@ -128,13 +129,31 @@ bool holds_worlds(storage::Database& database) {
            !storage::load_study(database, studies.front().study_id).world_candidates.empty();
 }
 
+std::optional<WorldShardState> read_world_shard_state(storage::Database& database) {
+    const auto mark = storage::read_shard(database);
+    if (!mark || !holds_worlds(database)) return std::nullopt;
+    const std::int64_t id = storage::list_studies(database).front().study_id;
+    const storage::StudyDescription study = storage::load_study(database, id);
+    const StudyPlan plan =
+        config::parse_config(study.study.config_toml, "the stored configuration of the shard").plan;
+    return WorldShardState{storage::read_world_errors(database, id).size(),
+                           errors_of(plan, study.world_candidates.size(), *mark)};
+}
+
+void require_worlds_for(const StudyPlan& plan, int shards) {
+    const int worlds = sharded_worlds(plan, candidates_of(plan, sensor_offers(plan)).size());
+    if (shards > worlds)
+        throw InvalidInput(
+            {fmt::format("there are only {} worlds to deal out, so {} shards would leave some "
+                         "without work; use at most {}",
+                         worlds, shards, worlds)});
+}
+
 void run_world_shard(storage::Database& database, const StudyPlan& plan, const storage::ShardRecord& shard,
                      const std::string& program_version, const TableOptions& options) {
     const storage::StudyDescription description = describe_worlds(plan, program_version);
     const std::size_t candidates = description.world_candidates.size();
-    if (errors_of(plan, candidates, shard) == 0)
-        throw InvalidInput({fmt::format("{} would have no world to run; use at most {} shards", words(shard),
-                                        sharded_worlds(plan, candidates))});
+    require_worlds_for(plan, shard.shards);
     const std::int64_t id = begin_or_find(database, shard, description);
     fill_worlds(database, id, plan, options, shard.shard - 1, sharded_worlds(plan, candidates), shard.shards);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,16 @@ namespace capstan {
 
 /// Whether the file holds a study over worlds, or a shard of one.
 bool holds_worlds(storage::Database& database);
+
+/// How far the file of a shard of a study over worlds is, in trials; nothing if it holds none.
+struct WorldShardState {
+    std::size_t trials_done = 0;
+    std::size_t trials = 0;
+};
+std::optional<WorldShardState> read_world_shard_state(storage::Database& database);
+
+/// Throws InvalidInput if one of so many shards would have no world to run.
+void require_worlds_for(const StudyPlan& plan, int shards);
 
 /// Runs one of `shard.shards` parts of a study over worlds in a file of its own, opened with
 /// Journal::rollback; where the file is that part already, goes on where it was. A part is every so many

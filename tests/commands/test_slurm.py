@@ -12,6 +12,7 @@ from slurm_cluster import SlurmCluster, why_not
 
 STUDY = (CONFIGS / "noise-instants.toml", "--repetitions", "2000")  # some seconds a shard
 QUICK = (CONFIGS / "noise-instants.toml", "--repetitions", "20")
+WORLDS = (CONFIGS / "wrist-exosuit.toml", "--repetitions", "20")
 
 
 class WithoutSlurm(CapstanTest):
@@ -26,9 +27,13 @@ class WithoutSlurm(CapstanTest):
 
     def test_dry_run_writes_scripts_that_a_shell_can_run(self):
         """As the tasks of an array would, one after the other."""
-        done = self.run_capstan("study", "submit", "--slurm", *QUICK, "--shards", 3, "--directory", "it's 100% d",
-                                "--dry-run", env=self.NO_SLURM)
-        folder = self.folder / "it's 100% d"
+        for study, name in ((QUICK, "it's 100% d"), (WORLDS, "worlds")):
+            with self.subTest(name):
+                self.run_scripts(study, name)
+
+    def run_scripts(self, study, name):
+        done = self.run_capstan("study", "submit", "--slurm", *study, "--shards", 3, "--directory", name, "--dry-run", env=self.NO_SLURM)
+        folder = self.folder / name
         self.assertIn("sbatch --array=1-3 ", done.stdout)
         self.assertIn((folder / "shards.sbatch").read_text(), done.stdout)
         states = lambda: [shard["state"] for shard in self.status(folder)["shards"]]
@@ -39,10 +44,10 @@ class WithoutSlurm(CapstanTest):
         self.shell(folder, "merge.sbatch")
         self.shell(folder, "merge.sbatch")  # as after the failure of a node
         self.assertEqual(self.status(folder)["merge"]["state"], "done")
-        self.run_capstan("study", "run", *QUICK, "--db", "complete.db")
-        self.assert_same_bits(self.tables("complete.db"), self.tables(folder / "study.db"))
+        self.run_capstan("study", "run", *study, "--db", f"{name}.db")
+        self.assert_same_bits(self.tables(f"{name}.db"), self.tables(folder / "study.db"))
         self.assertIn("complete; nothing to submit", self.run_capstan(
-            "study", "submit", "--slurm", *QUICK, "--shards", 3, "--directory", folder, "--dry-run").stdout)
+            "study", "submit", "--slurm", *study, "--shards", 3, "--directory", folder, "--dry-run").stdout)
 
     def test_refuses_the_folder_of_something_else(self):
         self.run_capstan("study", "submit", "--slurm", *QUICK, "--shards", 3, "--directory", "d", "--dry-run")

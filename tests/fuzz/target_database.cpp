@@ -63,7 +63,7 @@ void read_study(Database& database, std::int64_t id) {
     let_refuse([&] { reports::study_report_markdown(database, id); });
     let_refuse([&] { reports::study_error_csv(database, id); });
     let_refuse([&] {
-        reports::answer_text(answers::recommendation_answer(answers::read_conclusions(database, id)));
+        reports::answer_text(answers::conclusions_answer(database, id));
     });
     let_refuse([&] { load_stored_study(database, id); });
     let_refuse([&] { storage::pending_units(database, id); });
