@@ -48,10 +48,10 @@ std::vector<SensorOffer> sensor_offers(const StudyPlan& plan) {
         }
         const bool on_pair =
             plan.transmission.arrangement == CableArrangement::pull_pull && row.kind == SensorKind::tension;
-        for (int cable = 0; cable < (on_pair ? 2 : 1); ++cable) {
-            if (on_pair && row.cable == (cable == 0 ? OfferedOn::cable_b : OfferedOn::cable_a)) continue;
+        for (int which = 0; which < (on_pair ? 2 : 1); ++which) {
+            if (on_pair && row.cable == (which == 0 ? OfferedOn::cable_b : OfferedOn::cable_a)) continue;
             for (const double place_m : places_m)
-                offers.push_back({row.kind, place_m, row.errors, row.price, cable});
+                offers.push_back({row.kind, place_m, row.errors, row.price, which});
         }
     }
     return offers;

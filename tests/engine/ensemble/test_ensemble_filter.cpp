@@ -104,7 +104,9 @@ TEST(EnsembleFilter, AnEncoderAtTheLoadTellsWhereTheFarEndIs) {
     for (int n = 1; n <= samples; ++n) {
         const double moved_m[] = {0.0005 * std::sin(2.0 * std::numbers::pi * n * interval_s)};
         filter.step(motor_m(n) - motor_m(n - 1), moved_m);
-        if (n > 20) ASSERT_NEAR(filter.far_end_m().mean, moved_m[0], 5e-5) << "sample " << n;
+        if (n > 20) {
+            ASSERT_NEAR(filter.far_end_m().mean, moved_m[0], 5e-5) << "sample " << n;
+        }
     }
 }
 
