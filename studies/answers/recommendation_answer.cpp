@@ -178,9 +178,8 @@ std::optional<double> no_sensor_error_N(const std::map<std::string, double>& err
 std::string no_sensor_words(const std::optional<double>& none_N, const RecommendationRecord& r) {
     if (!none_N) return {};
     if (*none_N <= r.interval_high_N)
-        return fmt::format(
-            " This is not better than no sensor at all: the mean of the feasible states errs {:.3f} N.",
-            *none_N);
+        return fmt::format(" This is not better than no sensor at all, with which the error is {:.3f} N.",
+                           *none_N);
     return fmt::format(" Without any sensor the error is {:.3f} N.", *none_N);
 }
 

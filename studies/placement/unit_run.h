@@ -15,7 +15,7 @@ struct UnitsToRun {
     std::set<int> units;              // unit_index, of units that are not done
     std::function<void()> on_stored;  ///< called after every stored unit; may be empty
     /// Another program may store the same unit first (a task that was started again while the first still
-    /// ran). Both have the same bits, so that is no error.
+    /// ran). Both have the same bits, so that is not an error.
     bool shared_with_others = false;
 };
 

@@ -73,7 +73,7 @@ std::vector<Route> api_routes(RouteContext& context);
 /// The rows as OpenAPI 3 (JSON).
 std::string openapi_text(const std::vector<Route>& routes);
 
-/// The pages for people, which are no part of the interface.
+/// The pages for people, which are not part of the interface.
 void add_page_routes(httplib::Server& server, RouteContext& context);
 
 /// What every answer about a study depends on: its status and how many units are done.

@@ -149,21 +149,21 @@ class Worlds(CapstanTest):
         self.assertEqual(stored[0]["sentence"], answer["recommendations"][0]["sentence"])
 
     def test_a_stopped_study_goes_on_to_the_same_bits(self):
-        self.run_capstan("study", "run", "arm.toml", "--repetitions", "60", "--db", "whole.db")
+        self.run_capstan("study", "run", "arm.toml", "--repetitions", "60", "--db", "complete.db")
         process = self.start_capstan("study", "run", "arm.toml", "--repetitions", "60", "--db", "stopped.db", "--jobs", "1",
                                      "--progress", "json")
         process.stderr.readline()  # the first block of worlds is stored
         process.send_signal(signal.SIGINT)
         process.wait(60)
         self.run_capstan("study", "resume", "--db", "stopped.db")
-        self.assert_same_bits(self.tables("whole.db"), self.tables("stopped.db"))
+        self.assert_same_bits(self.tables("complete.db"), self.tables("stopped.db"))
 
     def test_a_recorded_far_end_is_resumed_without_its_log(self):
         self.write("wrist.csv", "time_s,displacement_m\n" +
                    "".join(f"{0.01 * k:.2f},{0.001 * math.sin(0.05 * k):.7f}\n" for k in range(500)))
         words = self.run_capstan("place", "arm.toml", "--far-end", "wrist.csv").stdout
         self.assertIn("recorded in wrist.csv", " ".join(words.split()))
-        self.run_capstan("study", "run", "arm.toml", "--far-end", "wrist.csv", "--db", "whole.db")
+        self.run_capstan("study", "run", "arm.toml", "--far-end", "wrist.csv", "--db", "complete.db")
         self.write("recorded.toml", ARM.replace("far_end_range_m", 'far_end = "recorded"\nfar_end_log = "wrist.csv"\nfar_end_range_m'))
         process = self.start_capstan("study", "run", "recorded.toml", "--db", "stopped.db", "--jobs", "1", "--progress", "json")
         process.stderr.readline()  # the first block of worlds is stored
@@ -171,7 +171,7 @@ class Worlds(CapstanTest):
         process.wait(60)
         self.write("wrist.csv", "")
         self.run_capstan("study", "resume", "--db", "stopped.db")
-        self.assert_same_bits(self.tables("whole.db"), self.tables("stopped.db"))
+        self.assert_same_bits(self.tables("complete.db"), self.tables("stopped.db"))
 
     def test_bad_values_are_refused_with_their_line(self):
         for key, wrong, message in (("friction_fraction", "-0.1", "friction_fraction"),

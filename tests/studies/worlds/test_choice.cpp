@@ -373,9 +373,9 @@ TEST_F(StoredWorlds, SayTheSameAsARunWithoutADatabase) {
 }
 
 TEST_F(StoredWorlds, EndWithTheSameBitsAfterEveryStop) {
-    storage::Database whole = open("whole.db");
-    const std::int64_t whole_id = begin_worlds(whole, arm_plan(), "test");
-    run_worlds(whole, whole_id, arm_plan(), {});
+    storage::Database complete_study = open("complete.db");
+    const std::int64_t complete_id = begin_worlds(complete_study, arm_plan(), "test");
+    run_worlds(complete_study, complete_id, arm_plan(), {});
     storage::Database stopped = open("stopped.db");
     const std::int64_t id = begin_worlds(stopped, arm_plan(), "test");
     int stops = 0;
@@ -392,9 +392,10 @@ TEST_F(StoredWorlds, EndWithTheSameBitsAfterEveryStop) {
         ASSERT_LT(stops, 1000);
     }
     EXPECT_GT(stops, 1);
-    EXPECT_EQ(storage::read_world_errors(stopped, id), storage::read_world_errors(whole, whole_id));
+    EXPECT_EQ(storage::read_world_errors(stopped, id),
+              storage::read_world_errors(complete_study, complete_id));
     EXPECT_EQ(storage::read_world_recommendation(stopped, id),
-              storage::read_world_recommendation(whole, whole_id));
+              storage::read_world_recommendation(complete_study, complete_id));
 }
 
 }  // namespace
