@@ -123,6 +123,7 @@ TEST(SlowFurtherSensor, RaisesTheSquaredErrorOfAParticleFilterNowhere) {
     StudyPlan plan = config::read_config(CONFIGS_FOLDER "/noise-sweep.toml").plan;
     plan.name = "noise sweep, 20 %, 4 segments";
     make_small(plan);
+    plan.motion.samples = 200;
     plan.sensors.front().errors.multiplicative_ratio = 0.2;
     plan.transmission.cable.segments = 4;
     place_nodes(plan);
