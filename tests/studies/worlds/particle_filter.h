@@ -155,21 +155,26 @@ class ParticleFilter {
     double proximal_m_ = 0.0;
 };
 
-/// Mean square error [N^2] over samples and nodes of a world.
+/// Mean square error [N^2] over samples and the length of the cable of a world, as WorldError has it.
 inline double particle_square_N2(const WorldQuestion& question, const World& world, std::vector<int> sensors,
                                  int particles = 10000) {
     ParticleFilter filter(question, sensors, particles, 17);
     std::vector<double> readings;
+    const Cable cable(question.cable.nominal());
     double squares = 0.0;
     for (int sample = 0; sample < world.samples(); ++sample) {
         world.read(sample, question.offers, sensors, readings);
         filter.step(world.proximal_increment_m[static_cast<std::size_t>(sample)], readings);
-        for (int node = 0; node < world.nodes; ++node)
-            squares += std::pow(filter.mean_N()[static_cast<std::size_t>(node)] -
+        for (int node = 0; node < world.nodes; ++node) {
+            const double near_m = node > 0 ? cable.segment_length_m(node - 1) : 0.0;
+            const double far_m = node + 1 < world.nodes ? cable.segment_length_m(node) : 0.0;
+            squares += 0.5 * (near_m + far_m) / cable.length_m() *
+                       std::pow(filter.mean_N()[static_cast<std::size_t>(node)] -
                                     world.tensions_N(sample)[static_cast<std::size_t>(node)],
                                 2);
+        }
     }
-    return squares / (world.samples() * world.nodes);
+    return squares / world.samples();
 }
 
 }  // namespace capstan::testing
