@@ -165,7 +165,10 @@ std::string assumption_words(const StudyPlan& plan) {
         "the far end it assumes that it moves by at most {:g} mm in a sample{}. Errors are those of the samples {}, not of "
         "a complete motion. On a rig none of this holds; with [uncertainty] a study drops these assumptions.",
         1e3 * plan.largest_distal_increment_m,
-        plan.motion.distal.amplitude == 0.0 ? ", and in truth it is blocked" : "", samples_words(plan));
+        plan.motion.distal.kind == EndKind::position && plan.motion.distal.amplitude == 0.0
+            ? ", and in truth it is blocked"
+            : "",
+        samples_words(plan));
 }
 
 // Of a choice whose error can be set beside the error without any sensor.

@@ -105,6 +105,7 @@ ExitCode run_both_truths(const Invocation& invocation, const StudyPlan& with_tru
 ExitCode run_world_part(const Invocation& invocation, const std::vector<StudyPlan>& plans) {
     const Shard shard = parse_shard(invocation.text("shard"));
     require_one_of_worlds(plans);
+    require_worlds_for(plans.front(), shard.count);  // before there is a file
     const std::string& file = invocation.text("db");
     storage::Database database = storage::Database::open_or_create(file, storage::Journal::rollback);
     const std::string name = fmt::format("{}, {}", plans.front().name, words_of(shard));

@@ -165,7 +165,7 @@ void refuse_worlds(const StudyPlan& plan, const std::string& what) {
     if (!plan.uncertainty.is_stated) return;
     throw UsageError("capstan: " + what +
                      " is for studies at instants; a study with [uncertainty] compares sets of sensors over "
-                     "complete motions in one part");
+                     "complete motions");
 }
 
 void require_one_of_worlds(const std::vector<StudyPlan>& plans) {

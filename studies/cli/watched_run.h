@@ -48,7 +48,7 @@ WatchedTable watch_table(const Invocation& invocation, const std::string& name,
 std::optional<WorldAnswer> watch_worlds(const Invocation& invocation, storage::Database* database,
                                         std::int64_t study_id, const StudyPlan& plan);
 
-/// Throws UsageError where the plan is one with [uncertainty], which has neither instants nor shards. `what`
+/// Throws UsageError where the plan is one with [uncertainty], which has no instants. `what`
 /// is a command or an option.
 void refuse_worlds(const StudyPlan& plan, const std::string& what);
 
