@@ -1,0 +1,81 @@
+#include "capstan/logs/log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include "capstan/cable/invalid_input.h"
+
+namespace capstan::logs {
+
+namespace {
+
+constexpr std::size_t head_bytes = 4096;
+
+std::string head_of(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path))
+        throw InvalidInput({fmt::format("{}: is a folder; name the log inside it", path.string())});
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        throw InvalidInput({fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno))});
+    std::string head(head_bytes, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    if (head.empty()) throw InvalidInput({fmt::format("{}: the file is empty", path.string())});
+    return head;
+}
+
+std::string formats_in_words() {
+    std::string words;
+    for (const LogFormat& format : log_formats())
+        words += fmt::format("{}{} ({})", words.empty() ? "" : ", ", format.name, format.files);
+    return words;
+}
+
+}  // namespace
+
+std::span<const LogFormat> log_formats() {
+    return {};
+}
+
+Log read_log(const std::filesystem::path& path, const ReadOptions& options) {
+    const std::string head = head_of(path);
+    for (const LogFormat& format : log_formats()) {
+        if (!format.is_it(head, path)) continue;
+        Log log;
+        log.file = path;
+        log.format = format.name;
+        log.store = std::make_shared<NumberStore>(options.memory_limit_bytes);
+        format.read(path, options, log);
+        return log;
+    }
+    throw InvalidInput(
+        {fmt::format("{}: is in none of the formats that can be read: {}. Save it as one of them",
+                     path.string(), formats_in_words())});
+}
+
+int LogTable::column(std::string_view column_name) const {
+    const auto found = std::find_if(columns.begin(), columns.end(),
+                                    [&](const LogColumn& column) { return column.name == column_name; });
+    return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
+}
+
+LogColumn& LogTable::add_column(const std::string& column_name, const std::string& unit,
+                                const std::shared_ptr<NumberStore>& store) {
+    LogColumn& column = columns.emplace_back(LogColumn{column_name, unit, NumberSeries(store)});
+    for (std::size_t row = 0; row < rows; ++row)
+        column.values.append(std::numeric_limits<double>::quiet_NaN());
+    return column;
+}
+
+int Log::table(std::string_view table_name) const {
+    const auto found = std::find_if(tables.begin(), tables.end(),
+                                    [&](const LogTable& table) { return table.name == table_name; });
+    return found == tables.end() ? -1 : static_cast<int>(found - tables.begin());
+}
+
+}  // namespace capstan::logs
