@@ -85,10 +85,19 @@ void NumberSeries::append(double number) {
     open_.clear();
 }
 
-NumberReader::NumberReader(const NumberSeries& series) : series_(&series) {}
+NumberReader::NumberReader(const NumberSeries& series, std::size_t first)
+    : series_(&series),
+      next_(first / NumberStore::block_numbers),
+      skipped_(first % NumberStore::block_numbers) {}
 
 std::span<const double> NumberReader::next_block() {
-    const std::size_t block = next_++;
+    std::span<const double> block = stored_block(next_++);
+    block = block.subspan(std::min(skipped_, block.size()));
+    skipped_ = 0;
+    return block;
+}
+
+std::span<const double> NumberReader::stored_block(std::size_t block) {
     if (block < series_->blocks_.size()) {
         buffer_.resize(NumberStore::block_numbers);
         return {series_->store_->find(series_->blocks_[block], buffer_.data()), NumberStore::block_numbers};

@@ -52,10 +52,11 @@ class NumberSeries {
     std::vector<double> open_;                ///< the last, incomplete one
 };
 
-/// Reads a series from its beginning. The series must not grow meanwhile.
+/// Reads a series in order. The series must not grow meanwhile.
 class NumberReader {
   public:
-    explicit NumberReader(const NumberSeries& series);
+    /// From the number with index `first` on.
+    explicit NumberReader(const NumberSeries& series, std::size_t first = 0);
 
     /// The numbers of the next block; empty after the last. Valid until the next call.
     std::span<const double> next_block();
@@ -71,8 +72,11 @@ class NumberReader {
     }
 
   private:
+    std::span<const double> stored_block(std::size_t block);
+
     const NumberSeries* series_;
     std::size_t next_ = 0;
+    std::size_t skipped_;  ///< of the first block
     std::span<const double> block_;
     std::size_t at_ = 0;
     std::vector<double> buffer_;
