@@ -4,6 +4,7 @@ build_packages=(
     g++ cmake ninja-build ccache
     libeigen3-dev libtbb-dev libsqlite3-dev libboost-program-options-dev libboost-math-dev
     librandom123-dev libhwy-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev
+    zlib1g-dev
     nodejs npm
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev liblapack-dev sqlite3 python3 chromium)

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <limits>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/logs/log_formats.h"
 
 namespace capstan::logs {
 
@@ -39,7 +41,8 @@ std::string formats_in_words() {
 }  // namespace
 
 std::span<const LogFormat> log_formats() {
-    return {};
+    static const std::array formats{text_format};
+    return formats;
 }
 
 Log read_log(const std::filesystem::path& path, const ReadOptions& options) {

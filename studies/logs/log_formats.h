@@ -1,0 +1,10 @@
+#pragma once
+
+#include "capstan/logs/log.h"
+
+namespace capstan::logs {
+
+// One row for each reader; log_formats() has them in order.
+extern const LogFormat text_format;
+
+}  // namespace capstan::logs

@@ -1,0 +1,180 @@
+#include "capstan/logs/text_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+
+namespace capstan::logs {
+
+namespace {
+
+constexpr std::size_t longest_number = 64;
+
+bool is_blank(char letter) {
+    return letter == ' ' || letter == '\t';
+}
+
+bool is_missing(std::string_view cell) {
+    constexpr std::array<std::string_view, 19> words{
+        "-", "--", "nan",     "inf",    "infinity", "na",      "n/a",     "#n/a",    "null", "none",
+        "?", ".",  "1.#qnan", "1.#ind", "1.#inf",   "#div/0!", "#value!", "missing", "nat"};
+    if (cell.empty()) return true;
+    if (cell.size() > 1 && (cell[0] == '-' || cell[0] == '+') && cell != "--") cell.remove_prefix(1);
+    if (cell.size() > 9) return false;
+    std::string small(cell);
+    for (char& letter : small)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    return std::find(words.begin(), words.end(), small) != words.end();
+}
+
+// What from_chars leaves: a leading +, a decimal comma, Fortran's D, numbers beyond or below a double's
+// range.
+CellKind number_of_unusual_cell(std::string_view cell, bool decimal_comma, double& number) {
+    if (is_missing(cell)) return CellKind::missing;
+    if (cell.size() > longest_number) return CellKind::text;
+    char copy[longest_number + 1];
+    std::size_t length = 0;
+    bool has_digit = false;
+    for (const char letter : cell) {
+        const bool digit = letter >= '0' && letter <= '9';
+        has_digit = has_digit || digit;
+        if (!digit && std::strchr("+-.,eEdD", letter) == nullptr) return CellKind::text;
+        if (letter == ',' && !decimal_comma) return CellKind::text;
+        if (letter == '.' && decimal_comma && cell.find(',') != std::string_view::npos) return CellKind::text;
+        copy[length++] = letter == ',' ? '.' : letter == 'd' || letter == 'D' ? 'e' : letter;
+    }
+    const char* begin = copy + (copy[0] == '+' && length > 1 && copy[1] != '-' ? 1 : 0);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(begin, copy + length, value);
+    if (!has_digit || end != copy + length || error == std::errc::invalid_argument) return CellKind::text;
+    if (error == std::errc::result_out_of_range) {
+        const std::string_view digits(begin, static_cast<std::size_t>(copy + length - begin));
+        const std::size_t exponent = digits.find_first_of("eE");
+        const bool is_tiny =
+            exponent != std::string_view::npos && digits.substr(exponent + 1).starts_with('-');
+        if (!is_tiny) return CellKind::missing;
+        value = 0.0;
+    }
+    number = value;
+    return CellKind::number;
+}
+
+bool digits_at(std::string_view cell, std::size_t at, std::size_t count, int& value) {
+    if (at + count > cell.size()) return false;
+    value = 0;
+    for (std::size_t k = at; k < at + count; ++k) {
+        if (cell[k] < '0' || cell[k] > '9') return false;
+        value = 10 * value + (cell[k] - '0');
+    }
+    return true;
+}
+
+// "10:00", "10:00:00", "10:00:00.250" from `at` on, which moves behind it.
+bool time_of_day(std::string_view cell, std::size_t& at, CellInstant& instant) {
+    int hour = 0, minute = 0, second = 0;
+    if (!digits_at(cell, at, 2, hour) || at + 2 >= cell.size() || cell[at + 2] != ':' ||
+        !digits_at(cell, at + 3, 2, minute) || hour > 24 || minute > 59)
+        return false;
+    at += 5;
+    if (at < cell.size() && cell[at] == ':') {
+        if (!digits_at(cell, at + 1, 2, second) || second > 60) return false;
+        at += 3;
+        if (at < cell.size() && (cell[at] == '.' || cell[at] == ',')) {
+            double scale = 0.1;
+            for (++at; at < cell.size() && cell[at] >= '0' && cell[at] <= '9'; ++at, scale *= 0.1)
+                instant.fraction_s += scale * (cell[at] - '0');
+        }
+    }
+    instant.seconds += hour * 3600 + minute * 60 + second;
+    return true;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+void split_cells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
+    cells.clear();
+    const bool has_quotes = std::memchr(line.data(), '"', line.size()) != nullptr;
+    if (delimiter == ' ') line = trimmed(line);
+    if (delimiter == ' ' && line.empty()) return;
+    std::size_t at = 0;
+    while (true) {
+        while (at < line.size() && is_blank(line[at]) && line[at] != delimiter) ++at;
+        if (has_quotes && at < line.size() && line[at] == '"') {
+            const std::size_t begin = ++at;
+            std::size_t end = line.find('"', at);
+            while (end != std::string_view::npos && end + 1 < line.size() && line[end + 1] == '"')
+                end = line.find('"', end + 2);
+            at = end == std::string_view::npos ? line.size() : end + 1;
+            cells.push_back(trimmed(line.substr(begin, std::min(end, line.size()) - begin)));
+            while (at < line.size() && line[at] != delimiter && !(delimiter == ' ' && is_blank(line[at])))
+                ++at;
+        } else if (delimiter == ' ') {
+            const std::size_t begin = at;
+            while (at < line.size() && !is_blank(line[at])) ++at;
+            cells.push_back(line.substr(begin, at - begin));
+        } else {
+            const void* found = std::memchr(line.data() + at, delimiter, line.size() - at);
+            const std::size_t end =
+                found ? static_cast<std::size_t>(static_cast<const char*>(found) - line.data()) : line.size();
+            cells.push_back(trimmed(line.substr(at, end - at)));
+            at = end;
+        }
+        if (at >= line.size()) break;
+        ++at;
+        if (delimiter == ' ')
+            while (at < line.size() && is_blank(line[at])) ++at;
+    }
+}
+
+CellKind number_of_cell(std::string_view cell, bool decimal_comma, double& number) {
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    if (error == std::errc() && end == cell.data() + cell.size() && std::isfinite(number))
+        return CellKind::number;
+    number = std::numeric_limits<double>::quiet_NaN();
+    return number_of_unusual_cell(cell, decimal_comma, number);
+}
+
+std::optional<CellInstant> instant_of_cell(std::string_view cell) {
+    CellInstant instant;
+    std::size_t at = 0;
+    int year = 0, month = 0, day = 0;
+    if (cell.size() >= 5 && cell[2] == ':') {
+        instant.is_time_of_day = true;
+        if (!time_of_day(cell, at, instant) || at != cell.size()) return std::nullopt;
+        return instant;
+    }
+    if (cell.size() < 10 || (cell[4] != '-' && cell[4] != '/') || cell[7] != cell[4] ||
+        !digits_at(cell, 0, 4, year) || !digits_at(cell, 5, 2, month) || !digits_at(cell, 8, 2, day))
+        return std::nullopt;
+    const std::chrono::year_month_day date{std::chrono::year(year),
+                                           std::chrono::month(static_cast<unsigned>(month)),
+                                           std::chrono::day(static_cast<unsigned>(day))};
+    if (!date.ok()) return std::nullopt;
+    instant.seconds = std::chrono::sys_days(date).time_since_epoch().count() * 86400LL;
+    at = 10;
+    if (at == cell.size()) return instant;
+    if (cell[at] != 'T' && cell[at] != ' ') return std::nullopt;
+    if (!time_of_day(cell, ++at, instant)) return std::nullopt;
+    std::string_view zone = trimmed(cell.substr(at));
+    if (zone.empty() || zone == "Z" || zone == "UTC") return instant;
+    int hours = 0, minutes = 0;
+    if ((zone[0] != '+' && zone[0] != '-') || !digits_at(zone, 1, 2, hours)) return std::nullopt;
+    std::string_view rest = zone.substr(3);
+    if (rest.starts_with(':')) rest.remove_prefix(1);
+    if (!rest.empty() && (rest.size() != 2 || !digits_at(rest, 0, 2, minutes))) return std::nullopt;
+    instant.seconds -= (zone[0] == '-' ? -1 : 1) * (hours * 3600 + minutes * 60);
+    return instant;
+}
+
+}  // namespace capstan::logs

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace capstan::logs {
+
+/// How the cells of a line are separated and numbers written.
+struct CellStyle {
+    char delimiter = ',';  ///< ' ': any number of blanks or tabs
+    bool decimal_comma = false;
+};
+
+/// The cells of a line, trimmed, the quotes around a cell removed.
+void split_cells(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
+
+enum class CellKind { number, missing, text };
+
+/// What a cell is. `number` gets its value; NaN for a missing one (empty, "nan", "inf", "-", "NA") and text.
+CellKind number_of_cell(std::string_view cell, bool decimal_comma, double& number);
+
+/// An instant of ISO 8601 ("2024-05-01T10:00:00.250Z", a blank instead of the T) or a time of day
+/// ("10:00:00.250").
+struct CellInstant {
+    long long seconds = 0;  ///< since 1970-01-01, or since midnight
+    double fraction_s = 0.0;
+    bool is_time_of_day = false;
+};
+std::optional<CellInstant> instant_of_cell(std::string_view cell);
+
+std::string_view trimmed(std::string_view text);
+
+}  // namespace capstan::logs
