@@ -4,10 +4,12 @@ build_packages=(
     g++ cmake ninja-build ccache
     libeigen3-dev libtbb-dev libsqlite3-dev libboost-program-options-dev libboost-math-dev
     librandom123-dev libhwy-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev
-    zlib1g-dev
+    zlib1g-dev libbz2-dev liblz4-dev libzstd-dev
     nodejs npm
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev liblapack-dev sqlite3 python3 chromium)
+# The writers of logs that the tests read; without them those tests are skipped.
+log_test_packages=(python3-rosbag python3-sensor-msgs)
 # For the test on a Slurm of its own, which is skipped without them.
 slurm_packages=(slurmctld slurmd slurm-client munge)
 

@@ -41,7 +41,7 @@ std::string formats_in_words() {
 }  // namespace
 
 std::span<const LogFormat> log_formats() {
-    static const std::array formats{text_format};
+    static const std::array formats{ros_bag_format, mcap_format, rosbag2_format, text_format};
     return formats;
 }
 

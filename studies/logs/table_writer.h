@@ -37,6 +37,8 @@ class TableWriter {
     void fill_column(int table, int column, std::span<const double> numbers);
     void set_rows(int table, std::size_t rows);
 
+    /// Whether another column would be one too many.
+    bool is_full() const { return columns_ >= LogLimits::columns; }
     Log& log() { return log_; }
     void remark(std::string sentence) { log_.remarks.push_back(std::move(sentence)); }
 
