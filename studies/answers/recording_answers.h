@@ -11,6 +11,7 @@
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/twin.h"
 #include "capstan/gap_trial/trial_score.h"
+#include "capstan/import/importer.h"
 #include "capstan/recording/recording.h"
 #include "capstan/reports/answer.h"
 #include "capstan/storage/diagnosis_records.h"
@@ -63,5 +64,14 @@ reports::Answer trial_score_answer(const gap_trial::TrialOptions& options, const
 
 /// The runs of a recording, for a page that draws figures for each run.
 reports::Table run_table(const Recording& recording);
+
+/// What an import read, repaired and doubts; its page draws the channels.
+reports::Answer import_answer(const imports::ImportReport& report);
+
+/// Whether a recording can be used: every problem, or what was taken for what its sidecar leaves out.
+reports::Answer recording_check_answer(const Recording& recording, const std::vector<std::string>& problems);
+
+/// The table of keys of a recording's sidecar, its channels and the kinds of bench.
+reports::Answer recording_keys_answer();
 
 }  // namespace capstan::answers

@@ -92,7 +92,7 @@ Recording only_runs(Recording recording, const std::string& listed) {
 
 // The recorded bench, or an equivalent bench where the geometry is unknown.
 Recording recorded_bench(const Invocation& invocation) {
-    const Recording recorded = with_estimated_noise(read_recording(invocation.argument("LOG")));
+    const Recording recorded = read_recording(invocation.argument("LOG"));
     const Recording diagnosed =
         invocation.has("runs") ? only_runs(recorded, invocation.text("runs")) : recorded;
     const Recording fitted_to =

@@ -26,6 +26,11 @@
     COMMAND(report)               \
     COMMAND(export)               \
     COMMAND(serve)                \
+    COMMAND(import)               \
+    COMMAND(recording_check)      \
+    COMMAND(recording_template)   \
+    COMMAND(recording_keys)       \
+    COMMAND(recording_schema)     \
     COMMAND(simulate)             \
     COMMAND(calibrate)            \
     COMMAND(diagnose)             \

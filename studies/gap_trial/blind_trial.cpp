@@ -99,7 +99,7 @@ void answer_trial(const TrialFolder& folder, const TrialOptions& options, const 
             gap::DiagnosisOptions one_thread;
             one_thread.threads = 1;
             const Recording recording =
-                with_estimated_noise(read_recording(folder.recording(name)));  // as the command does
+                read_recording(folder.recording(name));
             write_answer(folder.answer(name), answer_of(name, gap::diagnose(recording, one_thread)), seal);
         });
 }

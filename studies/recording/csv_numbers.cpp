@@ -34,8 +34,9 @@ bool numbers_of(std::string_view line, const CsvNumbers& table, const std::strin
                 ProblemList& problems, std::vector<double>& numbers) {
     const std::vector<std::string_view> fields = fields_of(line);
     if (fields.size() != table.columns.size()) {
-        problems.add(place, fmt::format("{} values for {} columns; is the line cut short?", fields.size(),
-                                        table.columns.size()));
+        problems.add_line("columns", place,
+                          fmt::format("{} values for {} columns; is the line cut short?", fields.size(),
+                                      table.columns.size()));
         return false;
     }
     numbers.clear();
@@ -45,9 +46,10 @@ bool numbers_of(std::string_view line, const CsvNumbers& table, const std::strin
         const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
         const bool is_number = error == std::errc{} && end == field.data() + field.size();
         if (!is_number || !std::isfinite(number)) {
-            problems.add(place, fmt::format("column '{}' has '{}', not a finite number; leave incomplete "
-                                            "samples out, do not fill them",
-                                            table.columns[column], field));
+            problems.add_line("number " + table.columns[column], place,
+                              fmt::format("column '{}' has '{}', not a finite number; leave incomplete "
+                                          "samples out, do not fill them",
+                                          table.columns[column], field));
             return false;
         }
         numbers.push_back(number);
@@ -71,7 +73,7 @@ CsvNumbers read_csv_numbers(const std::filesystem::path& path, ProblemList& prob
             for (const std::string_view name : fields_of(line)) table.columns.emplace_back(name);
             table.values.resize(table.columns.size());
         } else if (line.empty()) {
-            if (!rest.empty()) problems.add(place, "the line is empty");
+            if (!rest.empty()) problems.add_line("empty", place, "the line is empty");
         } else if (numbers_of(line, table, place, problems, numbers)) {
             for (std::size_t column = 0; column < numbers.size(); ++column)
                 table.values[column].push_back(numbers[column]);

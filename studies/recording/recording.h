@@ -84,6 +84,8 @@ struct Recording {
     std::vector<TensionSensor> tension_sensors;
     std::optional<NominalBench> nominal;  ///< none where the geometry is not known
     std::vector<RecordedRun> runs;        ///< in the order they were made
+    /// What the sidecar does not state and was taken instead, and keys that look misspelled; sentences.
+    std::vector<std::string> assumptions;
 
     /// Index in `channels`, if the channel exists.
     std::optional<int> channel(std::string_view channel_name) const;

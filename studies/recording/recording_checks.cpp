@@ -106,12 +106,15 @@ void check_next_time(const RecordedRun& run, double time_s, double sample_rate_H
     if (run.time_s.empty()) return;
     const double step_s = time_s - run.time_s.back();
     if (step_s <= 0.0) {
-        problems.add(place, fmt::format("time {} s does not come after {} s", time_s, run.time_s.back()));
+        problems.add_line(fmt::format("order {}", run.number), place,
+                          fmt::format("time {} s of run {} does not come after {} s", time_s, run.number,
+                                      run.time_s.back()));
     } else if (step_s * sample_rate_Hz > longest_period_in_samples) {
-        problems.add(place,
-                     fmt::format("a gap of {:.4g} s at {} Hz; friction remembers what happened in it: split "
-                                 "the run there",
-                                 step_s, sample_rate_Hz));
+        problems.add_line(
+            fmt::format("gap {}", run.number), place,
+            fmt::format("a gap of {:.4g} s in run {} at {} Hz; friction remembers what happened in it: "
+                        "split the run there. `capstan import` does",
+                        step_s, run.number, sample_rate_Hz));
     }
 }
 

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "capstan/platform/statistics.h"
 #include "capstan/recording/csv_numbers.h"
+#include "capstan/recording/driven_inputs.h"
+#include "capstan/recording/json_object.h"
 
 namespace capstan {
 
@@ -26,10 +30,10 @@ void order_as_in(const CsvNumbers& table, Recording& recording) {
                      [&](const Channel& a, const Channel& b) { return place(a) < place(b); });
 }
 
-// The table's columns for `run`, `t` and each channel, in that order.
+// The table's columns for `t` and each channel, in that order.
 std::vector<std::size_t> columns_of(const CsvNumbers& table, const Recording& recording,
                                     const std::string& place, ProblemList& problems) {
-    std::vector<std::string> wanted = {"run", "t"};
+    std::vector<std::string> wanted = {"t"};
     for (const Channel& channel : recording.channels) wanted.push_back(channel.name);
     std::vector<std::size_t> columns;
     for (const std::string& name : wanted) {
@@ -40,7 +44,7 @@ std::vector<std::size_t> columns_of(const CsvNumbers& table, const Recording& re
         }
     }
     for (const std::string& name : table.columns) {
-        if (std::find(wanted.begin(), wanted.end(), name) == wanted.end())
+        if (name != "run" && std::find(wanted.begin(), wanted.end(), name) == wanted.end())
             problems.add(place,
                          fmt::format("column '{}' is not in the sidecar's `units`; what is it?", name));
     }
@@ -51,40 +55,76 @@ std::vector<std::size_t> columns_of(const CsvNumbers& table, const Recording& re
 void deal_out(const CsvNumbers& table, const std::vector<std::size_t>& columns, const std::string& path,
               Recording& recording, ProblemList& problems) {
     for (RecordedRun& run : recording.runs) run.values.assign(recording.channels.size(), {});
-    const std::vector<double>& numbers = table.values[columns[0]];
+    const auto run_column = column_of(table, "run");
     for (std::size_t row = 0; row < table.rows(); ++row) {
+        const double number = run_column ? table.values[*run_column][row] : 1.0;
         const auto run = std::find_if(recording.runs.begin(), recording.runs.end(),
-                                      [&](const RecordedRun& r) { return r.number == numbers[row]; });
+                                      [&](const RecordedRun& r) { return r.number == number; });
         const std::string place = fmt::format("{}:{}", path, CsvNumbers::line_of(row));
         if (run == recording.runs.end()) {
-            problems.add(place, fmt::format("run {} is not in the sidecar's list of runs", numbers[row]));
+            problems.add_line(fmt::format("run {}", number), place,
+                              fmt::format("run {} is not in the sidecar's list of runs", number));
             continue;
         }
-        check_next_time(*run, table.values[columns[1]][row], recording.sample_rate_Hz, place, problems);
-        run->time_s.push_back(table.values[columns[1]][row]);
+        check_next_time(*run, table.values[columns[0]][row], recording.sample_rate_Hz, place, problems);
+        run->time_s.push_back(table.values[columns[0]][row]);
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel)
-            run->values[channel].push_back(table.values[columns[2 + channel]][row]);
+            run->values[channel].push_back(table.values[columns[1 + channel]][row]);
     }
+}
+
+SampleTable sample_table(const CsvNumbers& table) {
+    SampleTable samples{table.columns, {}, 0.0};
+    const auto run_column = column_of(table, "run");
+    if (!run_column) samples.run_numbers = {1};
+    for (std::size_t row = 0; run_column && row < table.rows(); ++row) {
+        const double number = table.values[*run_column][row];
+        if (std::abs(number) < 1e9 && number == std::floor(number) &&
+            std::find(samples.run_numbers.begin(), samples.run_numbers.end(), static_cast<int>(number)) ==
+                samples.run_numbers.end())
+            samples.run_numbers.push_back(static_cast<int>(number));
+    }
+    if (const auto time = column_of(table, "t")) {
+        std::vector<double> periods_s;
+        const std::vector<double>& times_s = table.values[*time];
+        for (std::size_t row = 1; row < times_s.size(); ++row) {
+            if (times_s[row] > times_s[row - 1]) periods_s.push_back(times_s[row] - times_s[row - 1]);
+        }
+        samples.period_s = median(std::move(periods_s));
+    }
+    return samples;
 }
 
 }  // namespace
 
-Recording read_recording(const std::filesystem::path& path) {
+Recording read_recording(const std::filesystem::path& path, ProblemList& problems) {
     std::filesystem::path samples_path = path;
     std::filesystem::path sidecar_path = path;
     samples_path.replace_extension(".csv");
     sidecar_path.replace_extension(".json");
-
-    ProblemList problems;
-    Recording recording = read_sidecar(sidecar_path, problems);
+    if (std::filesystem::exists(samples_path) && !std::filesystem::exists(sidecar_path)) {
+        problems.add(
+            sidecar_path.string(),
+            fmt::format("does not exist; it describes the recording {}. `capstan recording template` writes "
+                        "one to fill in, and `capstan import` makes a recording from a laboratory's log",
+                        samples_path.string()));
+        return {};
+    }
+    const nlohmann::json json = read_json_file(sidecar_path);
     const CsvNumbers table = read_csv_numbers(samples_path, problems);
+    Recording recording = read_sidecar(json, sidecar_path, sample_table(table), problems);
     order_as_in(table, recording);
     const std::vector<std::size_t> columns =
         columns_of(table, recording, samples_path.string() + ":1", problems);
-    problems.throw_if_any();
+    if (!problems.empty()) return recording;
     deal_out(table, columns, samples_path.string(), recording, problems);
-    problems.throw_if_any();
-    check_recording(recording, samples_path.string(), problems);
+    if (problems.empty()) check_recording(recording, samples_path.string(), problems);
+    return problems.empty() ? with_estimated_noise(std::move(recording)) : recording;
+}
+
+Recording read_recording(const std::filesystem::path& path) {
+    ProblemList problems;
+    Recording recording = read_recording(path, problems);
     problems.throw_if_any();
     return recording;
 }

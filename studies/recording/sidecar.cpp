@@ -1,11 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "capstan/platform/nearest_name.h"
 #include "capstan/recording/json_object.h"
+#include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
-#include "capstan/rig/channel_names.h"
 
 namespace capstan {
 
@@ -13,14 +15,27 @@ namespace {
 
 constexpr double length_tolerance_m = 1e-6;
 
-const std::map<std::string, BenchMode> modes = {{"pull_pull", BenchMode::pull_pull},
-                                                {"single_cable", BenchMode::single_cable},
-                                                {"lumped_drive", BenchMode::lumped_drive},
-                                                {"capstan_band", BenchMode::capstan_band}};
+/// Says what was taken in place of a key.
+class Assumptions {
+  public:
+    Assumptions(std::string file, std::vector<std::string>& said) : file_(std::move(file)), said_(&said) {}
+    void add(const std::string& key, const std::string& taken) {
+        said_->push_back(fmt::format("{}: {} is missing; {}", file_, key, taken));
+    }
+    void add_sentence(const std::string& words) { said_->push_back(file_ + ": " + words); }
+
+  private:
+    std::string file_;
+    std::vector<std::string>* said_;
+};
 
 // R_profile as the lengths of its pieces; a piece without an R is straight.
-std::vector<CurvaturePiece> curvature_of(const JsonObject& nominal) {
+std::vector<CurvaturePiece> curvature_of(const JsonObject& nominal, Assumptions& assumptions) {
     const double length_m = nominal.positive("L");
+    if (!nominal.has("R_profile")) {
+        assumptions.add("nominal.R_profile", "the cable is taken as straight");
+        return {{length_m, straight}};
+    }
     std::vector<CurvaturePiece> pieces;
     double reached_m = 0.0;
     for (const JsonObject& piece : nominal.objects("R_profile")) {
@@ -38,14 +53,30 @@ std::vector<CurvaturePiece> curvature_of(const JsonObject& nominal) {
     return pieces;
 }
 
-NominalBench nominal_of(const JsonObject& nominal) {
+// EA in N, or K in N/m of the complete cable.
+double axial_stiffness_N(const JsonObject& nominal) {
+    if (nominal.has("EA") == nominal.has("K")) {
+        nominal.add_problem("K", nominal.has("K")
+                                     ? "and EA are both stated; state one: K end to end (N/m), or EA (N)"
+                                     : "is missing, and so is EA; state one: K end to end (N/m), or EA (N)");
+        return 0.0;
+    }
+    return nominal.has("EA") ? nominal.positive("EA") : nominal.positive("K") * nominal.positive("L");
+}
+
+NominalBench nominal_of(const JsonObject& nominal, Assumptions& assumptions) {
     NominalBench bench;
-    bench.curvature = curvature_of(nominal);
+    bench.curvature = curvature_of(nominal, assumptions);
     bench.motor_radius_m = nominal.positive("r_input");
     bench.load_radius_m = nominal.positive("r_load");
-    bench.axial_stiffness_N = nominal.positive("K") * nominal.positive("L");  // K: N/m of the complete cable
+    bench.axial_stiffness_N = axial_stiffness_N(nominal);
     bench.dynamic_friction = nominal.number("mu_d");
-    bench.static_friction = nominal.number("mu_s");
+    bench.static_friction = bench.dynamic_friction;
+    if (nominal.has("mu_s")) {
+        bench.static_friction = nominal.number("mu_s");
+    } else {
+        assumptions.add("nominal.mu_s", fmt::format("taken as mu_d, {}", bench.dynamic_friction));
+    }
     bench.rotor_inertia_kg_m2 = nominal.optional_number("rotor_inertia").value_or(0.0);
     bench.load_pulley_inertia_kg_m2 = nominal.optional_number("load_pulley_inertia").value_or(0.0);
     if (bench.dynamic_friction < 0.0) nominal.add_problem("mu_d", "must not be negative");
@@ -55,43 +86,42 @@ NominalBench nominal_of(const JsonObject& nominal) {
     return bench;
 }
 
-std::string si_unit_of(const std::string& channel) {
-    static const std::map<std::string, std::string> units = {
-        {"t", "s"},
-        {channel::motor_torque, "N m"},
-        {channel::load_torque, "N m"},
-        {channel::motor_angle, "rad"},
-        {channel::load_angle, "rad"},
-        {"displacement", "m"},
-        {"velocity", "m/s"},
-        {"friction_force", "N"},
-    };
-    const auto found = units.find(channel);
-    if (found != units.end()) return found->second;
-    return channel.starts_with("tension_") ? "N" : "";
-}
-
-std::vector<Channel> channels_of(const JsonObject& sidecar) {
-    const JsonObject units = sidecar.object("units");
-    std::vector<Channel> channels;
-    const auto stated = [&](const char* list, const std::string& channel) -> std::optional<double> {
+Channel channel_of(const JsonObject& sidecar, const std::string& name, const std::string& unit) {
+    const auto stated = [&](const char* list) -> std::optional<double> {
         if (!sidecar.has(list)) return std::nullopt;
         const JsonObject values = sidecar.object(list);
-        if (!values.has(channel.c_str())) return std::nullopt;
-        return values.positive(channel.c_str());
+        if (!values.has(name.c_str())) return std::nullopt;
+        return values.positive(name.c_str());
     };
+    Channel channel{name, unit, stated("noise_std"), stated("encoder_step")};
+    if (name.ends_with("_torque") && !channel.step) channel.step = sidecar.optional_number("torque_step");
+    return channel;
+}
+
+std::vector<Channel> channels_of(const JsonObject& sidecar, const SampleTable& samples,
+                                 Assumptions& assumptions) {
+    std::vector<Channel> channels;
+    if (!sidecar.has("units")) {
+        std::string names;
+        for (const std::string& column : samples.columns) {
+            const std::string unit(channel_unit(column));
+            if (column == "run" || column == "t" || unit.empty()) continue;
+            channels.push_back(channel_of(sidecar, column, unit));
+            names += fmt::format("{}{} in {}", names.empty() ? "" : ", ", column, unit);
+        }
+        assumptions.add("units", names.empty() ? "and no column has a known name" : "taken as " + names);
+        return channels;
+    }
+    const JsonObject units = sidecar.object("units");
     for (const std::string& name : units.keys()) {
         const std::string unit = units.text(name.c_str());
-        const std::string wanted = si_unit_of(name);
+        const std::string wanted(channel_unit(name));
         if (!wanted.empty() && unit != wanted)
             units.add_problem(name,
-                              fmt::format("is '{}'; recordings are read in SI units: convert the column to "
-                                          "'{}'",
+                              fmt::format("is '{}'; a recording is in SI units, here '{}'. `capstan import` "
+                                          "converts it",
                                           unit, wanted));
-        if (name == "t") continue;
-        Channel channel{name, unit, stated("noise_std", name), stated("encoder_step", name)};
-        if (name.ends_with("_torque") && !channel.step) channel.step = sidecar.optional_number("torque_step");
-        channels.push_back(channel);
+        if (name != "t") channels.push_back(channel_of(sidecar, name, unit));
     }
     return channels;
 }
@@ -100,7 +130,7 @@ std::vector<TensionSensor> sensors_of(const JsonObject& sidecar, double length_m
     std::vector<TensionSensor> sensors;
     if (!sidecar.has("tension_sensors")) return sensors;
     for (const JsonObject& sensor : sidecar.objects("tension_sensors")) {
-        const std::string cable = sensor.text("cable");
+        const std::string cable = sensor.has("cable") ? sensor.text("cable") : "A";
         if (cable != "A" && cable != "B") sensor.add_problem("cable", "should be \"A\" or \"B\"");
         const double position_m = sensor.number("s");
         if (position_m < 0.0 || position_m > length_m)
@@ -119,7 +149,7 @@ OutputKind output_of(const JsonObject& run) {
     return OutputKind::unknown;
 }
 
-RecordedRun run_of(const JsonObject& json) {
+RecordedRun run_of(const JsonObject& json, BenchMode mode) {
     RecordedRun run;
     run.number = json.integer("run");
     run.protocol = json.has("protocol") ? json.text("protocol")
@@ -128,7 +158,7 @@ RecordedRun run_of(const JsonObject& json) {
     run.session_start_s = json.optional_number("t_session_start").value_or(0.0);
     if (json.has("T0")) run.pretension_N = json.positive("T0");
     run.output = output_of(json);
-    run.driven = json.texts("driven");
+    run.driven = json.has("driven") ? json.texts("driven") : usual_driven_channels(mode);
     return run;
 }
 
@@ -147,44 +177,103 @@ void check_driven(const JsonObject& json, const RecordedRun& run, const Recordin
         json.add_problem("driven", "names every channel, so nothing is left to compare a model with");
 }
 
+BenchMode mode_of(const JsonObject& sidecar) {
+    const std::string name = sidecar.text("mode");
+    if (const auto mode = mode_named(name)) return *mode;
+    if (!name.empty()) {
+        std::vector<std::string> known;
+        for (int mode = 0; mode <= static_cast<int>(BenchMode::capstan_band); ++mode)
+            known.emplace_back(mode_name(static_cast<BenchMode>(mode)));
+        sidecar.add_problem("mode", fmt::format("is '{}'{}", name, suggestion(name, known)));
+    }
+    return BenchMode::lumped_drive;
+}
+
+std::vector<RecordedRun> runs_of(const JsonObject& sidecar, const Recording& recording,
+                                 const SampleTable& samples, Assumptions& assumptions) {
+    std::vector<RecordedRun> runs;
+    const bool needs_pretension = recording.nominal.has_value();
+    if (sidecar.has("runs")) {
+        bool any_driven_is_taken = false;
+        for (const JsonObject& run : sidecar.objects("runs")) {
+            runs.push_back(run_of(run, recording.mode));
+            any_driven_is_taken |= !run.has("driven");
+            check_driven(run, runs.back(), recording);
+            if (needs_pretension && !runs.back().pretension_N)
+                run.add_problem("T0", "is missing; the pretension of a cable when the run began, in N");
+        }
+        if (runs.empty()) sidecar.add_problem("runs", "lists no run");
+        if (any_driven_is_taken)
+            assumptions.add("driven", fmt::format("taken as {}, where a run does not state it",
+                                                  fmt::join(usual_driven_channels(recording.mode), " and ")));
+        return runs;
+    }
+    if (needs_pretension) {
+        sidecar.add_problem("runs", "is missing; each run has its pretension T0, [{\"run\": 1, \"T0\": 30}]");
+        return runs;
+    }
+    for (const int number : samples.run_numbers) {
+        RecordedRun& run = runs.emplace_back();
+        run.number = number;
+        run.driven = usual_driven_channels(recording.mode);
+        check_driven(sidecar, run, recording);
+    }
+    assumptions.add("runs", fmt::format("taken as the {} of the column run, driven by {}", runs.size(),
+                                        fmt::join(usual_driven_channels(recording.mode), " and ")));
+    return runs;
+}
+
+// A key that is nearly one of ours was probably meant to be it. Others are a laboratory's own notes.
+void note_misspelled(const JsonObject& object, std::string_view section, Assumptions& assumptions) {
+    std::vector<std::string> known;
+    for (const RecordingKey& key : recording_keys()) {
+        if (key.section == section) known.emplace_back(key.name);
+    }
+    for (const std::string& key : object.keys()) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        if (const auto nearest = nearest_name(key, known);
+            nearest && key.size() > 2 && !object.has(nearest->c_str()))
+            assumptions.add_sentence(
+                fmt::format("the key {} is not known and was not used; did you mean {}?", key, *nearest));
+    }
+}
+
 }  // namespace
 
-Recording read_sidecar(const std::filesystem::path& path, ProblemList& problems) {
-    const nlohmann::json json = read_json_file(path);
+Recording read_sidecar(const nlohmann::json& json, const std::filesystem::path& path,
+                       const SampleTable& samples, ProblemList& problems) {
     const JsonObject sidecar(json, path.string() + ": ", problems);
     Recording recording;
+    Assumptions assumptions(path.filename().string(), recording.assumptions);
     recording.name = path.stem().string();
-    const std::string mode = sidecar.text("mode");
-    if (const auto found = modes.find(mode); found != modes.end()) {
-        recording.mode = found->second;
+    recording.mode = mode_of(sidecar);
+    note_misspelled(sidecar, "", assumptions);
+    if (sidecar.has("sample_rate_hz")) {
+        recording.sample_rate_Hz = sidecar.positive("sample_rate_hz");
+    } else if (samples.period_s > 0.0) {
+        recording.sample_rate_Hz = 1.0 / samples.period_s;
+        assumptions.add("sample_rate_hz",
+                        fmt::format("taken as {:.6g} Hz, from the times", recording.sample_rate_Hz));
     } else {
-        sidecar.add_problem("mode",
-                            fmt::format("is '{}'; known are pull_pull, single_cable, lumped_drive and "
-                                        "capstan_band",
-                                        mode));
+        sidecar.add_problem("sample_rate_hz", "is missing; a number is needed");
     }
-    recording.sample_rate_Hz = sidecar.positive("sample_rate_hz");
-    recording.channels = channels_of(sidecar);
+    recording.channels = channels_of(sidecar, samples, assumptions);
     const bool geometry_known =
         recording.mode == BenchMode::pull_pull || recording.mode == BenchMode::single_cable;
     double length_m = 0.0;
     if (geometry_known) {
         const JsonObject nominal = sidecar.object("nominal");
-        recording.nominal = nominal_of(nominal);
+        note_misspelled(nominal, "nominal", assumptions);
+        recording.nominal = nominal_of(nominal, assumptions);
         for (const CurvaturePiece& piece : recording.nominal->curvature) length_m += piece.length_m;
     }
-    recording.tension_sensors = sensors_of(sidecar, length_m);
+    if (geometry_known) recording.tension_sensors = sensors_of(sidecar, length_m);
     for (const TensionSensor& sensor : recording.tension_sensors) {
         if (!recording.channel(sensor.channel))
             sidecar.add_problem("tension_sensors",
                                 fmt::format("'{}' is not among the channels in `units`", sensor.channel));
     }
-    for (const JsonObject& run : sidecar.objects("runs")) {
-        recording.runs.push_back(run_of(run));
-        check_driven(run, recording.runs.back(), recording);
-        if (geometry_known && !recording.runs.back().pretension_N) run.add_problem("T0", "is missing");
-    }
-    if (recording.runs.empty()) sidecar.add_problem("runs", "lists no run");
+    recording.runs = runs_of(sidecar, recording, samples, assumptions);
     return recording;
 }
 

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -159,7 +160,7 @@ const Fault faults[] = {
      {"bench.json", "is not JSON", "line"}},
     {"UnknownMode",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"pull_pull\"", "\"push_pull\""); },
-     {"mode", "push_pull", "single_cable"}},
+     {"mode", "push_pull", "did you mean"}},
     {"EmptyFile", [](RecordingFiles& f) { f.samples_csv.clear(); }, {"bench.csv", "no samples"}},
 };
 
@@ -182,7 +183,7 @@ TEST(RecordingReader, NamesAConstantChannel) {
         InvalidInput);
 }
 
-TEST(RecordingReader, ListsTheFirstOfManyProblems) {
+TEST(RecordingReader, TellsAProblemOfManyLinesOnceWithTheirNumber) {
     RecordingFiles files = as_files(measured_session(true_parameters));
     for (char& letter : files.samples_csv) {
         if (letter == '.') letter = ';';
@@ -192,8 +193,21 @@ TEST(RecordingReader, ListsTheFirstOfManyProblems) {
         read_recording(folder.write(files));
         FAIL() << "taken";
     } catch (const InvalidInput& error) {
+        EXPECT_LT(error.problems().size(), 8u);
+        EXPECT_NE(error.problems().front().find("lines, this is the first"), std::string::npos)
+            << error.problems().front();
+    }
+}
+
+TEST(RecordingReader, CutsALongListOfProblems) {
+    ProblemList problems;
+    for (int number = 0; number < 30; ++number) problems.add("bench.json", fmt::format("problem {}", number));
+    try {
+        problems.throw_if_any();
+        FAIL() << "taken";
+    } catch (const InvalidInput& error) {
         EXPECT_LT(error.problems().size(), 20u);
-        EXPECT_NE(error.problems().back().find("more problems"), std::string::npos);
+        EXPECT_NE(error.problems().back().find("18 more problems"), std::string::npos);
     }
 }
 

@@ -1,0 +1,150 @@
+#include "capstan/import/clock_offset.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace capstan::imports {
+
+namespace {
+
+constexpr std::array yields = {0.02, 0.1, 0.3};  // of the channel's span
+constexpr std::size_t coarse_samples = 6000;
+constexpr int parts = 4;
+constexpr std::size_t fewest_fitted = 200;
+// A channel of which the others explain less has no common motion with them.
+constexpr double largest_unexplained = 0.3;
+
+// An elastic-plastic element: it moves with the input until it yields.
+std::vector<double> stop_element(const std::vector<double>& input, double yield) {
+    std::vector<double> force(input.size(), 0.0);
+    for (std::size_t k = 1; k < input.size(); ++k)
+        force[k] = std::clamp(force[k - 1] + input[k] - input[k - 1], -yield, yield);
+    return force;
+}
+
+Eigen::MatrixXd features_of(const std::vector<std::vector<double>>& others) {
+    std::vector<std::vector<double>> columns;
+    for (const std::vector<double>& other : others) {
+        const auto [low, high] = std::minmax_element(other.begin(), other.end());
+        if (*high <= *low) continue;
+        columns.push_back(other);
+        for (const double yield : yields) columns.push_back(stop_element(other, yield * (*high - *low)));
+    }
+    Eigen::MatrixXd features(others.empty() ? 0 : static_cast<Eigen::Index>(others[0].size()),
+                             static_cast<Eigen::Index>(columns.size() + 1));
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+        const Eigen::Map<const Eigen::VectorXd> values(columns[column].data(), features.rows());
+        const double mean = values.mean();
+        const double size = std::sqrt((values.array() - mean).square().mean());
+        features.col(static_cast<Eigen::Index>(column)) = (values.array() - mean) / (size > 0.0 ? size : 1.0);
+    }
+    features.rightCols(1).setOnes();
+    return features;
+}
+
+/// The unexplained part of a channel's variance at whole shifts in samples.
+class ShiftFit {
+  public:
+    ShiftFit(const Eigen::MatrixXd& features, Eigen::Index first, Eigen::Index count)
+        : features_(features.middleRows(first, count)), first_(first) {
+        Eigen::MatrixXd gram = features_.transpose() * features_;
+        gram.diagonal().array() += 1e-8 * static_cast<double>(count);
+        solver_.compute(gram);
+    }
+
+    double unexplained(const Eigen::VectorXd& channel, Eigen::Index shift) const {
+        const auto values = channel.segment(first_ + shift, features_.rows());
+        const double mean = values.mean();
+        const double variation = (values.array() - mean).square().sum();
+        if (variation <= 0.0) return 1.0;
+        const Eigen::VectorXd right = features_.transpose() * values;
+        const Eigen::VectorXd weights = solver_.solve(right);
+        const double explained = right.dot(weights) - mean * mean * static_cast<double>(values.size());
+        return std::clamp(1.0 - explained / variation, 0.0, 1.0);
+    }
+
+  private:
+    Eigen::MatrixXd features_;
+    Eigen::Index first_;
+    Eigen::LDLT<Eigen::MatrixXd> solver_;
+};
+
+struct BestShift {
+    double shift = 0.0;  ///< samples, by a parabola through the three smallest
+    double unexplained = 1.0;
+    bool inside = false;  ///< not at an end of the range
+};
+
+BestShift best_shift(const ShiftFit& fit, const Eigen::VectorXd& channel, Eigen::Index centre,
+                     Eigen::Index range) {
+    std::vector<double> left;
+    for (Eigen::Index shift = centre - range; shift <= centre + range; ++shift)
+        left.push_back(fit.unexplained(channel, shift));
+    const auto best = std::min_element(left.begin(), left.end());
+    const auto at = best - left.begin();
+    BestShift found{static_cast<double>(centre - range + at), *best,
+                    best != left.begin() && best != left.end() - 1};
+    if (found.inside) {
+        const double curvature =
+            left[static_cast<std::size_t>(at - 1)] + left[static_cast<std::size_t>(at + 1)] - 2 * *best;
+        if (curvature > 0.0)
+            found.shift += 0.5 *
+                           (left[static_cast<std::size_t>(at - 1)] - left[static_cast<std::size_t>(at + 1)]) /
+                           curvature;
+    }
+    return found;
+}
+
+std::vector<double> every(const std::vector<double>& values, std::size_t step) {
+    std::vector<double> kept;
+    for (std::size_t k = 0; k < values.size(); k += step) kept.push_back(values[k]);
+    return kept;
+}
+
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace
+
+std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
+                                             const std::vector<std::vector<double>>& others,
+                                             double sample_rate_Hz, double longest_s) {
+    if (channel.size() < fewest_fitted || others.empty()) return std::nullopt;
+    const std::size_t step = std::max<std::size_t>(1, channel.size() / coarse_samples);
+    std::vector<std::vector<double>> thinned;
+    for (const auto& other : others) thinned.push_back(every(other, step));
+    const Eigen::VectorXd coarse = vector_of(every(channel, step));
+    const auto range = std::min<Eigen::Index>(
+        static_cast<Eigen::Index>(longest_s * sample_rate_Hz / static_cast<double>(step)) + 1,
+        coarse.size() / 8);
+    const ShiftFit whole(features_of(thinned), range, coarse.size() - 2 * range);
+    const BestShift first = best_shift(whole, coarse, 0, range);
+    if (first.unexplained > largest_unexplained || !first.inside) return std::nullopt;
+
+    // Finely, in quarters of the samples.
+    const Eigen::VectorXd all = vector_of(channel);
+    const Eigen::MatrixXd features = features_of(others);
+    const auto centre = static_cast<Eigen::Index>(std::llround(first.shift * static_cast<double>(step)));
+    const auto near = static_cast<Eigen::Index>(2 * step + 3);
+    const Eigen::Index margin = std::abs(centre) + near;
+    const Eigen::Index length = (all.size() - 2 * margin) / parts;
+    if (length < static_cast<Eigen::Index>(fewest_fitted / parts)) return std::nullopt;
+    const ShiftFit fine(features, margin, all.size() - 2 * margin);
+    const BestShift found = best_shift(fine, all, centre, near);
+    std::vector<double> estimates;
+    for (Eigen::Index part = 0; part < parts; ++part) {
+        const BestShift quarter =
+            best_shift(ShiftFit(features, margin + part * length, length), all, centre, near);
+        if (quarter.inside && quarter.unexplained < largest_unexplained) estimates.push_back(quarter.shift);
+    }
+    if (!found.inside || estimates.size() < 2) return std::nullopt;
+    const auto [low, high] = std::minmax_element(estimates.begin(), estimates.end());
+    // A channel that shows something k samples later has a clock that is k samples behind.
+    return ClockOffset{-found.shift / sample_rate_Hz, 0.5 * (*high - *low) / sample_rate_Hz,
+                       found.unexplained, fine.unexplained(all, 0)};
+}
+
+}  // namespace capstan::imports

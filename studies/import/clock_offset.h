@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace capstan::imports {
+
+/// How far a channel's clock is from that of others.
+struct ClockOffset {
+    double offset_s = 0.0;       ///< to be added to the channel's times
+    double uncertainty_s = 0.0;  ///< half the range of the estimates from separate quarters of the samples
+    double unexplained = 1.0;    ///< part of the channel's variance that the others leave at this offset
+    double unexplained_at_zero = 1.0;
+};
+
+/// The time shift at which a channel follows from others best. The others explain it through their values and
+/// through friction: elastic-plastic (stop) elements of three yields, which are independent of the rate. So
+/// friction's lag is told from a clock's, which is the same at every rate. All samples have one rate,
+/// `channel` and each of `others` the same number of them. Nothing where the channel is not explained by the
+/// others at any shift up to `longest_s`, or where the quarters disagree.
+std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
+                                             const std::vector<std::vector<double>>& others,
+                                             double sample_rate_Hz, double longest_s);
+
+}  // namespace capstan::imports
