@@ -18,7 +18,9 @@ enum class RandomPurpose : std::uint32_t {
     member_cable = 8,    ///< `scenario` is the member, `node` the parameter
     member_far_end = 9,  ///< `scenario` is the sample, `node` the member
     member_sensor = 10,  ///< `scenario` is the member, `node` the sensor
-    centre_line = 11,    ///< `scenario` is the point, `repetition` the replicate, `node` the coordinates
+    bench_reading =
+        12,  ///< of a simulated recording: `scenario` is the sample, `repetition` the run, `node` the channel
+    centre_line = 11,  ///< `scenario` is the point, `repetition` the replicate, `node` the coordinates
 };
 
 /// Where a random number lives: the same address gives the same number, whoever asks, in whatever order.

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "capstan/answers/paper_answers.h"
 #include "capstan/answers/recording_answers.h"
-#include "capstan/bench/bench_run.h"
+#include "capstan/bench/bench_recording.h"
 #include "capstan/cable/motion_name.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
@@ -15,103 +17,105 @@
 #include "capstan/gap/twin.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/recording/driven_inputs.h"
+#include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
+#include "capstan/recording/recording_writer.h"
 
 namespace capstan::cli {
 
 namespace {
 
-using bench::BenchInstant;
+bench::Instruments instruments_of(const Invocation& invocation) {
+    bench::Instruments instruments;
+    if (invocation.has("sensors"))
+        instruments.tension_sensors = static_cast<int>(invocation.integer("sensors"));
+    if (invocation.has("sensor-noise")) instruments.noise_fraction = invocation.number("sensor-noise");
+    if (invocation.has("seed")) instruments.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
+    return instruments;
+}
 
-std::string bench_head_line(int nodes, bool with_tensions) {
-    std::string line =
-        "time_s,motor_torque_Nm,motor_angle_rad,load_torque_Nm,load_angle_rad,solved,min_tension_a_N,"
-        "min_tension_b_N";
-    for (const char cable : {'a', 'b'}) {
-        for (int node = 1; with_tensions && node <= nodes; ++node)
-            line += fmt::format(",tension_{}_{}_N", cable, node);
+// The recording where --output says, or its samples on standard output.
+void deliver_recording(const Invocation& invocation, Recording recording,
+                       const bench::Instruments& instruments) {
+    bench::add_noise(recording, instruments);
+    if (invocation.has("kind") && *mode_named(invocation.text("kind")) == BenchMode::lumped_drive) {
+        recording.mode = BenchMode::lumped_drive;  // what is known of the geometry is withheld
+        recording.nominal.reset();
+        for (RecordedRun& run : recording.runs) {
+            run.driven = usual_driven_channels(recording.mode);
+            run.output = OutputKind::unknown;
+        }
     }
-    return line + "\n";
-}
-
-double smallest(const std::vector<double>& tension_N) {
-    return *std::min_element(tension_N.begin(), tension_N.end());
-}
-
-void append_instant(std::string& text, const BenchInstant& now, bool with_tensions) {
-    auto out = std::back_inserter(text);
-    fmt::format_to(out, "{},{},{},{},{},{},{},{}", now.time_s, now.motor_torque_Nm, now.motor_angle_rad,
-                   now.load_torque_Nm, now.load_angle_rad, now.solved ? 1 : 0, smallest(now.tension_a_N),
-                   smallest(now.tension_b_N));
-    for (const auto* cable : {&now.tension_a_N, &now.tension_b_N}) {
-        for (std::size_t node = 0; with_tensions && node < cable->size(); ++node)
-            fmt::format_to(out, ",{}", (*cable)[node]);
+    const std::filesystem::path file = invocation.text("output");
+    if (file == "-") return write_standard_output(samples_csv(recording));
+    if (file.extension() != ".csv") {
+        throw UsageError(fmt::format(
+            "capstan simulate: a recording is NAME.csv with NAME.json beside it; give -o a name that ends in "
+            ".csv instead of {}",
+            file.string()));
     }
-    text += "\n";
+    if (!recording.name.empty()) recording.name = file.stem().string();
+    write_recording(file, recording);
 }
 
-ExitCode simulate_bench_file(const Invocation& invocation) {
-    const bench::BenchPlan plan = config::read_bench(invocation.argument("CONFIG")).plan;
-    const bool with_tensions = invocation.has("tensions");
-    std::string text = bench_head_line(plan.cable.segments + 1, with_tensions);
-    answers::BenchAnswer page(plan);
-    bench::simulate_bench(plan, [&](const BenchInstant& now) {
-        append_instant(text, now, with_tensions);
-        page.add(now);
-    });
-    deliver_page(invocation, page.finished());
-    deliver(invocation, text);
+ExitCode simulate_bench_files(const Invocation& invocation) {
+    const bench::Instruments instruments = instruments_of(invocation);
+    std::optional<Recording> recording;
+    for (const std::string& file : invocation.repeated_argument()) {
+        const bench::BenchPlan plan = config::read_bench(file).plan;
+        if (!recording) recording = bench::empty_recording(plan, instruments);
+        bench::begin_run(*recording, plan);
+        answers::BenchAnswer page(plan);
+        int unsolved = 0;
+        bench::simulate_bench(plan, [&](const bench::BenchInstant& now) {
+            bench::record(*recording, plan, now);
+            page.add(now);
+            unsolved += now.solved ? 0 : 1;
+        });
+        if (unsolved > 0)
+            say(fmt::format("{}: {} samples were not solved; their values are approximate.", file, unsolved));
+        if (file == invocation.repeated_argument().front()) deliver_page(invocation, page.finished());
+    }
+    deliver_recording(invocation, std::move(*recording), instruments);
     return ExitCode::success;
 }
 
 using gap::TwinRun;
 
-// The inputs of a run and the model's prediction, channel by channel.
-std::vector<std::vector<double>> fed_and_predicted(const Recording& recording, std::size_t run,
-                                                   const TwinRun& twin) {
-    DrivenInputs inputs = driven_inputs(recording, recording.runs[run]);
-    std::vector<std::vector<double>> values = twin.values;
-    for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
-        if (!inputs.values[channel].empty()) values[channel] = std::move(inputs.values[channel]);
-    }
-    return values;
-}
-
-std::string recording_head_line(const Recording& recording) {
-    std::string line = "run,t";
-    for (const Channel& channel : recording.channels) line += "," + channel.name;
-    return line + "\n";
-}
-
-void append_run(std::string& text, const RecordedRun& run, const std::vector<std::vector<double>>& values) {
-    auto out = std::back_inserter(text);
-    for (std::size_t sample = 0; sample < run.time_s.size(); ++sample) {
-        fmt::format_to(out, "{},{}", run.number, run.time_s[sample]);
-        for (const std::vector<double>& channel : values) {
-            if (channel.empty()) {
-                fmt::format_to(out, ",");
-            } else {
-                fmt::format_to(out, ",{}", channel[sample]);
-            }
+// What was fed to the model and what it predicts, without the channels that it knows nothing of.
+Recording model_recording(Recording recording, const std::vector<TwinRun>& modelled) {
+    std::vector<std::vector<std::vector<double>>> values;  // runs x channels x samples
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        DrivenInputs inputs = driven_inputs(recording, recording.runs[run]);
+        values.push_back(modelled[run].values);
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            if (!inputs.values[channel].empty()) values[run][channel] = std::move(inputs.values[channel]);
         }
-        text += "\n";
     }
+    for (std::size_t channel = recording.channels.size(); channel-- > 0;) {
+        const bool known =
+            std::all_of(values.begin(), values.end(), [&](const auto& run) { return !run[channel].empty(); });
+        recording.channels[channel].noise_std.reset();
+        recording.channels[channel].step.reset();
+        if (known) continue;
+        recording.channels.erase(recording.channels.begin() + static_cast<std::ptrdiff_t>(channel));
+        for (auto& run : values) run.erase(run.begin() + static_cast<std::ptrdiff_t>(channel));
+    }
+    for (std::size_t run = 0; run < values.size(); ++run) recording.runs[run].values = std::move(values[run]);
+    recording.name += ", model";
+    return recording;
 }
 
 ExitCode simulate_recording(const Invocation& invocation) {
-    const Recording recording = read_recording(invocation.argument("CONFIG"));
+    Recording recording = read_recording(invocation.repeated_argument().front());
     const auto twin = gap::make_twin(recording, static_cast<int>(invocation.integer("segments")));
     std::vector<double> values = gap::nominal_values(*twin);
     if (invocation.has("parameters"))
         values = gap::read_parameter_values(invocation.text("parameters"), twin->parameters());
-    std::string text = recording_head_line(recording);
     std::vector<TwinRun> modelled;
-    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
-        modelled.push_back(twin->run(run, values));
-        append_run(text, recording.runs[run], fed_and_predicted(recording, run, modelled.back()));
-    }
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) modelled.push_back(twin->run(run, values));
     deliver_page(invocation, answers::recording_answer(recording, modelled));
-    deliver(invocation, text);
+    deliver_recording(invocation, model_recording(std::move(recording), modelled), {});
     return ExitCode::success;
 }
 
@@ -138,15 +142,24 @@ void append_line(std::string& text, const TrueSample& sample, double sample_rate
 }
 
 ExitCode run_simulate(const Invocation& invocation) {
-    if (names_a_recording(invocation.argument("CONFIG"))) return simulate_recording(invocation);
-    if (config::content_of_config(invocation.argument("CONFIG")) == config::ConfigContent::bench)
-        return simulate_bench_file(invocation);
+    const std::string& first = invocation.repeated_argument().front();
+    const bool several = invocation.repeated_argument().size() > 1;
+    if (!names_a_recording(first) && config::content_of_config(first) == config::ConfigContent::bench)
+        return simulate_bench_files(invocation);
+    if (several)
+        throw UsageError("capstan simulate: only benches can be several, which become runs of one recording");
+    if (names_a_recording(first)) return simulate_recording(invocation);
     if (invocation.has("html")) {
         throw UsageError(
             "capstan simulate: a study's motion has no page; --html is for benches and recordings. `capstan study run` "
             "and `capstan report` make the page of a study");
     }
-    const StudyPlan plan = config::read_config(invocation.argument("CONFIG")).plan;
+    const StudyPlan plan = config::read_config(first).plan;
+    if (invocation.has("recording")) {
+        const bench::Instruments instruments = instruments_of(invocation);
+        deliver_recording(invocation, bench::recorded_motion(plan, instruments), instruments);
+        return ExitCode::success;
+    }
     const QuasiStaticStep step(Cable(plan.transmission.cable), plan.transmission.rules);
     const CableState start = pretensioned(step.cable());
     std::string text = head_line(step.cable().nodes());
@@ -163,9 +176,35 @@ const Option parameters_option{
     .value = "FILE",
     .meaning = "Recordings only: the model's parameters, in a file written by `capstan calibrate --save`."};
 
-const Option tensions_option{.name = "tensions",
-                             .kind = OptionKind::flag,
-                             .meaning = "Benches only: also write the tension at every node of both cables."};
+const Option as_recording_option{.name = "recording",
+                              .kind = OptionKind::flag,
+                              .meaning = "Studies only: write the motion as a recording of a single cable."};
+
+const Option sensors_option{
+    .name = "sensors",
+    .kind = OptionKind::integer,
+    .value = "N",
+    .meaning = "Recordings of benches and studies: tension sensors on each cable, evenly from end to end.",
+    .default_value = "0",
+    .low = 0,
+    .high = 10000};
+
+const Option sensor_noise_option{
+    .name = "sensor-noise",
+    .kind = OptionKind::number,
+    .value = "FRACTION",
+    .meaning =
+        "White noise on every channel of such a recording: its standard deviation over the "
+        "channel's span.",
+    .default_value = "0",
+    .low = 0,
+    .high = 10};
+
+const Option simulated_kind_option{
+    .name = "kind",
+    .value = "KIND",
+    .meaning = "Benches only: lumped_drive withholds the geometry in the sidecar.",
+    .choices = {"pull_pull", "lumped_drive"}};
 
 }  // namespace
 
@@ -178,22 +217,25 @@ Command simulate_command() {
             "kind of motion, motion regime, how many nodes move from each end (the last-moving nodes k "
             "and k' of the paper, each counted from its own end) and in which direction (1 towards the "
             "load, -1 towards the motor), whether the pattern passed the model's own check, and tension "
-            "and displacement of every node. Use it to find instants for [[regime]]. With a bench's "
-            "configuration (`capstan config default --bench`): simulates two cables between pulleys and "
-            "writes time, torque and angle of motor and load, whether the step was solved, and the "
-            "minimum tension in each cable (0: slack); --html plots them with the tension along the "
-            "cables. With a recording (NAME.csv and NAME.json): drives the bench's model with the "
-            "recording's driven channels and writes, in the format of the recording, the inputs (with "
-            "the noise removed) and the model's prediction of the other channels; --html plots the "
-            "prediction over the measurement.",
-        .arguments = {Argument{"CONFIG",
-                               "A study or a bench (TOML), or a recording (CSV with its JSON sidecar)."}},
-        .options = {parameters_option, segments_option, tensions_option, output_option, page_option,
-                    help_option},
-        .examples = {"capstan simulate configs/paper.toml -o motion.csv",
-                     "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'",
-                     "capstan simulate configs/bench-slack.toml --html slack.html -o slack.csv",
-                     "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html"},
+            "and displacement of every node. Use it to find instants for [[regime]]; with --recording, writes the motion of a cable whose "
+            "far end is held as a recording. With the configurations of benches (`capstan config default --bench`): simulates two cables "
+            "between pulleys and writes a recording, NAME.csv with NAME.json, each bench a run; --html plots the first with the tension "
+            "along the cables. With a recording: drives the bench's model with the recording's driven channels and writes, as a recording "
+            "again, the inputs (with the noise removed) and the model's prediction of the other channels; --html plots the prediction over "
+            "the measurement.",
+        .arguments = {Argument{
+            "CONFIG",
+            "A study (TOML), a recording (CSV with its JSON sidecar), or one or more benches (TOML).",
+            ArgumentNeed::one_or_more}},
+        .options = {parameters_option, segments_option, as_recording_option, sensors_option, sensor_noise_option,
+                    simulated_kind_option, seed_option, output_option, page_option, help_option},
+        .examples =
+            {"capstan simulate configs/paper.toml -o motion.csv",
+             "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'",
+             "capstan simulate configs/bench-slack.toml --html slack.html -o slack.csv",
+             "capstan simulate configs/bench-ramps.toml --sensors 3 --sensor-noise 0.002 -o bench.csv",
+             "capstan simulate configs/paper.toml --recording --sensors 5 -o cable.csv",
+             "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html"},
         .run = run_simulate};
 }
 

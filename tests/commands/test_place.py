@@ -76,23 +76,8 @@ class Place(CapstanTest):
 class Duty(CapstanTest):
     def setUp(self):
         super().setUp()
-        # A recording out of a simulated bench: torque ramps against a locked load.
-        self.run_capstan("simulate", CONFIGS / "bench-ramps.toml", "-o", "ramps.csv")
-        lines = (self.folder / "ramps.csv").read_text().splitlines()
-        rows = [line.split(",") for line in lines[1:]]
-        with open(self.folder / "bench.csv", "w", encoding="utf-8") as file:
-            file.write("run,t,motor_torque,load_angle,load_torque\n")
-            file.writelines(f"1,{row[0]},{row[1]},{row[4]},{row[3]}\n" for row in rows)
-        sidecar = {
-            "case": "ramps", "schema": 1, "mode": "pull_pull", "sample_rate_hz": 200,
-            "units": {"t": "s", "motor_torque": "N m", "load_angle": "rad", "load_torque": "N m"},
-            "nominal": {"L": 2.0, "R_profile": [{"s0": 0, "s1": 2, "R": 0.7}], "r_input": 0.02, "r_load": 0.104,
-                        "K": 1000.0, "mu_d": 0.21, "mu_s": 0.63},
-            "nominal_units": {"L": "m", "R": "m", "r_input": "m", "r_load": "m", "K": "N/m (end to end, one cable)",
-                              "T0": "N"},
-            "runs": [{"run": 1, "protocol": "ramp_locked", "t_session_start": 0.0, "duration": 18.0, "T0": 4.0,
-                      "output": "locked", "driven": ["motor_torque", "load_angle"]}]}
-        (self.folder / "bench.json").write_text(json.dumps(sidecar))
+        # Torque ramps against a locked load.
+        self.run_capstan("simulate", CONFIGS / "bench-ramps.toml", "-o", "bench.csv")
 
     def test_shares_sum_to_one_and_place_takes_them(self):
         duty = json.loads(self.run_capstan("duty", "bench.csv", "--json").stdout)

@@ -1,0 +1,98 @@
+#include "capstan/recording/recording_writer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "capstan/platform/files.h"
+#include "capstan/recording/recording_keys.h"
+
+namespace capstan {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json nominal_json(const NominalBench& bench) {
+    double length_m = 0.0;
+    ordered_json profile = ordered_json::array();
+    for (const CurvaturePiece& piece : bench.curvature) {
+        ordered_json entry = {{"s0", length_m}, {"s1", length_m + piece.length_m}};
+        if (std::isfinite(piece.bend_radius_m)) entry["R"] = piece.bend_radius_m;
+        profile.push_back(entry);
+        length_m += piece.length_m;
+    }
+    ordered_json nominal = {{"L", length_m},
+                            {"R_profile", profile},
+                            {"r_input", bench.motor_radius_m},
+                            {"r_load", bench.load_radius_m},
+                            {"EA", bench.axial_stiffness_N},
+                            {"mu_d", bench.dynamic_friction},
+                            {"mu_s", bench.static_friction}};
+    if (bench.rotor_inertia_kg_m2 > 0.0) nominal["rotor_inertia"] = bench.rotor_inertia_kg_m2;
+    if (bench.load_pulley_inertia_kg_m2 > 0.0)
+        nominal["load_pulley_inertia"] = bench.load_pulley_inertia_kg_m2;
+    return nominal;
+}
+
+ordered_json run_json(const RecordedRun& run) {
+    ordered_json entry = {{"run", run.number}};
+    if (!run.protocol.empty()) entry["protocol"] = run.protocol;
+    if (run.session_start_s > 0.0) entry["t_session_start"] = run.session_start_s;
+    if (run.pretension_N) entry["T0"] = *run.pretension_N;
+    if (run.output != OutputKind::unknown)
+        entry["output"] = run.output == OutputKind::locked ? "locked" : "handle";
+    entry["driven"] = run.driven;
+    return entry;
+}
+
+}  // namespace
+
+std::string samples_csv(const Recording& recording) {
+    std::string text = "run,t";
+    for (const Channel& channel : recording.channels) text += "," + channel.name;
+    text += "\n";
+    auto out = std::back_inserter(text);
+    for (const RecordedRun& run : recording.runs) {
+        for (std::size_t sample = 0; sample < run.time_s.size(); ++sample) {
+            fmt::format_to(out, "{},{}", run.number, run.time_s[sample]);
+            for (const std::vector<double>& channel : run.values) fmt::format_to(out, ",{:.9g}", channel[sample]);
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+std::string sidecar_text(const Recording& recording) {
+    ordered_json sidecar = {{"case", recording.name},
+                            {"schema", 1},
+                            {"mode", mode_name(recording.mode)},
+                            {"sample_rate_hz", recording.sample_rate_Hz}};
+    sidecar["units"] = {{"t", "s"}};
+    for (const Channel& channel : recording.channels) sidecar["units"][channel.name] = channel.unit;
+    if (recording.nominal) sidecar["nominal"] = nominal_json(*recording.nominal);
+    for (const Channel& channel : recording.channels) {
+        if (channel.noise_std && *channel.noise_std > 0.0)
+            sidecar["noise_std"][channel.name] = *channel.noise_std;
+        if (channel.step) sidecar["encoder_step"][channel.name] = *channel.step;
+    }
+    for (const TensionSensor& sensor : recording.tension_sensors)
+        sidecar["tension_sensors"].push_back({{"channel", sensor.channel},
+                                              {"cable", sensor.cable == CableName::b ? "B" : "A"},
+                                              {"s", sensor.position_m}});
+    for (const RecordedRun& run : recording.runs) sidecar["runs"].push_back(run_json(run));
+    return sidecar.dump(2) + "\n";
+}
+
+void write_recording(const std::filesystem::path& path, const Recording& recording) {
+    std::filesystem::path samples = path;
+    std::filesystem::path sidecar = path;
+    samples.replace_extension(".csv");
+    sidecar.replace_extension(".json");
+    write_file(samples, samples_csv(recording));
+    write_file(sidecar, sidecar_text(recording));
+}
+
+}  // namespace capstan
