@@ -132,8 +132,8 @@ MessageTable::MessageTable(TableWriter& writer, const std::string& topic, Messag
       topic_(topic),
       definition_(std::move(definition)),
       encoding_(encoding),
-      table_(writer.add_table(as_utf8(topic))),
-      time_column_(column("log_time")) {
+      table_(writer.add_table(as_utf8(topic))) {
+    time_column_ = column("log_time");
     for (const MessageType& type : definition_.types)
         for (const MessageField& field : type.fields)
             has_sequences_ = has_sequences_ || field.shape == FieldShape::sequence;

@@ -54,7 +54,7 @@ class MessageTable {
     MessageDefinition definition_;
     MessageEncoding encoding_;
     int table_;
-    int time_column_;
+    int time_column_ = -1;
     Slot root_;
     bool has_sequences_ = false;
     std::vector<std::string> names_;  ///< of the elements of the arrays in this message
