@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/logs/log_formats.h"
 
 namespace capstan::logs {
 
@@ -41,7 +40,8 @@ std::string formats_in_words() {
 }  // namespace
 
 std::span<const LogFormat> log_formats() {
-    static const std::array formats{ros_bag_format, mcap_format, rosbag2_format, text_format};
+    static const std::array formats{matlab_format, hdf5_format,    ros_bag_format,
+                                    mcap_format,   rosbag2_format, text_format};
     return formats;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/logs/log_formats.h"
 #include "capstan/logs/table_writer.h"
 #include "capstan/logs/text_layout.h"
 #include "capstan/logs/text_lines.h"
