@@ -4,12 +4,12 @@ build_packages=(
     g++ cmake ninja-build ccache
     libeigen3-dev libtbb-dev libsqlite3-dev libboost-program-options-dev libboost-math-dev
     librandom123-dev libhwy-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev
-    zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libmatio-dev libhdf5-dev
-    nodejs npm
+    zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libmatio-dev libhdf5-dev libminizip-dev
+    libexpat1-dev nodejs npm
 )
 test_packages=(
     libgtest-dev libgmock-dev libbenchmark-dev liblapack-dev sqlite3 python3 chromium
-    python3-rosbag python3-sensor-msgs python3-scipy python3-h5py lz4 zstd # they write the logs that the tests read
+    python3-rosbag python3-sensor-msgs python3-scipy python3-h5py python3-openpyxl lz4 zstd # they write the logs that the tests read
 )
 # For the test on a Slurm of its own, which is skipped without them.
 slurm_packages=(slurmctld slurmd slurm-client munge)

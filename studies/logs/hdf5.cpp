@@ -4,7 +4,6 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <set>
 
@@ -214,8 +213,6 @@ class Hdf5Reading {
             } else if (!read_rows(dataset, H5T_NATIVE_DOUBLE, rank, begin, count, columns, numbers.data())) {
                 return;
             }
-            for (double& number : numbers)
-                if (!std::isfinite(number)) number = std::numeric_limits<double>::quiet_NaN();
             take(numbers);
             if (options_.on_progress)
                 options_.on_progress(static_cast<double>(begin + count) / static_cast<double>(rows));
@@ -300,8 +297,7 @@ class Hdf5Reading {
                 for (const Member& member : members)
                     for (const int column : member.columns) {
                         const double number = *next++;
-                        if (column >= 0 && std::isfinite(number))
-                            writer_.row(table)[static_cast<std::size_t>(column)] = number;
+                        if (column >= 0) writer_.row(table)[static_cast<std::size_t>(column)] = number;
                     }
                 writer_.finish_row(table);
             }

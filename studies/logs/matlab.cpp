@@ -4,7 +4,6 @@
 #include <matio.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <memory>
 
@@ -218,8 +217,6 @@ class MatReading {
         std::vector<double> block;
         for (std::size_t at = 0; at < count; at += block.size()) {
             block.assign(numbers + at, numbers + std::min(count, at + NumberStore::block_numbers));
-            for (double& number : block)
-                if (!std::isfinite(number)) number = std::numeric_limits<double>::quiet_NaN();
             take(block);
         }
     }
