@@ -16,6 +16,8 @@ class ByteSource {
     virtual ~ByteSource() = default;
     /// Fills `to` with up to `count` bytes; fewer only at the end. Throws InvalidInput.
     virtual std::size_t read(char* to, std::size_t count) = 0;
+    /// Whether it ended before its compressed data did.
+    virtual bool is_cut() const { return false; }
 };
 
 /// A file, read from the beginning, with its progress told every few megabytes.

@@ -48,6 +48,7 @@ void read_text(const std::filesystem::path& path, const ReadOptions& options, Lo
         table.take(sample[line - 1], line, all_read && line == sample.size());
     for (std::string_view line; lines.next(line);) table.take(line, lines.number(), lines.is_unfinished());
     table.end();
+    if (lines.is_cut()) writer.remark("The compressed file is cut; the lines before that are read");
 }
 
 }  // namespace
