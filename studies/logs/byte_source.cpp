@@ -34,7 +34,8 @@ class GzipSource final : public ByteSource {
         std::size_t got = 0;
         while (got < count && !ended_) {
             if (stream_.avail_in == 0) refill();
-            if (stream_.avail_in == 0) break;  // cut: what there is was read
+            is_cut_ = stream_.avail_in == 0;
+            if (is_cut_) break;
             stream_.next_out = reinterpret_cast<Bytef*>(to + got);
             stream_.avail_out = static_cast<uInt>(std::min<std::size_t>(count - got, 1u << 30));
             const uInt before = stream_.avail_out;
@@ -57,6 +58,8 @@ class GzipSource final : public ByteSource {
         return got;
     }
 
+    bool is_cut() const override { return is_cut_; }
+
   private:
     void refill() {
         stream_.avail_in = static_cast<uInt>(packed_.read(input_.data(), input_.size()));
@@ -75,6 +78,7 @@ class GzipSource final : public ByteSource {
     std::vector<char> input_;
     z_stream stream_{};
     bool ended_ = false;
+    bool is_cut_ = false;
     std::uint64_t unpacked_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace capstan::logs {
 
@@ -15,6 +16,8 @@ class ByteSource {
     virtual ~ByteSource() = default;
     /// Fills `to` with up to `count` bytes; fewer only at the end. Throws InvalidInput.
     virtual std::size_t read(char* to, std::size_t count) = 0;
+    /// Whether it ended before its compressed data did.
+    virtual bool is_cut() const { return false; }
 };
 
 /// A file, read from the beginning, with its progress told every few megabytes.
@@ -47,5 +50,16 @@ bool is_gzip(std::string_view head);
 
 /// The first bytes of a source's content, unpacked; empty where it cannot be unpacked.
 std::string unpacked_head(std::string_view packed_head);
+
+/// A compressed chunk, unpacked as far as it goes.
+struct Unpacked {
+    std::string bytes;
+    bool is_complete = false;  ///< false: damaged or cut, or more than the limit
+};
+
+/// At most `limit_bytes` are unpacked. LZ4 and zstd in their frame formats, as bags and MCAP files have them.
+Unpacked unpack_bzip2(std::string_view packed, std::size_t limit_bytes);
+Unpacked unpack_lz4(std::string_view packed, std::size_t limit_bytes);
+Unpacked unpack_zstd(std::string_view packed, std::size_t limit_bytes);
 
 }  // namespace capstan::logs

@@ -1,5 +1,3 @@
-#include "capstan/logs/column_names.h"
-
 #include <algorithm>
 #include <array>
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "capstan/logs/message_table.h"
@@ -72,8 +71,7 @@ void JsonTable::write(const std::string& path, double number) {
         }
         found = columns_.emplace(path, writer_.add_column(table_, path)).first;
     }
-    if (found->second >= 0 && std::isfinite(number))
-        writer_.row(table_)[static_cast<std::size_t>(found->second)] = number;
+    if (found->second >= 0) writer_.row(table_)[static_cast<std::size_t>(found->second)] = number;
 }
 
 void JsonTable::end() {

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/logs/log_formats.h"
 
 namespace capstan::logs {
 
@@ -31,6 +30,25 @@ std::string head_of(const std::filesystem::path& path) {
     return head;
 }
 
+/// Files that are often at hand and cannot be read, by how they begin.
+struct OtherFormat {
+    std::string_view beginning;
+    const char* what;
+};
+constexpr OtherFormat other_formats[] = {
+    {"\x28\xb5\x2f\xfd", "is packed with zstd, as rosbag2 does it; unpack it with 'zstd -d'"},
+    {"\xfd"
+     "7zXZ",
+     "is packed with xz; unpack it with 'xz -d'"},
+    {"BZh", "is packed with bzip2; unpack it with 'bzip2 -d'"},
+    {"\x04\x22\x4d\x18", "is packed with lz4; unpack it with 'lz4 -d'"},
+    {"\x1f\x8b", "is packed with gzip, and what is in it is no text; unpack it with 'gzip -d'"},
+    {"\xd0\xcf\x11\xe0", "is a workbook of an old Excel (.xls); save the sheet as CSV"},
+    {"PAR1", "is a Parquet file; write it as CSV or HDF5, for example with pandas"},
+    {"TDSm", "is a TDMS file of LabVIEW; export it as CSV"},
+    {"MDF ", "is an MDF file; export it as CSV, HDF5 or MATLAB"},
+};
+
 std::string formats_in_words() {
     std::string words;
     for (const LogFormat& format : log_formats())
@@ -41,7 +59,8 @@ std::string formats_in_words() {
 }  // namespace
 
 std::span<const LogFormat> log_formats() {
-    static const std::array formats{ros_bag_format, mcap_format, rosbag2_format, text_format};
+    static const std::array formats{matlab_format,  hdf5_format, ros_bag_format, mcap_format,
+                                    rosbag2_format, xlsx_format, text_format};
     return formats;
 }
 
@@ -56,6 +75,9 @@ Log read_log(const std::filesystem::path& path, const ReadOptions& options) {
         format.read(path, options, log);
         return log;
     }
+    for (const OtherFormat& other : other_formats)
+        if (head.starts_with(other.beginning))
+            throw InvalidInput({fmt::format("{}: {}", path.string(), other.what)});
     throw InvalidInput(
         {fmt::format("{}: is in none of the formats that can be read: {}. Save it as one of them",
                      path.string(), formats_in_words())});

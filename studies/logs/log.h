@@ -80,6 +80,14 @@ struct LogFormat {
     void (*read)(const std::filesystem::path& path, const ReadOptions& options, Log& log);
 };
 
+extern const LogFormat matlab_format;
+extern const LogFormat hdf5_format;
+extern const LogFormat ros_bag_format;
+extern const LogFormat rosbag2_format;
+extern const LogFormat mcap_format;
+extern const LogFormat xlsx_format;
+extern const LogFormat text_format;
+
 /// All formats, in the order in which they are tried; delimited text is the last.
 std::span<const LogFormat> log_formats();
 

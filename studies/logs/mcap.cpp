@@ -10,10 +10,8 @@
 #include "capstan/logs/byte_cursor.h"
 #include "capstan/logs/byte_source.h"
 #include "capstan/logs/json_table.h"
-#include "capstan/logs/log_formats.h"
-#include "capstan/logs/message_tables.h"
+#include "capstan/logs/message_table.h"
 #include "capstan/logs/text_lines.h"
-#include "capstan/logs/unpacking.h"
 
 namespace capstan::logs {
 

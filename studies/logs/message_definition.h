@@ -57,6 +57,7 @@ struct UnknownMessage : std::runtime_error {
 };
 
 enum class MessageDialect { ros1, ros2 };
+enum class MessageEncoding { ros1, cdr };
 
 /// From the text that bags and MCAP files carry: the fields of `type`, one a line, then after each line of
 /// '=' the types it uses ("MSG: geometry_msgs/Wrench"). A type whose text is not there, and every type for

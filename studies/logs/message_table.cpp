@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
 
+#include "capstan/logs/message_cursor.h"
 #include "capstan/logs/text_lines.h"
 
 namespace capstan::logs {
 
 namespace {
 
+constexpr std::size_t named_topics = 64;    // left out; more are counted
 constexpr std::size_t longest_array = 256;  // a longer one is a picture or a cloud, not channels
 constexpr std::size_t longest_names = 1u << 14;
 constexpr std::size_t max_slots = 1u << 15;  // per topic
@@ -30,110 +29,14 @@ double seconds_of(std::uint64_t nanoseconds) {
            1e-9 * static_cast<double>(nanoseconds % 1'000'000'000u);
 }
 
-/// Through one message; false from any member: the bytes have run out.
-class MessageTable::Cursor {
-  public:
-    Cursor(std::string_view bytes, MessageEncoding encoding)
-        : bytes_(bytes), is_cdr_(encoding == MessageEncoding::cdr) {}
-
-    // The four bytes in front of CDR: the order of bytes, and the alignment of eight-byte numbers.
-    bool begin_cdr() {
-        if (bytes_.size() < 4 || bytes_[0] != 0) return false;
-        const auto kind = static_cast<unsigned char>(bytes_[1]);
-        if (kind > 1 && kind != 6 && kind != 7) return false;
-        is_swapped_ = (kind & 1) == 0;
-        widest_ = kind >= 6 ? 4 : 8;
-        bytes_.remove_prefix(4);
-        return true;
-    }
-
-    bool take(std::size_t count, std::size_t alignment, const char*& piece) {
-        const std::size_t step = std::min(alignment, widest_);
-        if (is_cdr_ && count > 0) at_ = (at_ + step - 1) / step * step;
-        if (at_ > bytes_.size() || count > bytes_.size() - at_) return false;
-        piece = bytes_.data() + at_;
-        at_ += count;
-        return true;
-    }
-
-    template <typename Number>
-    Number of(const char* piece) const {
-        std::array<char, sizeof(Number)> bytes;
-        std::memcpy(bytes.data(), piece, sizeof(Number));
-        if (is_swapped_) std::reverse(bytes.begin(), bytes.end());
-        return std::bit_cast<Number>(bytes);
-    }
-
-    bool count(std::uint32_t& number) {
-        const char* piece = nullptr;
-        if (!take(4, 4, piece)) return false;
-        number = of<std::uint32_t>(piece);
-        return true;
-    }
-
-    bool string(std::string_view& text) {
-        std::uint32_t length = 0;
-        const char* piece = nullptr;
-        if (!count(length) || !take(length, 1, piece)) return false;
-        text = {piece, length};
-        if (is_cdr_ && text.ends_with('\0')) text.remove_suffix(1);
-        return true;
-    }
-
-    std::size_t left() const { return bytes_.size() - at_; }
-
-    double number(const char* piece, FieldKind kind) const {
-        switch (kind) {
-            case FieldKind::boolean:
-                return *piece != 0 ? 1.0 : 0.0;
-            case FieldKind::int8:
-                return of<std::int8_t>(piece);
-            case FieldKind::uint8:
-                return of<std::uint8_t>(piece);
-            case FieldKind::int16:
-                return of<std::int16_t>(piece);
-            case FieldKind::uint16:
-                return of<std::uint16_t>(piece);
-            case FieldKind::int32:
-                return of<std::int32_t>(piece);
-            case FieldKind::uint32:
-                return of<std::uint32_t>(piece);
-            case FieldKind::int64:
-                return static_cast<double>(of<std::int64_t>(piece));
-            case FieldKind::uint64:
-                return static_cast<double>(of<std::uint64_t>(piece));
-            case FieldKind::float32:
-                return of<float>(piece);
-            case FieldKind::float64:
-                return of<double>(piece);
-            case FieldKind::time:
-                return of<std::uint32_t>(piece) + 1e-9 * of<std::uint32_t>(piece + 4);
-            case FieldKind::duration:
-                // ROS 2 has unsigned nanoseconds, ROS 1 signed ones; both are below 2^31.
-                return of<std::int32_t>(piece) + 1e-9 * of<std::int32_t>(piece + 4);
-            case FieldKind::string:
-            case FieldKind::message:
-                break;
-        }
-        return 0.0;
-    }
-
-  private:
-    std::string_view bytes_;
-    bool is_cdr_;
-    bool is_swapped_ = false;
-    std::size_t widest_ = 8;
-    std::size_t at_ = 0;
-};
-
 MessageTable::MessageTable(TableWriter& writer, const std::string& topic, MessageDefinition definition,
                            MessageEncoding encoding)
     : writer_(writer),
       topic_(topic),
       definition_(std::move(definition)),
       encoding_(encoding),
-      table_(writer.add_table(as_utf8(topic))),
-      time_column_(column("log_time")) {
+      table_(writer.add_table(as_utf8(topic))) {
+    time_column_ = column("log_time");
     for (const MessageType& type : definition_.types)
         for (const MessageField& field : type.fields)
             has_sequences_ = has_sequences_ || field.shape == FieldShape::sequence;
@@ -143,7 +46,7 @@ void MessageTable::take(std::uint64_t log_time_ns, std::string_view message) {
     ++messages_;
     const LogTable& table = writer_.log().tables[static_cast<std::size_t>(table_)];
     const bool is_unwanted = table.columns.empty() && table.rows > 0 && !has_sequences_;
-    Cursor cursor(message, encoding_);
+    MessageCursor cursor(message, encoding_);
     names_.clear();
     names_key_.clear();
     if (!is_unwanted && ((encoding_ == MessageEncoding::cdr && !cursor.begin_cdr()) ||
@@ -159,7 +62,7 @@ void MessageTable::take(std::uint64_t log_time_ns, std::string_view message) {
     writer_.finish_row(table_);
 }
 
-bool MessageTable::read_message(Cursor& cursor, const MessageType& type, const std::string& path,
+bool MessageTable::read_message(MessageCursor& cursor, const MessageType& type, const std::string& path,
                                 Slot& slot) {
     if (slot.children.size() < type.fields.size()) {
         slot.children.resize(type.fields.size());
@@ -170,7 +73,7 @@ bool MessageTable::read_message(Cursor& cursor, const MessageType& type, const s
     return true;
 }
 
-bool MessageTable::read_field(Cursor& cursor, const MessageField& field, const std::string& parent,
+bool MessageTable::read_field(MessageCursor& cursor, const MessageField& field, const std::string& parent,
                               Slot& slot) {
     std::uint32_t count = static_cast<std::uint32_t>(field.count);
     if (field.shape == FieldShape::sequence && !cursor.count(count)) return false;
@@ -200,7 +103,7 @@ bool MessageTable::read_field(Cursor& cursor, const MessageField& field, const s
     return read_messages(cursor, type, count, path, slot);
 }
 
-bool MessageTable::read_messages(Cursor& cursor, const MessageType& type, std::size_t count,
+bool MessageTable::read_messages(MessageCursor& cursor, const MessageType& type, std::size_t count,
                                  const std::string& path, Slot& slot) {
     const bool was_passing_over = is_passing_over_;
     bool is_read = true;
@@ -219,7 +122,7 @@ bool MessageTable::read_messages(Cursor& cursor, const MessageType& type, std::s
     return is_read;
 }
 
-bool MessageTable::read_numbers(Cursor& cursor, const MessageField& field, std::size_t count,
+bool MessageTable::read_numbers(MessageCursor& cursor, const MessageField& field, std::size_t count,
                                 const std::string& path, Slot& slot) {
     const std::size_t size = size_of(field.kind);
     const char* piece = nullptr;
@@ -260,7 +163,7 @@ void MessageTable::name_columns(const std::string& path, std::size_t count, Slot
     }
 }
 
-bool MessageTable::read_names(Cursor& cursor, std::size_t count) {
+bool MessageTable::read_names(MessageCursor& cursor, std::size_t count) {
     names_.clear();
     names_key_.clear();
     bool is_usable = count <= longest_array;
@@ -297,6 +200,35 @@ void MessageTable::end() {
                                    definition_.types.front().name, misfits_ == 1 ? "is" : "are"));
     for (const auto& [path, why] : left_out_)
         writer_.remark(fmt::format("{}: '{}' is left out: {}", as_utf8(topic_), path, why));
+}
+
+MessageTable* MessageTables::table(const std::string& topic, const std::string& type,
+                                   const std::string& definition, MessageDialect dialect,
+                                   MessageEncoding encoding) {
+    const auto [entry, is_new] = tables_.try_emplace({topic, type, definition});
+    if (is_new) try {
+            entry->second = std::make_unique<MessageTable>(
+                writer_, topic, parse_definition(type, definition, dialect), encoding);
+        } catch (const UnknownMessage& why) {
+            leave_out(topic, fmt::format("messages of type {} cannot be read: {}",
+                                         as_utf8(type.substr(0, 80)), why.what()));
+        }
+    return entry->second.get();
+}
+
+void MessageTables::leave_out(const std::string& topic, const std::string& why) {
+    if (left_out_.size() < named_topics)
+        left_out_.try_emplace(topic.substr(0, LogLimits::name_bytes), why);
+    else
+        ++more_left_out_;
+}
+
+void MessageTables::end() {
+    for (const auto& [key, table] : tables_)
+        if (table) table->end();
+    for (const auto& [topic, why] : left_out_)
+        writer_.remark(fmt::format("{} is left out: {}", as_utf8(topic), why));
+    if (more_left_out_ > 0) writer_.remark(fmt::format("{} further topics are left out", more_left_out_));
 }
 
 }  // namespace capstan::logs

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "capstan/logs/message_definition.h"
@@ -10,7 +12,7 @@
 
 namespace capstan::logs {
 
-enum class MessageEncoding { ros1, cdr };
+class MessageCursor;
 
 /// The messages of one topic as a table: log_time, then every number of the message by its path
 /// ("wrench.force.x", "data.0"). Arrays of a message that has names for their elements (JointState) are
@@ -36,15 +38,13 @@ class MessageTable {
         std::map<std::string, int> named;  ///< columns
     };
 
-    class Cursor;
-
-    bool read_message(Cursor& cursor, const MessageType& type, const std::string& path, Slot& slot);
-    bool read_field(Cursor& cursor, const MessageField& field, const std::string& path, Slot& slot);
-    bool read_messages(Cursor& cursor, const MessageType& type, std::size_t count, const std::string& path,
-                       Slot& slot);
-    bool read_numbers(Cursor& cursor, const MessageField& field, std::size_t count, const std::string& path,
-                      Slot& slot);
-    bool read_names(Cursor& cursor, std::size_t count);
+    bool read_message(MessageCursor& cursor, const MessageType& type, const std::string& path, Slot& slot);
+    bool read_field(MessageCursor& cursor, const MessageField& field, const std::string& path, Slot& slot);
+    bool read_messages(MessageCursor& cursor, const MessageType& type, std::size_t count,
+                       const std::string& path, Slot& slot);
+    bool read_numbers(MessageCursor& cursor, const MessageField& field, std::size_t count,
+                      const std::string& path, Slot& slot);
+    bool read_names(MessageCursor& cursor, std::size_t count);
     void name_columns(const std::string& path, std::size_t count, Slot& slot);
     int column(const std::string& name);
     void leave_out(const std::string& path, const char* why);
@@ -54,7 +54,7 @@ class MessageTable {
     MessageDefinition definition_;
     MessageEncoding encoding_;
     int table_;
-    int time_column_;
+    int time_column_ = -1;
     Slot root_;
     bool has_sequences_ = false;
     std::vector<std::string> names_;  ///< of the elements of the arrays in this message
@@ -64,6 +64,26 @@ class MessageTable {
     std::size_t misfits_ = 0;
     std::size_t messages_ = 0;
     std::map<std::string, std::string> left_out_;  ///< path: why
+};
+
+/// The tables of all topics of a file.
+class MessageTables {
+  public:
+    explicit MessageTables(TableWriter& writer) : writer_(writer) {}
+
+    /// The table of a topic's messages of a type; the same for the same three, as several may write to a
+    /// topic. Null where the type cannot be read; a remark then says why, once.
+    MessageTable* table(const std::string& topic, const std::string& type, const std::string& definition,
+                        MessageDialect dialect, MessageEncoding encoding);
+    /// A topic that is left out: a remark, once.
+    void leave_out(const std::string& topic, const std::string& why);
+    void end();
+
+  private:
+    TableWriter& writer_;
+    std::map<std::tuple<std::string, std::string, std::string>, std::unique_ptr<MessageTable>> tables_;
+    std::map<std::string, std::string> left_out_;
+    std::size_t more_left_out_ = 0;
 };
 
 /// Nanoseconds as seconds: a double holds today's time to 0.2 microseconds.

@@ -9,9 +9,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/logs/byte_cursor.h"
 #include "capstan/logs/byte_source.h"
-#include "capstan/logs/log_formats.h"
-#include "capstan/logs/message_tables.h"
-#include "capstan/logs/unpacking.h"
+#include "capstan/logs/message_table.h"
 
 namespace capstan::logs {
 

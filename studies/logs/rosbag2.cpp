@@ -9,8 +9,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/logs/byte_source.h"
-#include "capstan/logs/log_formats.h"
-#include "capstan/logs/message_tables.h"
+#include "capstan/logs/message_table.h"
 #include "capstan/logs/text_lines.h"
 
 namespace capstan::logs {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 #include "capstan/cable/invalid_input.h"
@@ -11,6 +12,11 @@ namespace capstan::logs {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+// A reading that is infinite is no reading.
+double finite_or_missing(double number) {
+    return std::isfinite(number) ? number : not_a_number;
+}
 
 }  // namespace
 
@@ -57,7 +63,7 @@ void TableWriter::finish_row(int table) {
     std::vector<double>& numbers = row(table);
     count_numbers(numbers.size());
     for (std::size_t column = 0; column < numbers.size(); ++column) {
-        its_table.columns[column].values.append(numbers[column]);
+        its_table.columns[column].values.append(finite_or_missing(numbers[column]));
         numbers[column] = not_a_number;
     }
     ++its_table.rows;
@@ -67,7 +73,7 @@ void TableWriter::fill_column(int table, int column, std::span<const double> num
     LogTable& its_table = log_.tables[static_cast<std::size_t>(table)];
     count_numbers(numbers.size());
     NumberSeries& values = its_table.columns[static_cast<std::size_t>(column)].values;
-    for (const double number : numbers) values.append(number);
+    for (const double number : numbers) values.append(finite_or_missing(number));
 }
 
 void TableWriter::set_rows(int table, std::size_t rows) {

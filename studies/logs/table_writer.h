@@ -18,8 +18,8 @@ class UniqueNames {
     std::map<std::string, int> uses_;
 };
 
-/// Fills the tables of a log row by row and keeps to the limits: every reader writes through it. Throws
-/// InvalidInput that names the limit.
+/// Fills the tables of a log row by row and keeps to the limits: every reader writes through it. An infinite
+/// number becomes a missing one. Throws InvalidInput that names the limit.
 class TableWriter {
   public:
     TableWriter(Log& log, const ReadOptions& options) : log_(log), options_(options) {}

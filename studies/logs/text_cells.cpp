@@ -85,9 +85,13 @@ bool time_of_day(std::string_view cell, std::size_t& at, CellInstant& instant) {
         if (!digits_at(cell, at + 1, 2, second) || second > 60) return false;
         at += 3;
         if (at < cell.size() && (cell[at] == '.' || cell[at] == ',')) {
-            double scale = 0.1;
-            for (++at; at < cell.size() && cell[at] >= '0' && cell[at] <= '9'; ++at, scale *= 0.1)
-                instant.fraction_s += scale * (cell[at] - '0');
+            double digits = 0.0, scale = 1.0;
+            for (++at; at < cell.size() && cell[at] >= '0' && cell[at] <= '9'; ++at) {
+                if (scale >= 1e15) continue;  // finer than a double holds
+                digits = 10.0 * digits + (cell[at] - '0');
+                scale *= 10.0;
+            }
+            instant.fraction_s = digits / scale;
         }
     }
     instant.seconds += hour * 3600 + minute * 60 + second;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,5 +31,19 @@ struct CellInstant {
 std::optional<CellInstant> instant_of_cell(std::string_view cell);
 
 std::string_view trimmed(std::string_view text);
+
+/// The name of a column and the unit that it states in brackets at its end: "Torque [N m]", "angle (deg)".
+/// Round brackets are left where they hold no unit: "x(1)".
+struct NameAndUnit {
+    std::string name;
+    std::string unit;
+};
+NameAndUnit name_and_unit(std::string_view head);
+
+/// Whether a cell is the symbol of a unit, with or without brackets: "[N m]", "deg", "counts".
+bool is_unit(std::string_view cell);
+
+/// Without the brackets around it.
+std::string without_brackets(std::string_view unit);
 
 }  // namespace capstan::logs

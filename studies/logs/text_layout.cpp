@@ -7,7 +7,6 @@
 #include <map>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/logs/column_names.h"
 #include "capstan/logs/table_writer.h"
 #include "capstan/logs/text_lines.h"
 

@@ -24,6 +24,8 @@ class TextLines {
     std::size_t number() const { return number_; }
     /// Whether the line that next() gave has no line end: the last one, perhaps cut.
     bool is_unfinished() const { return is_unfinished_; }
+    /// Of a compressed file: whether it ends before its data do.
+    bool is_cut() const { return source_->is_cut(); }
 
   private:
     void refill();

@@ -1,5 +1,3 @@
-#include "capstan/logs/unpacking.h"
-
 #include <bzlib.h>
 #include <lz4frame.h>
 #include <zstd.h>
@@ -7,6 +5,8 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+
+#include "capstan/logs/byte_source.h"
 
 namespace capstan::logs {
 

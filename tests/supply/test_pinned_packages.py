@@ -18,8 +18,8 @@ def folders():
 
 
 class PinnedPackages(unittest.TestCase):
-    def test_there_are_three_lists_and_each_has_a_lock_file(self):
-        self.assertEqual(3, len(folders()))
+    def test_there_are_four_lists_and_each_has_a_lock_file(self):
+        self.assertEqual(4, len(folders()))
         for folder in folders():
             self.assertTrue((folder / "package-lock.json").exists(), folder)
 

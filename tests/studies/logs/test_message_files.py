@@ -5,6 +5,7 @@ import sqlite3
 import struct
 import unittest
 
+from cdr import Cdr
 from written_log import WrittenLogTest, read_log
 
 
@@ -111,39 +112,6 @@ class RosBags(WrittenLogTest):
         size = whole.index(b"size=")
         path.write_bytes(whole[:size + 5] + b"\xff\xff\xff\xff" + whole[size + 9:])
         self.assertIn("chunk of more than 64 MB", read_log(path).refusal)
-
-
-class Cdr:
-    """Common Data Representation, written by its specification (OMG DDSI-RTPS 10)."""
-
-    def __init__(self, big_endian=False):
-        self.order = ">" if big_endian else "<"
-        self.bytes = bytearray()
-        self.head = b"\0\0\0\0" if big_endian else b"\0\1\0\0"
-
-    def number(self, code, value):
-        size = struct.calcsize(code)
-        self.bytes += bytes(-len(self.bytes) % size) + struct.pack(self.order + code, value)
-        return self
-
-    def string(self, text):
-        encoded = text.encode() + b"\0"
-        self.number("I", len(encoded))
-        self.bytes += encoded
-        return self
-
-    def numbers(self, values, is_sequence=True):
-        if is_sequence:
-            self.number("I", len(values))
-        for value in values:
-            self.number("d", value)
-        return self
-
-    def header(self, seconds, nanoseconds, frame):
-        return self.number("i", seconds).number("I", nanoseconds).string(frame)
-
-    def message(self):
-        return self.head + bytes(self.bytes)
 
 
 class Rosbag2Files(WrittenLogTest):

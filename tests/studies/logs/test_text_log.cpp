@@ -249,6 +249,21 @@ TEST(TextLog, UnpacksGzipButNoBomb) {
     EXPECT_THAT(refusal_of(gzipped(zeros)), HasSubstr("unpacks to more than 100 times"));
 }
 
+TEST(TextLog, SaysThatACompressedFileIsCut) {
+    std::string text = "t,x\n";
+    for (long row = 0; row < 50'000; ++row)
+        text += std::to_string(row) + "," + std::to_string(row * row % 977) + "\n";
+    const std::string packed = gzipped(text);
+    EXPECT_THAT(log_of(packed).remarks, IsEmpty());
+    for (std::size_t part = 1; part < 50; ++part) {
+        const std::string cut = packed.substr(0, packed.size() * part / 50);
+        const std::string refusal = refusal_of(cut);
+        if (refusal.empty()) {
+            EXPECT_THAT(remarks_of(log_of(cut)), HasSubstr("The compressed file is cut")) << part;
+        }
+    }
+}
+
 TEST(TextLog, IsTheSameHoweverManyNumbersStayInMemory) {
     std::string text = "t,x\n";
     for (int row = 0; row < 100'000; ++row)
