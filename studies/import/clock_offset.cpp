@@ -9,7 +9,7 @@ namespace capstan::imports {
 
 namespace {
 
-constexpr std::array yields = {0.02, 0.1, 0.3};  // of the channel's span
+constexpr std::array yields = {0.02, 0.06, 0.15, 0.3, 0.6};  // of the channel's span
 constexpr std::size_t coarse_samples = 6000;
 constexpr int parts = 4;
 constexpr std::size_t fewest_fitted = 200;
@@ -24,15 +24,29 @@ std::vector<double> stop_element(const std::vector<double>& input, double yield)
     return force;
 }
 
-Eigen::MatrixXd features_of(const std::vector<std::vector<double>>& others) {
-    std::vector<std::vector<double>> columns;
-    for (const std::vector<double>& other : others) {
-        const auto [low, high] = std::minmax_element(other.begin(), other.end());
-        if (*high <= *low) continue;
-        columns.push_back(other);
-        for (const double yield : yields) columns.push_back(stop_element(other, yield * (*high - *low)));
+// Over a few samples, against noise.
+std::vector<double> speed_of(const std::vector<double>& values) {
+    constexpr std::size_t half = 3;
+    std::vector<double> speed(values.size(), 0.0);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const std::size_t from = k < half ? 0 : k - half;
+        const std::size_t to = std::min(k + half, values.size() - 1);
+        if (to > from) speed[k] = (values[to] - values[from]) / static_cast<double>(to - from);
     }
-    Eigen::MatrixXd features(others.empty() ? 0 : static_cast<Eigen::Index>(others[0].size()),
+    return speed;
+}
+
+Eigen::MatrixXd features_of(const std::vector<ClockReference>& others) {
+    std::vector<std::vector<double>> columns;
+    for (const ClockReference& other : others) {
+        const auto [low, high] = std::minmax_element(other.values.begin(), other.values.end());
+        if (*high <= *low) continue;
+        columns.push_back(other.values);
+        for (const double yield : yields)
+            columns.push_back(stop_element(other.values, yield * (*high - *low)));
+        if (other.is_angle) columns.push_back(speed_of(other.values));
+    }
+    Eigen::MatrixXd features(others.empty() ? 0 : static_cast<Eigen::Index>(others[0].values.size()),
                              static_cast<Eigen::Index>(columns.size() + 1));
     for (std::size_t column = 0; column < columns.size(); ++column) {
         const Eigen::Map<const Eigen::VectorXd> values(columns[column].data(), features.rows());
@@ -110,12 +124,12 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 }  // namespace
 
 std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
-                                             const std::vector<std::vector<double>>& others,
-                                             double sample_rate_Hz, double longest_s) {
+                                             const std::vector<ClockReference>& others, double sample_rate_Hz,
+                                             double longest_s) {
     if (channel.size() < fewest_fitted || others.empty()) return std::nullopt;
     const std::size_t step = std::max<std::size_t>(1, channel.size() / coarse_samples);
-    std::vector<std::vector<double>> thinned;
-    for (const auto& other : others) thinned.push_back(every(other, step));
+    std::vector<ClockReference> thinned;
+    for (const ClockReference& other : others) thinned.push_back({every(other.values, step), other.is_angle});
     const Eigen::VectorXd coarse = vector_of(every(channel, step));
     const auto range = std::min<Eigen::Index>(
         static_cast<Eigen::Index>(longest_s * sample_rate_Hz / static_cast<double>(step)) + 1,

@@ -11,15 +11,24 @@ struct ClockOffset {
     double uncertainty_s = 0.0;  ///< half the range of the estimates from separate quarters of the samples
     double unexplained = 1.0;    ///< part of the channel's variance that the others leave at this offset
     double unexplained_at_zero = 1.0;
+    double unexplained_by_speed =
+        1.0;  ///< at zero, where the speeds of the others' angles may explain it too
+};
+
+/// A channel that explains another one.
+struct ClockReference {
+    std::vector<double> values;
+    bool is_angle = false;  ///< its speed may drive a viscous friction
 };
 
 /// The time shift at which a channel follows from others best. The others explain it through their values and
-/// through friction: elastic-plastic (stop) elements of three yields, which are independent of the rate. So
-/// friction's lag is told from a clock's, which is the same at every rate. All samples have one rate,
-/// `channel` and each of `others` the same number of them. Nothing where the channel is not explained by the
-/// others at any shift up to `longest_s`, or where the quarters disagree.
+/// through friction: elastic-plastic (stop) elements of several yields, which are independent of the rate. So
+/// friction's lag is told from a clock's, which is the same at every rate. A viscous friction lags as a clock
+/// does; whoever calls compares `unexplained_by_speed`. All samples have one rate, `channel` and each of
+/// `others` the same number of them. Nothing where the channel is not explained by the others at any shift up
+/// to `longest_s`, or where the quarters disagree.
 std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
-                                             const std::vector<std::vector<double>>& others,
-                                             double sample_rate_Hz, double longest_s);
+                                             const std::vector<ClockReference>& others, double sample_rate_Hz,
+                                             double longest_s);
 
 }  // namespace capstan::imports

@@ -28,7 +28,7 @@ namespace {
 using nlohmann::ordered_json;
 
 // A channel that lags more than this is another experiment's.
-constexpr double longest_offset_s = 2.0;
+constexpr double longest_offset_s = 1.0;
 // Within one logger only a filter or a slow bus delays a channel.
 constexpr double longest_delay_s = 0.1;
 // An offset is named when it is more than this many samples and its own uncertainty.
@@ -207,9 +207,14 @@ class Import {
     void note_offset(const LogRun& run, std::size_t k, const std::vector<std::vector<double>>& values,
                      double rate_Hz) {
         if (mapping_.channels[kept_[k]].clock_offset_s) return;
-        std::vector<std::vector<double>> others;
+        const auto is_angle = [&](std::size_t channel) {
+            return report_.channels[channel].ends_with("_angle");
+        };
+        std::vector<ClockReference> others;
         for (std::size_t other = 0; other < values.size(); ++other) {
-            if (other != k && on_first_clock(run, other)) others.push_back(values[other]);
+            // An angle follows an angle without a viscous lag.
+            if (other != k && on_first_clock(run, other))
+                others.push_back({values[other], is_angle(other) && !is_angle(k)});
         }
         const bool other_clock = !on_first_clock(run, k);
         if (const auto offset = find_clock_offset(values[k], others, rate_Hz,
@@ -223,48 +228,87 @@ class Import {
         bool other_clock;
     };
 
+    // What a channel's runs say together.
+    struct ChannelOffset {
+        std::size_t channel = 0;  ///< kept
+        double offset_s = 0.0;
+        double uncertainty_s = 0.0;
+        bool explains = true;  ///< in each run, and it is more than a part of a sample
+        RunOffset seen;
+    };
+
+    ChannelOffset channel_offset(std::size_t k, const std::vector<RunOffset>& runs) const {
+        ChannelOffset found{k, 0.0, 0.0, true, runs.front()};
+        double low = runs.front().offset.offset_s;
+        double high = low;
+        for (const RunOffset& run : runs) {
+            const ClockOffset& offset = run.offset;
+            found.offset_s += offset.offset_s / static_cast<double>(runs.size());
+            found.uncertainty_s = std::max(found.uncertainty_s, offset.uncertainty_s);
+            low = std::min(low, offset.offset_s);
+            high = std::max(high, offset.offset_s);
+            const double gain = run.other_clock ? named_offset_gain : named_delay_gain;
+            found.explains &= offset.unexplained_at_zero > gain * offset.unexplained;
+        }
+        found.uncertainty_s = std::max(found.uncertainty_s, 0.5 * (high - low));
+        const double period_s = 1.0 / runs.front().rate_Hz;
+        found.explains &=
+            std::abs(found.offset_s) >= std::max(named_offset_periods * period_s, 2.0 * found.uncertainty_s);
+        return found;
+    }
+
+    // The channels of one table have one clock. An angle that follows another angle knows its offset best,
+    // and speaks for all, also where it shows none; a torque lags behind angles for other reasons too.
     void settle_offsets() {
-        for (const auto& [k, runs] : offsets_) {
-            std::vector<double> estimates;
-            double uncertainty_s = 0.0;
-            for (const RunOffset& run : runs) {
-                estimates.push_back(run.offset.offset_s);
-                uncertainty_s = std::max(uncertainty_s, run.offset.uncertainty_s);
+        std::vector<ChannelOffset> found;
+        for (const auto& [k, runs] : offsets_) found.push_back(channel_offset(k, runs));
+        const auto rank = [&](const ChannelOffset& offset) {
+            return std::pair(!report_.channels[offset.channel].ends_with("_angle"), offset.uncertainty_s);
+        };
+        std::stable_sort(found.begin(), found.end(),
+                         [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+        const LogRun& run = logs_.runs[pieces_.front().log_run];
+        std::set<std::size_t> settled;
+        for (const ChannelOffset& offset : found) {
+            if (settled.count(offset.channel) > 0) continue;
+            if (!offset.seen.other_clock) {
+                if (offset.explains && !rank(offset).first)
+                    note_shift(offset, offset.channel, offset.offset_s);
+                continue;
             }
-            const double offset_s = std::accumulate(estimates.begin(), estimates.end(), 0.0) /
-                                    static_cast<double>(estimates.size());
-            const auto [low, high] = std::minmax_element(estimates.begin(), estimates.end());
-            uncertainty_s = std::max(uncertainty_s, 0.5 * (*high - *low));
-            const double period_s = 1.0 / runs.front().rate_Hz;
-            if (std::abs(offset_s) < std::max(named_offset_periods * period_s, 2.0 * uncertainty_s)) continue;
-            const bool explains = std::all_of(runs.begin(), runs.end(), [](const RunOffset& run) {
-                return run.offset.unexplained_at_zero >
-                       (run.other_clock ? named_offset_gain : named_delay_gain) * run.offset.unexplained;
-            });
-            if (!explains) continue;
-            shift_channel(k, offset_s, uncertainty_s, runs.front());
+            const Clock& clock = run.sources[kept_[offset.channel]].clock;
+            for (std::size_t k = 0; k < kept_.size(); ++k) {
+                const Clock& own = run.sources[kept_[k]].clock;
+                if (own.table != clock.table || own.column != clock.column) continue;
+                const bool is_new = settled.insert(k).second;
+                if (is_new && offset.explains && !mapping_.channels[kept_[k]].clock_offset_s)
+                    note_shift(offset, k, offset.offset_s);
+            }
         }
     }
 
-    void shift_channel(std::size_t k, double offset_s, double uncertainty_s, const RunOffset& seen) {
+    void note_shift(const ChannelOffset& by, std::size_t k, double offset_s) {
         const std::string& name = report_.channels[k];
         const double rounded_s = std::round(offset_s * 1e5) / 1e5;
-        const bool repair = seen.other_clock && !options_.strict;
+        const std::string from =
+            k == by.channel
+                ? fmt::format(
+                      "+-{:.2g} ms; without it {:.1f}% of its variance is unexplained, with it {:.1f}%",
+                      1e3 * by.uncertainty_s, 100.0 * by.seen.offset.unexplained_at_zero,
+                      100.0 * by.seen.offset.unexplained)
+                : fmt::format("as that of {}, which shares it", report_.channels[by.channel]);
         report_.findings.push_back(
             {.kind = FindingKind::clock_offset,
-             .repaired = seen.other_clock,
+             .repaired = by.seen.other_clock,
              .channel = name,
              .amount = rounded_s,
              .words = fmt::format(
-                 "the clock of {} is {:.4g} ms {} that of the other channels (+-{:.2g} ms; without it {:.1f}% "
-                 "of its variance is unexplained, with it {:.1f}%); {}",
-                 name, std::abs(1e3 * rounded_s), rounded_s > 0 ? "behind" : "ahead of", 1e3 * uncertainty_s,
-                 100.0 * seen.offset.unexplained_at_zero, 100.0 * seen.offset.unexplained,
-                 seen.other_clock ? "it is shifted"
-                                  : fmt::format("state clock_offset_s = {:.5f} to shift it", rounded_s))});
-        if (!repair) return;
-        for (std::size_t run = 0; run < logs_.runs.size(); ++run)
-            logs_.runs[run].sources[kept_[k]].clock_offset_s = rounded_s;
+                 "the clock of {} is {:.4g} ms {} that of the other channels ({}); {}", name,
+                 std::abs(1e3 * rounded_s), rounded_s > 0 ? "behind" : "ahead of", from,
+                 by.seen.other_clock ? "it is shifted"
+                                     : fmt::format("state clock_offset_s = {:.5f} to shift it", rounded_s))});
+        if (!by.seen.other_clock || options_.strict) return;
+        for (LogRun& run : logs_.runs) run.sources[kept_[k]].clock_offset_s = rounded_s;
         shifted_ = true;
     }
 
@@ -387,6 +431,18 @@ class Import {
             for (const auto& [key, value] : mapping_.recording.items()) sidecar[key] = value;
         }
         sidecar["sample_rate_hz"] = report_.sample_rate_Hz;
+        if (sidecar.contains("tension_sensors") && sidecar["tension_sensors"].is_array()) {
+            ordered_json sensors = ordered_json::array();  // without those of channels that are left out
+            for (const auto& sensor : sidecar["tension_sensors"]) {
+                const std::string channel = sensor.is_object() ? sensor.value("channel", "") : "";
+                const bool mapped = std::any_of(mapping_.channels.begin(), mapping_.channels.end(),
+                                                [&](const auto& each) { return each.name == channel; });
+                const bool kept = std::find(report_.channels.begin(), report_.channels.end(), channel) !=
+                                  report_.channels.end();
+                if (kept || !mapped) sensors.push_back(sensor);
+            }
+            sidecar["tension_sensors"] = sensors;
+        }
         ordered_json units = {{"t", "s"}};
         for (std::size_t k = 0; k < kept_.size(); ++k) {
             const ChannelMapping& channel = mapping_.channels[kept_[k]];

@@ -33,6 +33,13 @@ struct Correction {
     std::string unit{};  ///< that the numbers would be in; empty: the sign alone
 };
 
+bool moves(const Recording& recording, std::size_t channel) {
+    return std::any_of(recording.runs.begin(), recording.runs.end(), [&](const RecordedRun& run) {
+        const auto [low, high] = std::minmax_element(run.values[channel].begin(), run.values[channel].end());
+        return *high > *low;
+    });
+}
+
 std::vector<Correction> corrections_of(const Recording& recording) {
     std::vector<Correction> all;
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
@@ -50,8 +57,10 @@ std::vector<Correction> corrections_of(const Recording& recording) {
         // The numbers were converted although they were in SI units already.
         if (unit == "rad") all.push_back({channel, {}, 1.0 / find_unit("deg")->si, "rad"});
         if (unit == "N m") all.push_back({channel, {}, 1e3, "N m"});
-        for (std::size_t other = channel + 1; other < recording.channels.size(); ++other)
-            all.push_back({channel, other, 1.0, ""});
+        for (std::size_t other = channel + 1; moves(recording, channel) && other < recording.channels.size();
+             ++other) {
+            if (moves(recording, other)) all.push_back({channel, other, 1.0, ""});
+        }
     }
     return all;
 }
