@@ -88,11 +88,12 @@ class ShiftFit {
 struct BestShift {
     double shift = 0.0;  ///< samples, by a parabola through the three smallest
     double unexplained = 1.0;
-    bool inside = false;  ///< not at an end of the range
+    bool inside = false;      ///< not at an end of the range
+    double half_range = 0.0;  ///< of the shifts that are as good within the model's error
 };
 
 BestShift best_shift(const ShiftFit& fit, const Eigen::VectorXd& channel, Eigen::Index centre,
-                     Eigen::Index range) {
+                     Eigen::Index range, double model_error) {
     std::vector<double> left;
     for (Eigen::Index shift = centre - range; shift <= centre + range; ++shift)
         left.push_back(fit.unexplained(channel, shift));
@@ -100,6 +101,10 @@ BestShift best_shift(const ShiftFit& fit, const Eigen::VectorXd& channel, Eigen:
     const auto at = best - left.begin();
     BestShift found{static_cast<double>(centre - range + at), *best,
                     best != left.begin() && best != left.end() - 1};
+    const double as_good = std::max(2.0 * *best, *best + model_error);
+    const auto first = std::find_if(left.begin(), left.end(), [&](double each) { return each <= as_good; });
+    const auto last = std::find_if(left.rbegin(), left.rend(), [&](double each) { return each <= as_good; });
+    found.half_range = 0.5 * static_cast<double>(last.base() - 1 - first);
     if (found.inside) {
         const double curvature =
             left[static_cast<std::size_t>(at - 1)] + left[static_cast<std::size_t>(at + 1)] - 2 * *best;
@@ -125,7 +130,7 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 
 std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
                                              const std::vector<ClockReference>& others, double sample_rate_Hz,
-                                             double longest_s) {
+                                             double longest_s, double model_error) {
     if (channel.size() < fewest_fitted || others.empty()) return std::nullopt;
     const std::size_t step = std::max<std::size_t>(1, channel.size() / coarse_samples);
     std::vector<ClockReference> thinned;
@@ -135,7 +140,7 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
         static_cast<Eigen::Index>(longest_s * sample_rate_Hz / static_cast<double>(step)) + 1,
         coarse.size() / 8);
     const ShiftFit whole(features_of(thinned), range, coarse.size() - 2 * range);
-    const BestShift first = best_shift(whole, coarse, 0, range);
+    const BestShift first = best_shift(whole, coarse, 0, range, model_error);
     if (first.unexplained > largest_unexplained || !first.inside) return std::nullopt;
 
     // Finely, in quarters of the samples.
@@ -147,17 +152,18 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
     const Eigen::Index length = (all.size() - 2 * margin) / parts;
     if (length < static_cast<Eigen::Index>(fewest_fitted / parts)) return std::nullopt;
     const ShiftFit fine(features, margin, all.size() - 2 * margin);
-    const BestShift found = best_shift(fine, all, centre, near);
+    const BestShift found = best_shift(fine, all, centre, near, model_error);
     std::vector<double> estimates;
     for (Eigen::Index part = 0; part < parts; ++part) {
         const BestShift quarter =
-            best_shift(ShiftFit(features, margin + part * length, length), all, centre, near);
+            best_shift(ShiftFit(features, margin + part * length, length), all, centre, near, model_error);
         if (quarter.inside && quarter.unexplained < largest_unexplained) estimates.push_back(quarter.shift);
     }
     if (!found.inside || estimates.size() < 2) return std::nullopt;
     const auto [low, high] = std::minmax_element(estimates.begin(), estimates.end());
     // A channel that shows something k samples later has a clock that is k samples behind.
-    return ClockOffset{-found.shift / sample_rate_Hz, 0.5 * (*high - *low) / sample_rate_Hz,
+    const double wide = first.half_range >= 1.0 ? first.half_range * static_cast<double>(step) : 0.0;
+    return ClockOffset{-found.shift / sample_rate_Hz, std::max(0.5 * (*high - *low), wide) / sample_rate_Hz,
                        found.unexplained, fine.unexplained(all, 0)};
 }
 

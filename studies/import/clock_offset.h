@@ -7,9 +7,11 @@ namespace capstan::imports {
 
 /// How far a channel's clock is from that of others.
 struct ClockOffset {
-    double offset_s = 0.0;       ///< to be added to the channel's times
-    double uncertainty_s = 0.0;  ///< half the range of the estimates from separate quarters of the samples
-    double unexplained = 1.0;    ///< part of the channel's variance that the others leave at this offset
+    double offset_s = 0.0;  ///< to be added to the channel's times
+    /// Half the range of the estimates from separate quarters of the samples, or of all shifts that explain
+    /// the channel as well within the error of the model, whichever is larger.
+    double uncertainty_s = 0.0;
+    double unexplained = 1.0;  ///< part of the channel's variance that the others leave at this offset
     double unexplained_at_zero = 1.0;
     double unexplained_by_speed =
         1.0;  ///< at zero, where the speeds of the others' angles may explain it too
@@ -29,6 +31,6 @@ struct ClockReference {
 /// to `longest_s`, or where the quarters disagree.
 std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
                                              const std::vector<ClockReference>& others, double sample_rate_Hz,
-                                             double longest_s);
+                                             double longest_s, double model_error);
 
 }  // namespace capstan::imports

@@ -37,6 +37,10 @@ constexpr double named_offset_periods = 0.75;
 // where an offset is not to be expected.
 constexpr double named_offset_gain = 1.5;
 constexpr double named_delay_gain = 2.5;
+// How wrong the model of friction may be, as a part of a channel's variance. Angles follow one another
+// exactly but for stretch.
+constexpr double angle_model_error = 1e-6;
+constexpr double torque_model_error = 2e-3;
 constexpr double longest_usual_period_s = 0.1;
 constexpr double shortest_usual_period_s = 5e-5;
 
@@ -184,130 +188,119 @@ class Import {
         return values;
     }
 
-    bool on_first_clock(const LogRun& run, std::size_t k) const {
-        const Clock& own = run.sources[kept_[k]].clock;
-        const Clock& first = run.sources[kept_[0]].clock;
-        return own.table == first.table && own.column == first.column;
+    bool same_clock(const LogRun& run, std::size_t a, std::size_t b) const {
+        const Clock& one = run.sources[kept_[a]].clock;
+        const Clock& other = run.sources[kept_[b]].clock;
+        return one.table == other.table && one.column == other.column;
     }
 
-    // The clock of the first channel counts; channels of other clocks are shifted to it, unless the mapping
-    // states their offset. Offsets on the first clock are named and left.
+    bool is_angle(std::size_t k) const { return report_.channels[k].ends_with("_angle"); }
+
+    // The clock of the first angle counts, or of the first channel. Then clock after clock is aligned to
+    // those that are: an angle that follows another angle knows its offset best, and speaks for its clock; a
+    // torque lags behind angles for other reasons too, so it comes last. Offsets that the mapping states are
+    // kept. An angle that is late within the first clock is named and left.
     void align_clocks() {
-        std::size_t looked_at = 0;
-        for (std::size_t run = 0; run < logs_.runs.size() && looked_at < most_runs_looked_at; ++run) {
-            if (plans_[run].pieces.empty()) continue;
-            ++looked_at;
-            double rate_Hz = 1.0;
-            const auto values = preview_of(run, 3 * preview_samples, rate_Hz);
-            for (std::size_t k = 0; k < kept_.size(); ++k) note_offset(logs_.runs[run], k, values, rate_Hz);
+        std::vector<std::size_t> order(kept_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return is_angle(a) > is_angle(b); });
+        const LogRun& run = logs_.runs[pieces_.front().log_run];
+        std::vector<std::size_t> aligned;
+        for (const std::size_t k : order) {
+            const bool known = aligned.empty() || mapping_.channels[kept_[k]].clock_offset_s.has_value() ||
+                               std::any_of(aligned.begin(), aligned.end(),
+                                           [&](std::size_t other) { return same_clock(run, k, other); });
+            const bool late_angle =
+                known && !aligned.empty() && is_angle(k) && same_clock(run, k, aligned.front());
+            if (!known || late_angle) {
+                if (const auto offset = channel_offset(k, aligned, !known)) settle_offset(*offset, run);
+            }
+            aligned.push_back(k);
         }
-        settle_offsets();
     }
 
-    void note_offset(const LogRun& run, std::size_t k, const std::vector<std::vector<double>>& values,
-                     double rate_Hz) {
-        if (mapping_.channels[kept_[k]].clock_offset_s) return;
-        const auto is_angle = [&](std::size_t channel) {
-            return report_.channels[channel].ends_with("_angle");
-        };
-        std::vector<ClockReference> others;
-        for (std::size_t other = 0; other < values.size(); ++other) {
-            // An angle follows an angle without a viscous lag.
-            if (other != k && on_first_clock(run, other))
-                others.push_back({values[other], is_angle(other) && !is_angle(k)});
-        }
-        const bool other_clock = !on_first_clock(run, k);
-        if (const auto offset = find_clock_offset(values[k], others, rate_Hz,
-                                                  other_clock ? longest_offset_s : longest_delay_s))
-            offsets_[k].push_back({*offset, rate_Hz, other_clock});
-    }
-
-    struct RunOffset {
-        ClockOffset offset;
-        double rate_Hz;
-        bool other_clock;
-    };
-
-    // What a channel's runs say together.
+    // What the runs say of a channel's offset together.
     struct ChannelOffset {
         std::size_t channel = 0;  ///< kept
-        double offset_s = 0.0;
-        double uncertainty_s = 0.0;
-        bool explains = true;  ///< in each run, and it is more than a part of a sample
-        RunOffset seen;
+        ClockOffset offset;
+        double period_s = 0.0;
+        bool other_clock = false;
     };
 
-    ChannelOffset channel_offset(std::size_t k, const std::vector<RunOffset>& runs) const {
-        ChannelOffset found{k, 0.0, 0.0, true, runs.front()};
-        double low = runs.front().offset.offset_s;
+    std::optional<ChannelOffset> channel_offset(std::size_t k, const std::vector<std::size_t>& aligned,
+                                                bool other_clock) const {
+        std::vector<ClockOffset> found;
+        double rate_Hz = 1.0;
+        for (std::size_t run = 0; run < logs_.runs.size() && found.size() < most_runs_looked_at; ++run) {
+            if (plans_[run].pieces.empty()) continue;
+            const auto values = preview_of(run, 3 * preview_samples, rate_Hz);
+            std::vector<ClockReference> others;
+            for (const std::size_t other : aligned) {
+                // An angle follows an angle, without friction's lag.
+                if (!is_angle(k) || is_angle(other))
+                    others.push_back({values[other], is_angle(other) && !is_angle(k)});
+            }
+            const auto offset = find_clock_offset(values[k], others, rate_Hz,
+                                                  other_clock ? longest_offset_s : longest_delay_s,
+                                                  is_angle(k) ? angle_model_error : torque_model_error);
+            if (offset) found.push_back(*offset);
+        }
+        if (found.empty()) return std::nullopt;
+        ChannelOffset all{k, found.front(), 1.0 / rate_Hz, other_clock};
+        double low = found.front().offset_s;
         double high = low;
-        for (const RunOffset& run : runs) {
-            const ClockOffset& offset = run.offset;
-            found.offset_s += offset.offset_s / static_cast<double>(runs.size());
-            found.uncertainty_s = std::max(found.uncertainty_s, offset.uncertainty_s);
+        double sum = 0.0;
+        for (const ClockOffset& offset : found) {
+            sum += offset.offset_s;
             low = std::min(low, offset.offset_s);
             high = std::max(high, offset.offset_s);
-            const double gain = run.other_clock ? named_offset_gain : named_delay_gain;
-            found.explains &= offset.unexplained_at_zero > gain * offset.unexplained;
+            all.offset.uncertainty_s = std::max(all.offset.uncertainty_s, offset.uncertainty_s);
+            all.offset.unexplained = std::max(all.offset.unexplained, offset.unexplained);
+            all.offset.unexplained_at_zero =
+                std::min(all.offset.unexplained_at_zero, offset.unexplained_at_zero);
         }
-        found.uncertainty_s = std::max(found.uncertainty_s, 0.5 * (high - low));
-        const double period_s = 1.0 / runs.front().rate_Hz;
-        found.explains &=
-            std::abs(found.offset_s) >= std::max(named_offset_periods * period_s, 2.0 * found.uncertainty_s);
-        return found;
+        all.offset.offset_s = sum / static_cast<double>(found.size());
+        all.offset.uncertainty_s = std::max(all.offset.uncertainty_s, 0.5 * (high - low));
+        return all;
     }
 
-    // The channels of one table have one clock. An angle that follows another angle knows its offset best,
-    // and speaks for all, also where it shows none; a torque lags behind angles for other reasons too.
-    void settle_offsets() {
-        std::vector<ChannelOffset> found;
-        for (const auto& [k, runs] : offsets_) found.push_back(channel_offset(k, runs));
-        const auto rank = [&](const ChannelOffset& offset) {
-            return std::pair(!report_.channels[offset.channel].ends_with("_angle"), offset.uncertainty_s);
-        };
-        std::stable_sort(found.begin(), found.end(),
-                         [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-        const LogRun& run = logs_.runs[pieces_.front().log_run];
-        std::set<std::size_t> settled;
-        for (const ChannelOffset& offset : found) {
-            if (settled.count(offset.channel) > 0) continue;
-            if (!offset.seen.other_clock) {
-                if (offset.explains && !rank(offset).first)
-                    note_shift(offset, offset.channel, offset.offset_s);
-                continue;
-            }
-            const Clock& clock = run.sources[kept_[offset.channel]].clock;
-            for (std::size_t k = 0; k < kept_.size(); ++k) {
-                const Clock& own = run.sources[kept_[k]].clock;
-                if (own.table != clock.table || own.column != clock.column) continue;
-                const bool is_new = settled.insert(k).second;
-                if (is_new && offset.explains && !mapping_.channels[kept_[k]].clock_offset_s)
-                    note_shift(offset, k, offset.offset_s);
-            }
+    // All channels of the clock are shifted, or it is said that they are late.
+    void settle_offset(const ChannelOffset& found, const LogRun& run) {
+        const ClockOffset& offset = found.offset;
+        const double gain = found.other_clock ? named_offset_gain : named_delay_gain;
+        if (offset.unexplained_at_zero <= gain * offset.unexplained) return;
+        if (std::abs(offset.offset_s) <
+            std::max(named_offset_periods * found.period_s, 2.0 * offset.uncertainty_s))
+            return;
+        for (std::size_t k = 0; k < kept_.size(); ++k) {
+            if (k == found.channel || (found.other_clock && same_clock(run, k, found.channel) &&
+                                       !mapping_.channels[kept_[k]].clock_offset_s))
+                note_shift(found, k);
         }
     }
 
-    void note_shift(const ChannelOffset& by, std::size_t k, double offset_s) {
+    void note_shift(const ChannelOffset& by, std::size_t k) {
         const std::string& name = report_.channels[k];
-        const double rounded_s = std::round(offset_s * 1e5) / 1e5;
+        const double rounded_s = std::round(by.offset.offset_s * 1e5) / 1e5;
         const std::string from =
             k == by.channel
                 ? fmt::format(
                       "+-{:.2g} ms; without it {:.1f}% of its variance is unexplained, with it {:.1f}%",
-                      1e3 * by.uncertainty_s, 100.0 * by.seen.offset.unexplained_at_zero,
-                      100.0 * by.seen.offset.unexplained)
+                      1e3 * by.offset.uncertainty_s, 100.0 * by.offset.unexplained_at_zero,
+                      100.0 * by.offset.unexplained)
                 : fmt::format("as that of {}, which shares it", report_.channels[by.channel]);
         report_.findings.push_back(
             {.kind = FindingKind::clock_offset,
-             .repaired = by.seen.other_clock,
+             .repaired = by.other_clock,
              .channel = name,
              .amount = rounded_s,
              .words = fmt::format(
                  "the clock of {} is {:.4g} ms {} that of the other channels ({}); {}", name,
                  std::abs(1e3 * rounded_s), rounded_s > 0 ? "behind" : "ahead of", from,
-                 by.seen.other_clock ? "it is shifted"
-                                     : fmt::format("state clock_offset_s = {:.5f} to shift it", rounded_s))});
-        if (!by.seen.other_clock || options_.strict) return;
+                 by.other_clock ? "it is shifted"
+                                : fmt::format("state clock_offset_s = {:.5f} to shift it", rounded_s))});
+        if (!by.other_clock) return;
         for (LogRun& run : logs_.runs) run.sources[kept_[k]].clock_offset_s = rounded_s;
         shifted_ = true;
     }
@@ -506,11 +499,10 @@ class Import {
     const ImportOptions& options_;
     ProblemList problems_;
     LogRuns logs_;
-    std::vector<StretchPlan> plans_;                         // by run of the log
-    std::vector<Piece> pieces_;                              // runs of the recording
-    std::vector<double> starts_s_;                           // of the pieces, from the first one's
-    std::vector<std::size_t> kept_;                          // channels of the mapping that are not constant
-    std::map<std::size_t, std::vector<RunOffset>> offsets_;  // by kept channel
+    std::vector<StretchPlan> plans_;  // by run of the log
+    std::vector<Piece> pieces_;       // runs of the recording
+    std::vector<double> starts_s_;    // of the pieces, from the first one's
+    std::vector<std::size_t> kept_;   // channels of the mapping that are not constant
     bool shifted_ = false;
     ImportReport report_;
 };
