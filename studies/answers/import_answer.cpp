@@ -23,6 +23,7 @@ Data findings_data(const std::vector<imports::Finding>& findings) {
                         {"channel", finding.channel},
                         {"count", finding.count},
                         {"amount", finding.amount},
+                        {"uncertainty", finding.uncertainty},
                         {"words", finding.words}});
     }
     return rows;

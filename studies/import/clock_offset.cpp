@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace capstan::imports {
 
@@ -12,7 +13,7 @@ namespace {
 constexpr std::array yields = {0.02, 0.06, 0.15, 0.3, 0.6};  // of the channel's span
 constexpr std::size_t coarse_samples = 6000;
 constexpr int parts = 4;
-constexpr std::size_t fewest_fitted = 200;
+constexpr std::size_t fewest_fitted = 100;
 // A channel of which the others explain less has no common motion with them.
 constexpr double largest_unexplained = 0.3;
 
@@ -42,7 +43,8 @@ Eigen::MatrixXd features_of(const std::vector<ClockReference>& others) {
         const auto [low, high] = std::minmax_element(other.values.begin(), other.values.end());
         if (*high <= *low) continue;
         columns.push_back(other.values);
-        for (const double yield : yields)
+        for (const double yield :
+             other.with_friction ? std::span<const double>(yields) : std::span<const double>())
             columns.push_back(stop_element(other.values, yield * (*high - *low)));
         if (other.is_angle) columns.push_back(speed_of(other.values));
     }
@@ -134,11 +136,12 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
     if (channel.size() < fewest_fitted || others.empty()) return std::nullopt;
     const std::size_t step = std::max<std::size_t>(1, channel.size() / coarse_samples);
     std::vector<ClockReference> thinned;
-    for (const ClockReference& other : others) thinned.push_back({every(other.values, step), other.is_angle});
+    for (const ClockReference& other : others)
+        thinned.push_back({every(other.values, step), other.is_angle, other.with_friction});
     const Eigen::VectorXd coarse = vector_of(every(channel, step));
     const auto range = std::min<Eigen::Index>(
         static_cast<Eigen::Index>(longest_s * sample_rate_Hz / static_cast<double>(step)) + 1,
-        coarse.size() / 8);
+        coarse.size() / 4);
     const ShiftFit whole(features_of(thinned), range, coarse.size() - 2 * range);
     const BestShift first = best_shift(whole, coarse, 0, range, model_error);
     if (first.unexplained > largest_unexplained || !first.inside) return std::nullopt;

@@ -21,6 +21,8 @@ struct ClockOffset {
 struct ClockReference {
     std::vector<double> values;
     bool is_angle = false;  ///< its speed may drive a viscous friction
+    bool with_friction =
+        true;  ///< the channel may follow it with hysteresis; a model's prediction has it already
 };
 
 /// The time shift at which a channel follows from others best. The others explain it through their values and

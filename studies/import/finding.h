@@ -37,7 +37,8 @@ struct Finding {
     std::string channel{};  ///< empty: all
     std::size_t count = 0;  ///< samples or places
     double amount = 0.0;    ///< of a clock offset: s; of a unit: the factor; of a wrapped counter: its range
-    std::string words;      ///< a sentence: what it is, where, what was done or what to do
+    double uncertainty = 0.0;  ///< of `amount`, where it is estimated
+    std::string words;         ///< a sentence: what it is, where, what was done or what to do
 };
 
 }  // namespace capstan::imports

@@ -37,10 +37,12 @@ constexpr double named_offset_periods = 0.75;
 // where an offset is not to be expected.
 constexpr double named_offset_gain = 1.5;
 constexpr double named_delay_gain = 2.5;
+constexpr double named_offset_deviations = 3.0;  // it is larger than so many times its uncertainty
 // How wrong the model of friction may be, as a part of a channel's variance. Angles follow one another
 // exactly but for stretch.
 constexpr double angle_model_error = 1e-6;
 constexpr double torque_model_error = 2e-3;
+constexpr double nominal_model_error = 2e-4;
 constexpr double longest_usual_period_s = 0.1;
 constexpr double shortest_usual_period_s = 5e-5;
 
@@ -56,6 +58,10 @@ class Import {
         report_.findings = logs_.findings;
         survey_runs();
         leave_out_constant_channels();
+        for (const StretchPlan& plan : plans_) {
+            if (!plan.pieces.empty()) report_.sample_rate_Hz = plan.sample_rate_Hz;
+        }
+        number_runs();
         align_clocks();
         preview();
     }
@@ -77,6 +83,7 @@ class Import {
             std::filesystem::exists(samples))
             throw InvalidInput({fmt::format("{}: is one of the logs; give the recording another name with -o",
                                             samples.string())});
+        refuse_what_no_reader_takes();
         AtomicFile file(samples);
         file.append("run,t," + fmt::format("{}", fmt::join(report_.channels, ",")) + "\n");
         double written_s = 0.0;
@@ -102,6 +109,17 @@ class Import {
     }
 
   private:
+    // With what was found, which may say why.
+    void refuse_what_no_reader_takes() {
+        check_recording(report_.recording, "the recording", problems_);
+        if (problems_.empty()) return;
+        std::vector<std::string> words = problems_.listed(SIZE_MAX);
+        for (const Finding& finding : report_.findings) {
+            if (!finding.repaired && finding.kind != FindingKind::assumed) words.push_back(finding.words);
+        }
+        throw InvalidInput(words);
+    }
+
     static void append_row(std::string& text, int run, double time_s, std::span<const double> values) {
         auto out = std::back_inserter(text);
         fmt::format_to(out, "{},{:.10g}", run, time_s);
@@ -214,7 +232,14 @@ class Import {
             const bool late_angle =
                 known && !aligned.empty() && is_angle(k) && same_clock(run, k, aligned.front());
             if (!known || late_angle) {
-                if (const auto offset = channel_offset(k, aligned, !known)) settle_offset(*offset, run);
+                auto offset = channel_offset(k, aligned, !known);
+                if (!known && !is_angle(k)) {
+                    const auto modelled = offset_by_model(k, aligned);
+                    if (modelled &&
+                        (!offset || modelled->offset.uncertainty_s < offset->offset.uncertainty_s))
+                        offset = modelled;
+                }
+                if (offset) settle_offset(*offset, run);
             }
             aligned.push_back(k);
         }
@@ -247,7 +272,38 @@ class Import {
             if (offset) found.push_back(*offset);
         }
         if (found.empty()) return std::nullopt;
-        ChannelOffset all{k, found.front(), 1.0 / rate_Hz, other_clock};
+        return together(k, found, 1.0 / rate_Hz, other_clock);
+    }
+
+    // A channel of a clock of its own beside what the nominal model says of it from the aligned inputs.
+    std::optional<ChannelOffset> offset_by_model(std::size_t k, const std::vector<std::size_t>& aligned) {
+        const Recording recording = preview_recording();
+        if (!recording.nominal) return std::nullopt;
+        std::vector<ClockOffset> found;
+        double period_s = 1.0;
+        for (std::size_t run = 0; run < recording.runs.size() && found.size() < most_runs_looked_at; ++run) {
+            const RecordedRun& recorded = recording.runs[run];
+            const bool inputs_aligned =
+                std::all_of(recorded.driven.begin(), recorded.driven.end(), [&](const auto& name) {
+                    const auto channel = recording.channel(name);
+                    return channel && std::find(aligned.begin(), aligned.end(),
+                                                static_cast<std::size_t>(*channel)) != aligned.end();
+                });
+            if (!inputs_aligned || recorded.samples() < 2) continue;
+            const std::vector<double> modelled = modelled_channel(recording, run, k);
+            if (modelled.empty()) continue;
+            period_s = (recorded.time_s.back() - recorded.time_s.front()) / (recorded.samples() - 1);
+            if (const auto offset = find_clock_offset(recorded.values[k], {{modelled, false, false}},
+                                                      1.0 / period_s, longest_offset_s, nominal_model_error))
+                found.push_back(*offset);
+        }
+        if (found.empty()) return std::nullopt;
+        return together(k, found, period_s, true);
+    }
+
+    static ChannelOffset together(std::size_t k, const std::vector<ClockOffset>& found, double period_s,
+                                  bool other_clock) {
+        ChannelOffset all{k, found.front(), period_s, other_clock};
         double low = found.front().offset_s;
         double high = low;
         double sum = 0.0;
@@ -271,7 +327,7 @@ class Import {
         const double gain = found.other_clock ? named_offset_gain : named_delay_gain;
         if (offset.unexplained_at_zero <= gain * offset.unexplained) return;
         if (std::abs(offset.offset_s) <
-            std::max(named_offset_periods * found.period_s, 2.0 * offset.uncertainty_s))
+            std::max(named_offset_periods * found.period_s, named_offset_deviations * offset.uncertainty_s))
             return;
         for (std::size_t k = 0; k < kept_.size(); ++k) {
             if (k == found.channel || (found.other_clock && same_clock(run, k, found.channel) &&
@@ -308,10 +364,6 @@ class Import {
     // The runs of the recording, and a few of their samples for checks and figures.
     void preview() {
         if (shifted_) replan();
-        for (const StretchPlan& plan : plans_) {
-            if (!plan.pieces.empty()) report_.sample_rate_Hz = plan.sample_rate_Hz;
-        }
-        number_runs();
         report_.recording = preview_recording();
         for (Finding& doubt : doubts_of(report_.recording)) report_.findings.push_back(std::move(doubt));
         for (const std::string& assumption : report_.recording.assumptions)
@@ -329,9 +381,12 @@ class Import {
             const auto& pieces = plans_.back().pieces;
             pieces_.insert(pieces_.end(), pieces.begin(), pieces.end());
         }
+        number_runs();
     }
 
     void number_runs() {
+        report_.runs.clear();
+        starts_s_.clear();
         std::set<int> used;
         double session_start_s = 0.0;
         bool first = true;

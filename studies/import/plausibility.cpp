@@ -21,8 +21,12 @@ namespace {
 constexpr std::size_t compared_runs = 3;
 constexpr std::size_t compared_samples = 600;  // of a run
 constexpr int compared_segments = 20;
+constexpr int modelled_segments = 60;
 constexpr double not_explained = 0.5;
 constexpr double explained = 0.34;
+// What a channel may leave before corrections are tried, and the part of it that one of them may leave.
+constexpr double looked_into = 0.1;
+constexpr double most_left = 0.2;
 constexpr int most_corrections = 3;
 
 /// A channel's numbers times a factor, or two channels exchanged.
@@ -51,12 +55,13 @@ std::vector<Correction> corrections_of(const Recording& recording) {
         if (unit == "N") units = {"g", "kg", "mN", "kN", "lbf"};
         if (unit == "m") units = {"mm", "cm", "in"};
         for (const std::string& other : units) {
-            for (const double sign : {1.0, -1.0})
-                all.push_back({channel, {}, sign * find_unit(other)->si, other});
+            const double si = find_unit(other)->si;
+            for (const double sign : {1.0, -1.0}) {
+                all.push_back({channel, {}, sign * si, other});
+                all.push_back(
+                    {channel, {}, sign / si, unit});  // converted although they were in SI units already
+            }
         }
-        // The numbers were converted although they were in SI units already.
-        if (unit == "rad") all.push_back({channel, {}, 1.0 / find_unit("deg")->si, "rad"});
-        if (unit == "N m") all.push_back({channel, {}, 1e3, "N m"});
         for (std::size_t other = channel + 1; moves(recording, channel) && other < recording.channels.size();
              ++other) {
             if (moves(recording, other)) all.push_back({channel, other, 1.0, ""});
@@ -190,7 +195,7 @@ std::vector<Finding> doubts_by_model(const Recording& recording) {
     if (now.runs.empty()) return found;
     std::optional<ModelFit> fit = fit_of(now);
     const std::vector<Correction> corrections = corrections_of(recording);
-    for (int round = 0; round < most_corrections && fit && fit->worst() > not_explained; ++round) {
+    for (int round = 0; round < most_corrections && fit && fit->worst() > looked_into; ++round) {
         std::optional<ModelFit> best;
         const Correction* chosen = nullptr;
         for (const Correction& correction : corrections) {
@@ -200,10 +205,12 @@ std::vector<Finding> doubts_by_model(const Recording& recording) {
                 chosen = &correction;
             }
         }
-        // One correction has to explain a channel that was not explained before.
-        if (!best || best->unexplained() >= fit->unexplained() ||
-            fit->total() - best->total() < not_explained - 0.1)
-            break;
+        if (!best) break;
+        // One correction has to explain a channel that was not explained before, or most of what is left of
+        // all.
+        const bool explains =
+            best->unexplained() < fit->unexplained() && fit->total() - best->total() > not_explained - 0.1;
+        if (!explains && best->total() > most_left * fit->total()) break;
         found.push_back(named(now, *chosen, *fit, *best));
         now = corrected(now, *chosen);
         fit = best;
@@ -311,6 +318,15 @@ std::vector<Finding> doubts_by_work(const Recording& recording) {
 }
 
 }  // namespace
+
+std::vector<double> modelled_channel(const Recording& recording, std::size_t run, std::size_t channel) {
+    try {
+        const auto twin = gap::make_twin(recording, modelled_segments);
+        return twin->run(run, gap::nominal_values(*twin)).values[channel];
+    } catch (const InvalidInput&) {  // the driven channels determine no motion
+        return {};
+    }
+}
 
 std::vector<Finding> doubts_of(const Recording& recording) {
     if (recording.runs.empty()) return {};

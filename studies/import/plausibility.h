@@ -16,4 +16,8 @@ namespace capstan::imports {
 /// recording holds too little to tell.
 std::vector<Finding> doubts_of(const Recording& recording);
 
+/// What the nominal model says of a channel in a run, driven by the recording's inputs; empty where it says
+/// nothing.
+std::vector<double> modelled_channel(const Recording& recording, std::size_t run, std::size_t channel);
+
 }  // namespace capstan::imports

@@ -28,7 +28,7 @@ class Notes {
 
     void add(FindingKind kind, bool repaired, const std::string& channel, std::size_t count, double amount,
              const std::string& words) {
-        findings_->push_back({kind, repaired, run_, channel, count, amount, where_ + ": " + words});
+        findings_->push_back({kind, repaired, run_, channel, count, amount, 0.0, where_ + ": " + words});
     }
 
   private:

@@ -16,6 +16,7 @@ constexpr std::size_t kept_jumps = 64;
 // than any row of equal readings elsewhere.
 constexpr std::size_t shortest_plateau = 10;
 constexpr std::size_t plateau_factor = 4;
+constexpr std::size_t never_remarkable = 2;
 // Readings lie on a lattice if they do to this part of its step.
 constexpr double lattice_tolerance = 0.02;
 
@@ -35,21 +36,20 @@ class Plateaus {
 
     void close() {
         if (length_ == 0) return;
-        if (length_ >= shortest_plateau && kept_.size() < sampled_readings)
+        if (length_ > never_remarkable && kept_.size() < sampled_readings)
             kept_.push_back({value_, from_s_, length_});
-        if (length_ < shortest_plateau) longest_short_ = std::max(longest_short_, length_);
     }
 
     void find_saturated(ChannelSurvey& survey) {
         close();
-        std::size_t elsewhere = longest_short_;
+        std::size_t elsewhere = never_remarkable;
         for (const Plateau& plateau : kept_) {
             if (plateau.value != survey.high && plateau.value != survey.low)
                 elsewhere = std::max(elsewhere, plateau.length);
         }
         for (const Plateau& plateau : kept_) {
             if (plateau.value != survey.high && plateau.value != survey.low) continue;
-            if (plateau.length < plateau_factor * elsewhere) continue;
+            if (plateau.length < std::max(shortest_plateau, plateau_factor * elsewhere)) continue;
             if (survey.saturated == 0) survey.saturated_at_s = plateau.from_s;
             survey.saturated += plateau.length;
         }
@@ -64,7 +64,6 @@ class Plateaus {
     double value_ = 0.0;
     double from_s_ = 0.0;
     std::size_t length_ = 0;
-    std::size_t longest_short_ = 0;
     std::vector<Plateau> kept_;
 };
 

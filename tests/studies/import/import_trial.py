@@ -386,7 +386,10 @@ def judge(log, report, text):
                 if log.clock_of.get(names(finding)) != "b":
                     continue
                 explained.add(index)
+                # An angle's is found to a sample; a torque's as well as the import itself says.
                 limit = max(1e-3, 1.0 / log.bench.rate)
+                if kind != "clock offset":
+                    limit = max(limit, 2 * finding["uncertainty"])
                 hit |= abs(finding["amount"] - size) <= limit
                 continue
             if channel and kind not in ("swapped channels",) and names(finding) and names(finding) != channel:
@@ -444,6 +447,10 @@ def run(logs, seed, formats, out=sys.stdout, keep=None):
                 if {"wrong unit", "wrong sign", "swapped channels", "wrapped counter", "constant channel", "saturated"} & set(kinds):
                     # Two faults of the numbers of one channel can undo one another.
                     possible = [kind for kind in possible if kind in ("repeated samples", "gap", "missing readings", "jitter", "clock offset", "clock offset of torque")]
+                if kinds == ["time unit"]:
+                    possible = [kind for kind in possible if not kind.startswith("clock")]
+                if kinds and kinds[0].startswith("clock"):
+                    possible.remove("time unit") if "time unit" in possible else None
                 kinds.append(chance.choice(possible))
                 log.plant(kinds[-1])
             place = folder / f"log{number}"
