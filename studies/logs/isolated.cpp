@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -12,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 
 #include "capstan/cable/invalid_input.h"
@@ -23,8 +24,8 @@ namespace capstan::logs {
 
 namespace {
 
-constexpr rlim_t longest_reading_s = 300;  // of processor time
-constexpr rlim_t largest_memory_bytes = rlim_t{4} << 30;
+constexpr rlim_t longest_reading_s = 300;                 // of processor time
+constexpr rlim_t largest_memory_bytes = rlim_t{4} << 30;  // beyond what this program has already
 
 // What the reading process sends: a letter, a length of 64 bits, and so many bytes.
 enum Letter : char {
@@ -79,6 +80,23 @@ void send_log(int to, const Log& log) {
     send(to, end_letter, "");
 }
 
+// Sanitizers reserve terabytes, and cannot be limited so.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool can_limit_memory = false;
+#elif defined(__has_feature)
+constexpr bool can_limit_memory = !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
+#else
+constexpr bool can_limit_memory = true;
+#endif
+
+void limit_memory() {
+    rlim_t pages = 0;  // addresses that are in use, most of them by the threads of the program
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t bytes = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + largest_memory_bytes;
+    const rlimit memory{bytes, bytes};
+    if (can_limit_memory && pages > 0) ::setrlimit(RLIMIT_AS, &memory);
+}
+
 [[noreturn]] void read_and_send(int to, Log& log, ReadOptions options,
                                 const std::function<void(const ReadOptions&, Log&)>& read) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -92,11 +110,7 @@ void send_log(int to, const Log& log) {
     ::setrlimit(RLIMIT_CPU, &time);
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__clang__)  // they reserve terabytes
-    const rlimit memory{largest_memory_bytes, largest_memory_bytes};
-    ::setrlimit(RLIMIT_AS, &memory);
-#endif
+    limit_memory();
     if (options.on_progress)
         options.on_progress = [to](double fraction) { send(to, progress_letter, bytes_of_number(fraction)); };
     try {

@@ -25,8 +25,9 @@ bool names_elements(const MessageField& field) {
 }  // namespace
 
 double seconds_of(std::uint64_t nanoseconds) {
-    return static_cast<double>(nanoseconds / 1'000'000'000u) +
-           1e-9 * static_cast<double>(nanoseconds % 1'000'000'000u);
+    constexpr std::uint64_t one_second = 1'000'000'000;
+    const std::uint64_t seconds = nanoseconds / one_second, rest = nanoseconds % one_second;
+    return static_cast<double>(seconds) + 1e-9 * static_cast<double>(rest);
 }
 
 MessageTable::MessageTable(TableWriter& writer, const std::string& topic, MessageDefinition definition,

@@ -32,11 +32,25 @@ bool is_missing(std::string_view cell) {
     return std::find(words.begin(), words.end(), small) != words.end();
 }
 
+// "1.234,5", "-12.345.678,9": a dot before each three digits, and a decimal comma.
+bool has_dots_of_thousands(std::string_view cell) {
+    if (!cell.empty() && (cell[0] == '-' || cell[0] == '+')) cell.remove_prefix(1);
+    const std::size_t comma = cell.find(',');
+    const std::size_t dot = cell.find('.');
+    if (comma == std::string_view::npos || dot == std::string_view::npos || dot == 0 || dot > 3 ||
+        (comma - dot) % 4 != 0)
+        return false;
+    for (std::size_t k = 0; k < comma; ++k)
+        if ((cell[k] == '.') != (k >= dot && (k - dot) % 4 == 0)) return false;
+    return true;
+}
+
 // What from_chars leaves: a leading +, a decimal comma, Fortran's D, numbers beyond or below a double's
 // range.
 CellKind number_of_unusual_cell(std::string_view cell, bool decimal_comma, double& number) {
     if (is_missing(cell)) return CellKind::missing;
     if (cell.size() > longest_number) return CellKind::text;
+    const bool has_thousands = decimal_comma && has_dots_of_thousands(cell);
     char copy[longest_number + 1];
     std::size_t length = 0;
     bool has_digit = false;
@@ -45,6 +59,7 @@ CellKind number_of_unusual_cell(std::string_view cell, bool decimal_comma, doubl
         has_digit = has_digit || digit;
         if (!digit && std::strchr("+-.,eEdD", letter) == nullptr) return CellKind::text;
         if (letter == ',' && !decimal_comma) return CellKind::text;
+        if (letter == '.' && has_thousands) continue;
         if (letter == '.' && decimal_comma && cell.find(',') != std::string_view::npos) return CellKind::text;
         copy[length++] = letter == ',' ? '.' : letter == 'd' || letter == 'D' ? 'e' : letter;
     }
@@ -96,6 +111,27 @@ bool time_of_day(std::string_view cell, std::size_t& at, CellInstant& instant) {
     }
     instant.seconds += hour * 3600 + minute * 60 + second;
     return true;
+}
+
+constexpr std::size_t longest_unit = 32;
+
+// Symbols of what laboratories log, compared without case, blanks, dots and stars.
+constexpr std::array<std::string_view, 96> unit_symbols{
+    "s",       "sec",   "secs",   "second",  "seconds", "ms",    "msec",   "us",      "µs",    "μs",
+    "ns",      "min",   "h",      "n",       "mn",      "kn",    "newton", "newtons", "lb",    "lbf",
+    "nm",      "mnm",   "nmm",    "ncm",     "n-m",     "n-mm",  "kgf",    "gf",      "m",     "mm",
+    "cm",      "um",    "µm",     "μm",      "in",      "inch",  "rad",    "mrad",    "rads",  "radian",
+    "radians", "deg",   "degs",   "degree",  "degrees", "°",     "rev",    "revs",    "turns", "v",
+    "mv",      "uv",    "volt",   "volts",   "a",       "ma",    "amp",    "amps",    "hz",    "khz",
+    "rpm",     "count", "counts", "cnt",     "cnts",    "ticks", "tick",   "pulses",  "lsb",   "g",
+    "kg",      "gram",  "grams",  "pa",      "kpa",     "mpa",   "bar",    "%",       "c",     "°c",
+    "degc",    "k",     "w",      "j",       "rad/s",   "deg/s", "°/s",    "m/s",     "mm/s",  "m/s2",
+    "m/s^2",   "m/s²",  "rad/s2", "rad/s^2", "deg/s2",  "1"};
+
+bool is_whole_number(std::string_view text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](char letter) {
+        return (letter >= '0' && letter <= '9') || letter == ',' || letter == ':' || letter == ' ';
+    });
 }
 
 }  // namespace
@@ -179,6 +215,41 @@ std::optional<CellInstant> instant_of_cell(std::string_view cell) {
     if (!rest.empty() && (rest.size() != 2 || !digits_at(rest, 0, 2, minutes))) return std::nullopt;
     instant.seconds -= (zone[0] == '-' ? -1 : 1) * (hours * 3600 + minutes * 60);
     return instant;
+}
+
+std::string without_brackets(std::string_view unit) {
+    unit = trimmed(unit);
+    if (unit.size() >= 2 &&
+        ((unit.front() == '[' && unit.back() == ']') || (unit.front() == '(' && unit.back() == ')')))
+        unit = trimmed(unit.substr(1, unit.size() - 2));
+    return std::string(unit);
+}
+
+bool is_unit(std::string_view cell) {
+    const std::string bare = without_brackets(cell);
+    if (bare.size() > longest_unit) return false;
+    std::string symbol;
+    for (const char letter : bare)
+        if (letter != ' ' && letter != '.' && letter != '*')
+            symbol += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    if (std::find(unit_symbols.begin(), unit_symbols.end(), symbol) != unit_symbols.end()) return true;
+    return cell.size() > 2 && cell.front() == '[' && cell.back() == ']' && !is_whole_number(bare);
+}
+
+NameAndUnit name_and_unit(std::string_view head) {
+    head = trimmed(head);
+    NameAndUnit all{std::string(head), ""};
+    if (head.size() < 3) return all;
+    const char closing = head.back();
+    if (closing != ']' && closing != ')') return all;
+    const std::size_t opening = head.rfind(closing == ']' ? '[' : '(');
+    if (opening == std::string_view::npos || opening == 0) return all;
+    const std::string_view unit = trimmed(head.substr(opening + 1, head.size() - opening - 2));
+    const std::string_view name = trimmed(head.substr(0, opening));
+    if (name.empty() || unit.empty() || unit.size() > longest_unit || is_whole_number(unit)) return all;
+    const bool is_apart = head[opening - 1] == ' ';
+    if (closing == ')' && !is_apart && !is_unit(unit)) return all;
+    return {std::string(name), std::string(unit)};
 }
 
 }  // namespace capstan::logs

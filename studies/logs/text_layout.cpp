@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/logs/table_writer.h"
@@ -16,87 +14,10 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-// A tie of two styles is decided for the earlier one.
-constexpr std::array<CellStyle, 9> cell_styles{{{'\t', false},
-                                                {'\t', true},
-                                                {';', false},
-                                                {';', true},
-                                                {'|', false},
-                                                {'|', true},
-                                                {',', false},
-                                                {' ', false},
-                                                {' ', true}}};
-
-struct StyleTrial {
-    CellStyle style;
-    std::size_t fields = 0;
-    double regular = 0.0;  ///< fraction of the lines with as many fields
-    double numeric = 0.0;  ///< fraction of their cells with a number or an instant, or empty
-    double score() const { return regular * numeric; }
-};
-
 bool has_prefix(std::string_view line, const std::vector<std::string>& prefixes) {
     line = trimmed(line);
     return std::any_of(prefixes.begin(), prefixes.end(),
                        [&](const std::string& prefix) { return line.starts_with(prefix); });
-}
-
-ColumnKind kind_of(std::string_view cell, const CellStyle& style, bool& is_missing) {
-    double number = 0.0;
-    const CellKind kind = number_of_cell(cell, style.decimal_comma, number);
-    is_missing = kind == CellKind::missing;
-    if (kind != CellKind::text) return ColumnKind::numbers;
-    return instant_of_cell(cell) ? ColumnKind::instants : ColumnKind::text;
-}
-
-StyleTrial tried(const CellStyle& style, const std::vector<std::string_view>& lines) {
-    std::map<std::size_t, std::size_t> lines_with;
-    Cells cells;
-    for (const std::string_view line : lines) {
-        split_cells(line, style.delimiter, cells);
-        ++lines_with[cells.size()];
-    }
-    StyleTrial trial{style};
-    std::size_t modal = 0;
-    for (const auto& [fields, count] : lines_with)
-        if (fields > 0 && count >= modal) trial.fields = fields, modal = count;
-    std::size_t numeric = 0, numbers = 0;
-    for (const std::string_view line : lines) {
-        split_cells(line, style.delimiter, cells);
-        if (cells.size() != trial.fields) continue;
-        for (const std::string_view cell : cells) {
-            bool is_missing = false;
-            if (kind_of(cell, style, is_missing) == ColumnKind::text) continue;
-            ++numeric;
-            numbers += is_missing ? 0 : 1;
-        }
-    }
-    if (numbers == 0) return trial;
-    trial.regular = static_cast<double>(modal) / static_cast<double>(lines.size());
-    trial.numeric = static_cast<double>(numeric) / static_cast<double>(modal * trial.fields);
-    return trial;
-}
-
-StyleTrial best_style(const std::vector<std::string_view>& lines, const TextFormat& stated) {
-    StyleTrial best;
-    bool has_tabs = false;
-    for (CellStyle style : cell_styles) {
-        if (stated.delimiter && style.delimiter != (style.delimiter == ' ' ? ' ' : '\t')) continue;
-        if (stated.delimiter) style.delimiter = *stated.delimiter;
-        if (stated.decimal_comma && style.decimal_comma != *stated.decimal_comma) {
-            if (style.delimiter != ',') continue;
-            style.decimal_comma = *stated.decimal_comma;
-        }
-        const StyleTrial trial = tried(style, lines);
-        // "1,5" alone is rather two columns than one number.
-        if (style.decimal_comma && trial.fields < 2 && !stated.decimal_comma) continue;
-        has_tabs = has_tabs || (style.delimiter == '\t' && trial.fields > 1 && trial.regular > 0.9);
-        // Blanks inside the cells of a table with tabs separate nothing.
-        if (style.delimiter == ' ' && has_tabs && trial.score() < 0.999) continue;
-        const double gain = trial.score() - best.score();
-        if (gain > 1e-9 || (gain > -1e-9 && trial.score() > 0.0 && trial.fields > best.fields)) best = trial;
-    }
-    return best;
 }
 
 // "Time [s]" separated by blanks are two cells that belong together.
@@ -278,8 +199,27 @@ class LayoutSearch {
         }
     }
 
+    // The line before the data may name a further column that has only empty cells, which the data leave out.
+    bool find_wider_head() {
+        const std::size_t line = layout_.first_data_line - 2;
+        if (layout_.first_data_line < 2 || is_empty(line) || layout_.is_comment(lines_[line])) return false;
+        Cells cells;
+        split_cells(lines_[line], layout_.style.delimiter, cells);
+        bool is_missing = false;
+        if (layout_.style.delimiter == ' ' || cells.size() != fields_ + 1 || cells.back().empty() ||
+            std::any_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+                return kind_of(cell, layout_.style, is_missing) != ColumnKind::text;
+            }))
+            return false;
+        cells.pop_back();
+        head_ = cells;
+        layout_.head_line = static_cast<int>(line) + 1;
+        return true;
+    }
+
     // Lines of text first, comments where there is none.
     void find_head_with(std::size_t fields) {
+        if (find_wider_head()) return;
         for (const bool of_comments : {false, true}) {
             std::vector<std::size_t> candidates;
             for (std::size_t line = 0; line + 1 < layout_.first_data_line; ++line) {

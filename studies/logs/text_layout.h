@@ -28,6 +28,21 @@ struct TextLayout {
     bool is_comment(std::string_view line) const;
 };
 
+/// What a cell would be in a column of its own; `is_missing`: nothing.
+ColumnKind kind_of(std::string_view cell, const CellStyle& style, bool& is_missing);
+
+/// A style, and how well it suits some lines.
+struct StyleTrial {
+    CellStyle style;
+    std::size_t fields = 0;
+    double regular = 0.0;  ///< fraction of the lines with as many fields
+    double numeric = 0.0;  ///< fraction of their cells with a number or an instant, or empty
+    double score() const { return regular * numeric; }
+};
+
+/// The style that suits lines of data best; what `stated` has is not tried otherwise.
+StyleTrial best_style(const std::vector<std::string_view>& lines, const TextFormat& stated);
+
 /// `lines`: the first of the file, at least one of them with numbers. What `stated` has is not guessed.
 /// Throws InvalidInput with `file` in front.
 TextLayout find_layout(const std::vector<std::string>& lines, const TextFormat& stated,

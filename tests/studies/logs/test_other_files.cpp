@@ -1,6 +1,7 @@
 // Files that are not logs, or claim what they do not hold.
 #include <gmock/gmock.h>
-#include <signal.h>
+
+#include <csignal>
 
 #include "capstan/logs/byte_source.h"
 #include "capstan/logs/isolated.h"
