@@ -351,6 +351,7 @@ class Import {
              .repaired = by.other_clock,
              .channel = name,
              .amount = rounded_s,
+             .uncertainty = by.offset.uncertainty_s,
              .words = fmt::format(
                  "the clock of {} is {:.4g} ms {} that of the other channels ({}); {}", name,
                  std::abs(1e3 * rounded_s), rounded_s > 0 ? "behind" : "ahead of", from,

@@ -67,6 +67,41 @@ class Plateaus {
     std::vector<Plateau> kept_;
 };
 
+/// How often the two outermost readings on one side occur. A converter's last step is rare; a limit is not.
+class Outermost {
+  public:
+    explicit Outermost(double side) : side_(side) {}
+
+    void add(double time_s, double value) {
+        const double out = side_ * value;
+        if (count_ == 0 || out > first_) {
+            second_ = first_;
+            second_count_ = count_;
+            first_ = out;
+            count_ = 0;
+            from_s_ = time_s;
+        } else if (out < first_ && (second_count_ == 0 || out > second_)) {
+            second_ = out;
+            second_count_ = 0;
+        }
+        if (out == first_) ++count_;
+        if (out == second_ && out != first_) ++second_count_;
+    }
+
+    bool is_limit() const { return count_ >= shortest_plateau && count_ > limit_factor * second_count_; }
+    std::size_t count() const { return count_; }
+    double from_s() const { return from_s_; }
+
+  private:
+    static constexpr std::size_t limit_factor = 20;
+    double side_;
+    double first_ = 0.0;
+    double second_ = 0.0;
+    std::size_t count_ = 0;
+    std::size_t second_count_ = 0;
+    double from_s_ = 0.0;
+};
+
 void note_jump(std::vector<double>& largest, double jump) {
     if (largest.size() == kept_jumps && jump <= largest.back()) return;
     largest.insert(std::upper_bound(largest.begin(), largest.end(), jump, std::greater<>()), jump);
@@ -105,6 +140,8 @@ ChannelSurvey survey_channel(const Source& source, RowRange rows) {
     ChannelSurvey survey;
     Track track(source, rows);
     Plateaus plateaus;
+    Outermost highest(1.0);
+    Outermost lowest(-1.0);
     std::vector<double> distances;
     std::vector<double> changes;
     double time_s = 0.0;
@@ -138,6 +175,8 @@ ChannelSurvey survey_channel(const Source& source, RowRange rows) {
         survey.low = std::min(survey.low, value);
         survey.high = std::max(survey.high, value);
         plateaus.add(time_s, value);
+        highest.add(time_s, value);
+        lowest.add(time_s, value);
         ++survey.readings;
         last_s = time_s;
         last = value;
@@ -166,6 +205,11 @@ ChannelSurvey survey_channel(const Source& source, RowRange rows) {
         survey.typical_change = *ninth;
     }
     if (!survey.constant()) plateaus.find_saturated(survey);
+    for (const Outermost* side : {&highest, &lowest}) {
+        if (survey.saturated > 0 || survey.constant() || !side->is_limit()) continue;
+        survey.saturated = side->count();
+        survey.saturated_at_s = side->from_s();
+    }
     return survey;
 }
 
