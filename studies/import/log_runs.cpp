@@ -40,22 +40,23 @@ int find_column(const LogTable& table, const std::string& wanted) {
     return number >= 1 && number <= static_cast<int>(table.columns.size()) ? number - 1 : -1;
 }
 
-std::string columns_in_words(const std::vector<const Log*>& logs, const std::string& wanted) {
+/// Every column that a reader came across, also of those that it left out, for messages.
+struct SeenNames {
     std::vector<std::string> names;
     std::string list;
-    for (const Log* log : logs) {
-        for (const LogTable& table : log->tables) {
-            for (const LogColumn& column : table.columns) {
-                names.push_back(column.name);
-                if (list.size() < 600)
-                    list += fmt::format("{}{}{}", list.empty() ? "" : ", ",
-                                        table.name.empty() ? "" : table.name + " ", column.name);
-            }
-        }
+
+    void add(const std::string& table, const std::string& column) {
+        if (std::find(names.begin(), names.end(), column) != names.end() && table.empty()) return;
+        names.push_back(column);
+        if (list.size() < 600)
+            list += fmt::format("{}{}{}", list.empty() ? "" : ", ", table.empty() ? "" : table + " ", column);
     }
-    if (const auto nearest = nearest_name(wanted, names))
+};
+
+std::string columns_in_words(const SeenNames& seen, const std::string& wanted) {
+    if (const auto nearest = nearest_name(wanted, seen.names))
         return fmt::format("; did you mean \"{}\"?", *nearest);
-    return list.empty() ? "; the file has no column of numbers" : "; the columns are: " + list;
+    return seen.list.empty() ? "; the file has no column of numbers" : "; the columns are: " + seen.list;
 }
 
 struct FoundColumn {
@@ -81,8 +82,9 @@ std::vector<FoundColumn> columns_at(const std::vector<const Log*>& logs, const C
 /// Finds the sources of one run's channels.
 class SourceFinder {
   public:
-    SourceFinder(const Mapping& mapping, std::vector<const Log*> logs, ProblemList& problems)
-        : mapping_(&mapping), logs_(std::move(logs)), problems_(&problems) {}
+    SourceFinder(const Mapping& mapping, std::vector<const Log*> logs, const SeenNames& seen,
+                 ProblemList& problems)
+        : mapping_(&mapping), logs_(std::move(logs)), seen_names_(&seen), problems_(&problems) {}
 
     std::optional<Source> source(const ChannelMapping& channel, const RunMapping* run) {
         const std::vector<FoundColumn> found = columns_at(logs_, channel.from);
@@ -90,7 +92,7 @@ class SourceFinder {
         if (found.empty()) {
             problem(key, fmt::format("no column \"{}\"{} in {}{}", channel.from.column,
                                      channel.from.table.empty() ? "" : " of " + channel.from.table, files(),
-                                     columns_in_words(logs_, channel.from.column)));
+                                     columns_in_words(*seen_names_, channel.from.column)));
             return std::nullopt;
         }
         if (found.size() > 1) {
@@ -133,7 +135,7 @@ class SourceFinder {
                                           files())
                             : fmt::format("no column \"{}\" in {}{}{}", time.column, files(),
                                           found.table->name.empty() ? "" : " " + found.table->name,
-                                          columns_in_words({found.log}, time.column)));
+                                          columns_in_words(*seen_names_, time.column)));
             return false;
         }
         const LogColumn& column = found.table->columns[static_cast<std::size_t>(clock.column)];
@@ -154,21 +156,26 @@ class SourceFinder {
 
     const Mapping* mapping_;
     std::vector<const Log*> logs_;
+    const SeenNames* seen_names_;
     ProblemList* problems_;
     std::set<const LogTable*> said_;
 };
 
-// Which columns an import needs.
-std::function<bool(const std::string&, const std::string&)> wanted_by(const Mapping& mapping) {
+// Which columns an import needs; `seen` notes all.
+std::function<bool(const std::string&, const std::string&)> wanted_by(const Mapping& mapping,
+                                                                      SeenNames& seen) {
     const bool by_number =
         std::any_of(mapping.channels.begin(), mapping.channels.end(), [](const ChannelMapping& channel) {
             return std::all_of(channel.from.column.begin(), channel.from.column.end(), ::isdigit);
         });
     // Numbers count all columns, and a time without a name is searched among all.
-    if (by_number || (mapping.time.column.empty() && mapping.time.sample_rate_Hz == 0.0)) return {};
+    const bool all = by_number || (mapping.time.column.empty() && mapping.time.sample_rate_Hz == 0.0);
     std::set<std::string> names = {mapping.time.column, mapping.run_column.value_or(mapping.time.column)};
     for (const ChannelMapping& channel : mapping.channels) names.insert(channel.from.column);
-    return [names](const std::string&, const std::string& column) { return names.count(column) > 0; };
+    return [all, names, &seen](const std::string& table, const std::string& column) {
+        seen.add(table, column);
+        return all || names.count(column) > 0;
+    };
 }
 
 struct FileGroup {
@@ -180,7 +187,12 @@ std::vector<FileGroup> groups_of(const std::vector<std::filesystem::path>& files
                                  ProblemList& problems) {
     std::vector<FileGroup> groups;
     std::set<std::filesystem::path> used;
-    for (std::size_t number = 0; number < mapping.runs.size(); ++number) {
+    // Runs that a column numbers are found in every file.
+    const bool without_files =
+        mapping.runs.empty() ||
+        (mapping.run_column && std::all_of(mapping.runs.begin(), mapping.runs.end(),
+                                           [](const RunMapping& run) { return run.files.empty(); }));
+    for (std::size_t number = 0; !without_files && number < mapping.runs.size(); ++number) {
         const RunMapping& run = mapping.runs[number];
         FileGroup group{&run, {}};
         for (const std::string& name : run.files) {
@@ -209,7 +221,7 @@ std::vector<FileGroup> groups_of(const std::vector<std::filesystem::path>& files
         }
         groups.push_back(group);
     }
-    if (mapping.runs.empty()) {
+    if (without_files) {
         const bool joined = std::any_of(mapping.channels.begin(), mapping.channels.end(),
                                         [](const auto& channel) { return !channel.from.file.empty(); });
         if (joined) return {{nullptr, files}};  // the channels of one run come from several files
@@ -298,7 +310,8 @@ LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Map
     }
     double read_bytes = 0.0;
     logs::ReadOptions options;
-    options.wanted = wanted_by(mapping);
+    SeenNames seen;
+    options.wanted = wanted_by(mapping, seen);
     options.text = mapping.text;
     options.memory_limit_bytes = numbers_in_memory_bytes / std::max<std::size_t>(files.size(), 1);
     for (const auto& file : files) {
@@ -319,7 +332,7 @@ LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Map
     for (const FileGroup& group : groups) {
         std::vector<const Log*> group_logs;
         for (const auto& file : group.files) group_logs.push_back(logs.at(file));
-        SourceFinder finder(mapping, group_logs, problems);
+        SourceFinder finder(mapping, group_logs, seen, problems);
         std::vector<Source> sources;
         for (const ChannelMapping& channel : mapping.channels) {
             if (auto source = finder.source(channel, group.mapping)) sources.push_back(*source);
