@@ -315,7 +315,7 @@ CREATE TABLE paper_comparison (
 -- A study with [uncertainty] compares sets of sensors in worlds. The sets that could be bought; 0 has no sensor.
 CREATE TABLE world_candidate (
     study_id        INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
-    candidate_index INTEGER NOT NULL CHECK (candidate_index >= 0),  -- 0, 1, ... by price
+    candidate_index INTEGER NOT NULL CHECK (candidate_index >= 0),  -- 0, 1, ... by price; then as a greedy search adds them
     sensors         TEXT    NOT NULL CHECK (json_valid(sensors)),  -- '[{"kind":"tension","place_m":0.6}]'
     words           TEXT    NOT NULL,              -- for people: 'tension at 0.6 m'
     families        TEXT    NOT NULL,              -- the named sets that it is: 'even both'; '': none
