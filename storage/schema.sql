@@ -376,7 +376,13 @@ CREATE TABLE diagnosis (
     misfit_after_ratio  REAL    NOT NULL,          -- the same with the causes
     independent_samples_count REAL NOT NULL,       -- instants that tell something new
     sentence            TEXT    NOT NULL,          -- the verdict in words
-    gap_sentence        TEXT    NOT NULL           -- where the gap is denser than elsewhere, in words
+    gap_sentence        TEXT    NOT NULL,          -- where the gap is denser than elsewhere, in words
+    friction_low_ratio    REAL,                    -- 95% interval of friction_ratio; NULL: made before version 3
+    friction_high_ratio   REAL,                    -- upper end of that interval
+    stiffness_low_ratio   REAL,                    -- likewise
+    stiffness_high_ratio  REAL,                    -- upper end of that interval
+    pretension_low_ratio  REAL,                    -- likewise
+    pretension_high_ratio REAL                     -- upper end of that interval
 ) STRICT;
 
 -- How probable each effect is, `none` and `unknown` among them; sums to 1 in a diagnosis.
@@ -407,6 +413,8 @@ CREATE TABLE diagnosis_number (
     name          TEXT    NOT NULL,                -- as in the catalogue of effects
     value_in_unit REAL    NOT NULL,                -- as fitted
     unit          TEXT    NOT NULL,                -- '': a ratio
+    low_in_unit   REAL,                            -- its 95% interval; NULL: not fitted, or made before version 3
+    high_in_unit  REAL,                            -- upper end of that interval
     PRIMARY KEY (diagnosis_id, cause_index, name),
     FOREIGN KEY (diagnosis_id, cause_index) REFERENCES diagnosis_cause ON DELETE CASCADE
 ) STRICT, WITHOUT ROWID;

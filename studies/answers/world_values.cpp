@@ -1,5 +1,7 @@
 #include "capstan/answers/world_values.h"
 
+#include <fmt/format.h>
+
 #include "capstan/worlds/sensor_places.h"
 #include "capstan/worlds/stored_worlds.h"
 
@@ -152,7 +154,11 @@ Data prices_data(const StudyPlan& plan, const WorldAnswer& found) {
         if (found.bound) row["at_most_worse_N"] = found.bound->of_prices[k].value_N;
         rows.push_back(std::move(row));
     }
-    if (found.bound) rows.push_back(row_of(found.bound->all, "all usable sensors, not for sale"));
+    if (found.bound) {
+        Data row = row_of(found.bound->all, "not for sale");
+        row["set"] = fmt::format("all {} usable sensors together", found.set(found.bound->all.candidate).count());
+        rows.push_back(std::move(row));
+    }
     return rows;
 }
 
