@@ -1,4 +1,4 @@
--- The results database of capstan, version 2. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 3. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a fraction or a ratio has no unit and says so in its
 -- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
@@ -372,17 +372,17 @@ CREATE TABLE diagnosis (
     friction_ratio      REAL    NOT NULL,          -- nominal numbers as fitted with the causes, of those stated
     stiffness_ratio     REAL    NOT NULL,          -- likewise
     pretension_ratio    REAL    NOT NULL,          -- likewise
-    misfit_before_ratio REAL    NOT NULL,          -- mean square residual over that of noise and model floor
-    misfit_after_ratio  REAL    NOT NULL,          -- the same with the causes
-    independent_samples_count REAL NOT NULL,       -- instants that tell something new
-    sentence            TEXT    NOT NULL,          -- the verdict in words
-    gap_sentence        TEXT    NOT NULL,          -- where the gap is denser than elsewhere, in words
     friction_low_ratio    REAL,                    -- 95% interval of friction_ratio; NULL: made before version 3
     friction_high_ratio   REAL,                    -- upper end of that interval
     stiffness_low_ratio   REAL,                    -- likewise
     stiffness_high_ratio  REAL,                    -- upper end of that interval
     pretension_low_ratio  REAL,                    -- likewise
-    pretension_high_ratio REAL                     -- upper end of that interval
+    pretension_high_ratio REAL,                    -- upper end of that interval
+    misfit_before_ratio REAL    NOT NULL,          -- mean square residual over that of noise and model floor
+    misfit_after_ratio  REAL    NOT NULL,          -- the same with the causes
+    independent_samples_count REAL NOT NULL,       -- instants that tell something new
+    sentence            TEXT    NOT NULL,          -- the verdict in words
+    gap_sentence        TEXT    NOT NULL           -- where the gap is denser than elsewhere, in words
 ) STRICT;
 
 -- How probable each effect is, `none` and `unknown` among them; sums to 1 in a diagnosis.

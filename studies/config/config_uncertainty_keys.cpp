@@ -7,9 +7,6 @@ namespace {
 
 using StudyKey = ConfigKey<StudyPlan>;
 
-const KeyCondition<StudyPlan> with_worlds{
-    [](const StudyPlan& plan, int) { return plan.uncertainty.is_stated; }, "[uncertainty]"};
-
 StudyKey fraction(std::string name, const std::string& what, double Uncertainty::*field) {
     return number(
         {"uncertainty", std::move(name), "", what}, {0.0, true, 5.0},

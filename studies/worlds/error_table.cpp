@@ -24,9 +24,13 @@ static_assert(std::size(condition_names) == conditions);
 // All of the stated widths times `ratio`.
 void widen(StudyPlan& plan, double ratio) {
     Uncertainty& unknown = plan.uncertainty;
-    for (double* width : {&unknown.friction_fraction, &unknown.wrap_fraction, &unknown.stiffness_fraction,
-                          &unknown.pretension_fraction, &unknown.far_end_range_m})
+    for (double* width :
+         {&unknown.friction_fraction, &unknown.wrap_fraction, &unknown.stiffness_fraction,
+          &unknown.pretension_fraction, &unknown.far_end_range_m, &plan.truth.friction_fraction,
+          &plan.truth.stiffness_fraction, &plan.truth.pretension_fraction})
         *width *= ratio;
+    for (std::vector<double>& deviations : plan.truth.effect_deviations)
+        for (double& deviation : deviations) deviation *= ratio;
 }
 
 StudyPlan plan_under(Condition condition, StudyPlan plan) {
