@@ -211,6 +211,11 @@ WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const
     return answer;
 }
 
+ErrorTable complete_table(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                          const TableOptions& options) {
+    return stored_table(database, study_id, plan, options, true);
+}
+
 void fill_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
                  const TableOptions& options, int first, int last, int stride) {
     ErrorTable table = stored_table(database, study_id, plan, options, false);
