@@ -26,6 +26,8 @@ struct DiagnosisNumberRecord {
     std::string name;
     double value_in_unit = 0;
     std::string unit;  // '': a ratio
+    std::optional<double> low_in_unit;
+    std::optional<double> high_in_unit;
     bool operator==(const DiagnosisNumberRecord&) const = default;
 };
 template <>
@@ -33,6 +35,8 @@ inline constexpr auto columns<DiagnosisNumberRecord> = std::tuple{
     Column{"name", &DiagnosisNumberRecord::name},
     Column{"value_in_unit", &DiagnosisNumberRecord::value_in_unit},
     Column{"unit", &DiagnosisNumberRecord::unit},
+    Column{"low_in_unit", &DiagnosisNumberRecord::low_in_unit},
+    Column{"high_in_unit", &DiagnosisNumberRecord::high_in_unit},
 };
 
 struct DiagnosisCauseRecord {  // its position is its cause_index
@@ -142,6 +146,12 @@ struct DiagnosisRecord {
     double independent_samples_count = 0;
     std::string sentence;
     std::string gap_sentence;
+    std::optional<double> friction_low_ratio;
+    std::optional<double> friction_high_ratio;
+    std::optional<double> stiffness_low_ratio;
+    std::optional<double> stiffness_high_ratio;
+    std::optional<double> pretension_low_ratio;
+    std::optional<double> pretension_high_ratio;
     std::vector<DiagnosisEffectRecord> effects;
     std::vector<DiagnosisCauseRecord> causes;
     std::vector<DiagnosisCandidateRecord> candidates;
@@ -171,6 +181,12 @@ inline constexpr auto columns<DiagnosisRecord> = std::tuple{
     Column{"independent_samples_count", &DiagnosisRecord::independent_samples_count},
     Column{"sentence", &DiagnosisRecord::sentence},
     Column{"gap_sentence", &DiagnosisRecord::gap_sentence},
+    Column{"friction_low_ratio", &DiagnosisRecord::friction_low_ratio},
+    Column{"friction_high_ratio", &DiagnosisRecord::friction_high_ratio},
+    Column{"stiffness_low_ratio", &DiagnosisRecord::stiffness_low_ratio},
+    Column{"stiffness_high_ratio", &DiagnosisRecord::stiffness_high_ratio},
+    Column{"pretension_low_ratio", &DiagnosisRecord::pretension_low_ratio},
+    Column{"pretension_high_ratio", &DiagnosisRecord::pretension_high_ratio},
 };
 
 }  // namespace capstan::storage

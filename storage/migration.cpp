@@ -107,6 +107,16 @@ SELECT e.study_id, t.name AS study, e.candidate_index, c.words, c.sensor_count, 
        avg(e.covered_fraction) AS covered_fraction
 FROM world_error e JOIN world_candidate c USING (study_id, candidate_index) JOIN study t USING (study_id)
 GROUP BY e.study_id, e.candidate_index, e.condition;
+)sql"},
+        {2,
+         R"sql(ALTER TABLE diagnosis ADD COLUMN friction_low_ratio REAL;
+ALTER TABLE diagnosis ADD COLUMN friction_high_ratio REAL;
+ALTER TABLE diagnosis ADD COLUMN stiffness_low_ratio REAL;
+ALTER TABLE diagnosis ADD COLUMN stiffness_high_ratio REAL;
+ALTER TABLE diagnosis ADD COLUMN pretension_low_ratio REAL;
+ALTER TABLE diagnosis ADD COLUMN pretension_high_ratio REAL;
+ALTER TABLE diagnosis_number ADD COLUMN low_in_unit REAL;
+ALTER TABLE diagnosis_number ADD COLUMN high_in_unit REAL;
 )sql"}};
     return steps;
 }

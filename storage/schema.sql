@@ -1,4 +1,4 @@
--- The results database of capstan, version 2. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 3. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a fraction or a ratio has no unit and says so in its
 -- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
@@ -315,7 +315,7 @@ CREATE TABLE paper_comparison (
 -- A study with [uncertainty] compares sets of sensors in worlds. The sets that could be bought; 0 has no sensor.
 CREATE TABLE world_candidate (
     study_id        INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
-    candidate_index INTEGER NOT NULL CHECK (candidate_index >= 0),  -- 0, 1, ... by price
+    candidate_index INTEGER NOT NULL CHECK (candidate_index >= 0),  -- 0, 1, ... by price; then as a greedy search adds them
     sensors         TEXT    NOT NULL CHECK (json_valid(sensors)),  -- '[{"kind":"tension","place_m":0.6}]'
     words           TEXT    NOT NULL,              -- for people: 'tension at 0.6 m'
     families        TEXT    NOT NULL,              -- the named sets that it is: 'even both'; '': none
@@ -372,6 +372,12 @@ CREATE TABLE diagnosis (
     friction_ratio      REAL    NOT NULL,          -- nominal numbers as fitted with the causes, of those stated
     stiffness_ratio     REAL    NOT NULL,          -- likewise
     pretension_ratio    REAL    NOT NULL,          -- likewise
+    friction_low_ratio    REAL,                    -- 95% interval of friction_ratio; NULL: made before version 3
+    friction_high_ratio   REAL,                    -- upper end of that interval
+    stiffness_low_ratio   REAL,                    -- likewise
+    stiffness_high_ratio  REAL,                    -- upper end of that interval
+    pretension_low_ratio  REAL,                    -- likewise
+    pretension_high_ratio REAL,                    -- upper end of that interval
     misfit_before_ratio REAL    NOT NULL,          -- mean square residual over that of noise and model floor
     misfit_after_ratio  REAL    NOT NULL,          -- the same with the causes
     independent_samples_count REAL NOT NULL,       -- instants that tell something new
@@ -407,6 +413,8 @@ CREATE TABLE diagnosis_number (
     name          TEXT    NOT NULL,                -- as in the catalogue of effects
     value_in_unit REAL    NOT NULL,                -- as fitted
     unit          TEXT    NOT NULL,                -- '': a ratio
+    low_in_unit   REAL,                            -- its 95% interval; NULL: not fitted, or made before version 3
+    high_in_unit  REAL,                            -- upper end of that interval
     PRIMARY KEY (diagnosis_id, cause_index, name),
     FOREIGN KEY (diagnosis_id, cause_index) REFERENCES diagnosis_cause ON DELETE CASCADE
 ) STRICT, WITHOUT ROWID;

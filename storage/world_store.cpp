@@ -20,6 +20,14 @@ std::vector<Record> read_rows(Database& database, const std::string& table, cons
 
 }  // namespace
 
+void add_world_candidate(Database& database, std::int64_t study_id, int candidate_index,
+                         const WorldCandidateRecord& candidate) {
+    Transaction transaction(database);
+    RowWriter<WorldCandidateRecord>(database, "world_candidate", "study_id, candidate_index")
+        .write(candidate, study_id, candidate_index);
+    transaction.commit();
+}
+
 void write_world_errors(Database& database, std::int64_t study_id, std::span<const WorldErrorRecord> errors) {
     Transaction transaction(database);
     RowWriter<WorldErrorRecord> rows(database, "world_error", "study_id");

@@ -11,6 +11,10 @@
 
 namespace capstan::storage {
 
+// A set that a search tried beside those that the study began with; refused if there is one of this number.
+void add_world_candidate(Database& database, std::int64_t study_id, int candidate_index,
+                         const WorldCandidateRecord& candidate);
+
 // All rows in one transaction; a row that is there already is refused.
 void write_world_errors(Database& database, std::int64_t study_id, std::span<const WorldErrorRecord> errors);
 

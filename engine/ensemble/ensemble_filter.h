@@ -64,6 +64,7 @@ class EnsembleFilter {
     const EnsembleDraws& draws_;
     std::vector<EnsembleCable> cables_;
     FarEndProcess far_end_;
+    bool tells_sum_ = true;  ///< of a pair: a sensor tells of the sum of both tensions
     int sample_ = 0;
     std::vector<double> far_end_m_;        // members
     std::vector<double> far_end_m_per_s_;  // members

@@ -239,8 +239,47 @@
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAgain);
   addEventListener("resize", drawAgain);
 
+  // Of a study over worlds: any selection of what can be bought, judged in the worlds of the study.
+  async function beginSensors() {
+    const offered = await ask(api + "/sensors");
+    hand.querySelector(".intro").textContent = "Select sensors to buy. Their expected error comes from the same worlds as that of the recommended set.";
+    const set = element("fieldset", {}, element("legend", { textContent: "Sensors" }));
+    for (const each of offered.sensors) {
+      const box = element("input", { type: "checkbox", value: each.sensor, checked: offered.recommended.includes(each.sensor) });
+      box.addEventListener("change", judge);
+      set.append(element("label", {}, box, ` ${each.words}${each.cable ? " of cable " + each.cable : ""} (price ${each.price})`));
+    }
+    place.replaceChildren(element("form", { className: "filters" }, set), expected, detail);
+    const N = (number) => number.toFixed(3) + " N", between = ([low, high]) => `${low.toFixed(3)} to ${N(high)}`;
+    async function judge() {
+      const mine = ++asked;
+      const sensors = [...set.querySelectorAll("input:checked")].map((box) => Number(box.value));
+      detail.textContent = "";
+      if (sensors.length === 0) { expected.textContent = "No sensor is placed."; return; }
+      expected.textContent = "Running the worlds of the study …";
+      try {
+        const answer = await post(api + "/sensors", { sensors });
+        if (mine !== asked) return;  // a newer question replaced this one
+        expected.textContent = `Expected error ${N(answer.expected_error_N)}, in 95% of the worlds below ${N(answer.error_95_N)}`;
+        detail.textContent = `${answer.set}; price ${answer.price}${answer.allowed ? "" : ", not allowed by the constraints of the study"}. Monte-Carlo interval ${between(answer.monte_carlo_interval_N)}, ${answer.worlds} worlds. ` +
+          `Gain over no sensor: ${N(answer.gain_over_no_sensor_N)} (${between(answer.gain_interval_N)}). Compared with the recommended set (${answer.recommended}): ` +
+          (answer.distinguishable ? `${N(Math.abs(answer.worse_than_recommended_N))} ${answer.worse_than_recommended_N > 0 ? "worse" : "better"} (${between(answer.worse_interval_N)}).`
+            : `not distinguishable (difference ${between(answer.worse_interval_N)}).`);
+        expected.dataset.answered = (Number(expected.dataset.answered) || 0) + 1;
+      } catch (error) {
+        if (mine === asked) expected.textContent = error.message;
+      }
+    }
+    await judge();
+  }
+
   async function beginHand() {
     const [cable, study] = await Promise.all([ask(api + "/cable"), ask(api)]);
+    if (study.candidates !== undefined) {
+      if (study.status === "complete") return beginSensors();
+      place.replaceChildren("Sensors can be placed when the study is complete.");
+      return;
+    }
     const tables = window.capstanPage.tables(), titles = window.capstanPage.titles();
     const advice = tables.recommendation ?? [];
     const use = element("select", { id: "hand-use" }, element("option", { value: "", textContent: "a recommendation …" }),

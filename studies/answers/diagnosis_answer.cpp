@@ -36,10 +36,17 @@ const DiagnosisChannelRecord* judged_channel(const DiagnosisRecord& diagnosis) {
     return diagnosis.channels.empty() ? nullptr : &diagnosis.channels.front();
 }
 
+Data interval_or_nothing(const std::optional<double>& low, const std::optional<double>& high) {
+    return low && high ? Data::list({*low, *high}) : Data();
+}
+
 Data cause_data(const DiagnosisCauseRecord& cause) {
     Data numbers = Data::record();
     for (const auto& number : cause.numbers)
-        numbers[number.name] = {{"value", number.value_in_unit}, {"unit", number.unit}};
+        numbers[number.name] = {
+            {"value", number.value_in_unit},
+            {"unit", number.unit},
+            {"interval_95", interval_or_nothing(number.low_in_unit, number.high_in_unit)}};
     return {{"effect", cause.effect},
             {"variant", text_or_nothing(cause.variant)},
             {"component", cause.component},
@@ -48,9 +55,7 @@ Data cause_data(const DiagnosisCauseRecord& cause) {
 }
 
 Data channel_data(const DiagnosisChannelRecord& channel) {
-    Data interval;
-    if (channel.closed_low_fraction && channel.closed_high_fraction)
-        interval = Data::list({*channel.closed_low_fraction, *channel.closed_high_fraction});
+    const Data interval = interval_or_nothing(channel.closed_low_fraction, channel.closed_high_fraction);
     return {{"channel", channel.channel},
             {"unit", channel.unit},
             {"noise", channel.noise_in_unit},
@@ -98,6 +103,10 @@ Data values_of(const DiagnosisRecord& diagnosis) {
     data["nominal_ratios"] = {{"friction", diagnosis.friction_ratio},
                               {"stiffness", diagnosis.stiffness_ratio},
                               {"pretension", diagnosis.pretension_ratio}};
+    data["nominal_intervals_95"] = {
+        {"friction", interval_or_nothing(diagnosis.friction_low_ratio, diagnosis.friction_high_ratio)},
+        {"stiffness", interval_or_nothing(diagnosis.stiffness_low_ratio, diagnosis.stiffness_high_ratio)},
+        {"pretension", interval_or_nothing(diagnosis.pretension_low_ratio, diagnosis.pretension_high_ratio)}};
     data["misfit"] = {{"before", diagnosis.misfit_before_ratio}, {"after", diagnosis.misfit_after_ratio}};
     data["independent_samples"] = diagnosis.independent_samples_count;
     data["candidates"] = candidates_data(diagnosis);
@@ -123,15 +132,22 @@ Data fitted_data(const DiagnosisRecord& diagnosis) {
             rows.push_back({{"of", name_of(cause)},
                             {"number", number.name},
                             {"value", number.value_in_unit},
+                            {"interval_95", interval_or_nothing(number.low_in_unit, number.high_in_unit)},
                             {"unit", number.unit}});
     }
-    const auto add = [&](const char* name, double ratio) {
-        rows.push_back(
-            {{"of", "nominal model"}, {"number", name}, {"value", ratio}, {"unit", "stated value"}});
+    const auto add = [&](const char* name, double ratio, const std::optional<double>& low,
+                         const std::optional<double>& high) {
+        rows.push_back({{"of", "nominal model"},
+                        {"number", name},
+                        {"value", ratio},
+                        {"interval_95", interval_or_nothing(low, high)},
+                        {"unit", "stated value"}});
     };
-    add("friction", diagnosis.friction_ratio);
-    add("stiffness", diagnosis.stiffness_ratio);
-    add("pretension", diagnosis.pretension_ratio);
+    add("friction", diagnosis.friction_ratio, diagnosis.friction_low_ratio, diagnosis.friction_high_ratio);
+    add("stiffness", diagnosis.stiffness_ratio, diagnosis.stiffness_low_ratio,
+        diagnosis.stiffness_high_ratio);
+    add("pretension", diagnosis.pretension_ratio, diagnosis.pretension_low_ratio,
+        diagnosis.pretension_high_ratio);
     return rows;
 }
 
@@ -166,7 +182,11 @@ reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const D
                     likely_effects(diagnosis)},
                    {"fitted",
                     "Fitted numbers",
-                    {{"of", "of"}, {"number", "number"}, {"value", "value"}, {"unit", "unit"}},
+                    {{"of", "of"},
+                     {"number", "number"},
+                     {"value", "value"},
+                     {"interval_95", "95% interval", "", ".4g"},
+                     {"unit", "unit"}},
                     fitted_data(diagnosis)},
                    {"channels",
                     "RMS of measured minus modelled, over all samples",

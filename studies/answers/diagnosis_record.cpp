@@ -28,7 +28,9 @@ storage::DiagnosisCauseRecord cause_record(const gap::FittedCause& cause) {
     storage::DiagnosisCauseRecord record{cause.effect, cause.variant,    cause.component,
                                          cause.end,    cause.position_m, {}};
     for (const gap::FittedNumber& number : cause.numbers)
-        record.numbers.push_back({number.name, number.value, number.unit});
+        record.numbers.push_back({number.name, number.value, number.unit,
+                                  number.interval ? std::optional(number.interval->low) : std::nullopt,
+                                  number.interval ? std::optional(number.interval->high) : std::nullopt});
     std::sort(record.numbers.begin(), record.numbers.end(),  // as they come back
               [](const auto& a, const auto& b) { return a.name < b.name; });
     return record;
@@ -91,6 +93,12 @@ storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap:
     record.friction_ratio = diagnosis.friction_ratio;
     record.stiffness_ratio = diagnosis.stiffness_ratio;
     record.pretension_ratio = diagnosis.pretension_ratio;
+    record.friction_low_ratio = diagnosis.friction_interval.low;
+    record.friction_high_ratio = diagnosis.friction_interval.high;
+    record.stiffness_low_ratio = diagnosis.stiffness_interval.low;
+    record.stiffness_high_ratio = diagnosis.stiffness_interval.high;
+    record.pretension_low_ratio = diagnosis.pretension_interval.low;
+    record.pretension_high_ratio = diagnosis.pretension_interval.high;
     record.misfit_before_ratio = diagnosis.misfit_before;
     record.misfit_after_ratio = diagnosis.misfit_after;
     record.independent_samples_count = diagnosis.independent_samples;

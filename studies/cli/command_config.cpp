@@ -55,14 +55,18 @@ struct PlanSize {
     std::size_t noise_levels = 0;
     std::size_t sensor_sets = 0;
     std::size_t methods = 0;
-    std::size_t cells = 0;  ///< 0: over worlds
+    std::size_t cells = 0;   ///< 0: over worlds
+    bool is_greedy = false;  ///< the search tries more sets than `sensor_sets`
 };
 
 PlanSize size_of(const StudyPlan& plan) {
     PlanSize size;
     size.nodes = plan.transmission.cable.segments + 1;
     if (plan.uncertainty.is_stated) {
-        size.sensor_sets = candidates_of(plan, sensor_offers(plan)).size() - 1;  // one of them is empty
+        const std::vector<Candidate> candidates = candidates_of(plan, sensor_offers(plan));
+        size.is_greedy = candidates.back().is_bound;
+        size.sensor_sets =
+            candidates.size() - (size.is_greedy ? 2 : 1);  // without the empty one and the bound
         return size;
     }
     for (const RegimeInstants& regime : plan.regimes) size.scenarios += regime.samples.size();
@@ -92,6 +96,7 @@ PlanSize size_of(const std::vector<StudyPlan>& studies) {
         const PlanSize size = size_of(study);
         total.nodes = std::max(total.nodes, size.nodes);
         total.sensor_sets = std::max(total.sensor_sets, size.sensor_sets);
+        total.is_greedy = total.is_greedy || size.is_greedy;
         total.scenarios += size.scenarios;
         total.noise_levels = size.noise_levels;
         total.methods = size.methods;
@@ -107,9 +112,10 @@ std::string in_words(const std::string& file, const StudyPlan& plan, const std::
     const std::string conduit =
         plan.transmission.conduit_note.empty() ? "" : "  conduit: " + plan.transmission.conduit_note + "\n";
     if (plan.uncertainty.is_stated)
-        return fmt::format("{}: ok\n{}{}  {} nodes, {}, {} worlds to choose and as many to judge\n", file,
-                           sweep, conduit, size.nodes, counted(size.sensor_sets, "set") + " of sensors",
-                           plan.repetitions);
+        return fmt::format(
+            "{}: ok\n{}{}  {} nodes, {} of sensors{}, {} worlds to choose and as many to judge\n", file,
+            sweep, conduit, size.nodes, counted(size.sensor_sets, "set"),
+            size.is_greedy ? " and those of a greedy search" : "", plan.repetitions);
     return fmt::format("{}: ok\n{}{}  {} nodes, {}, {}, {}, {}: {} of {} repetitions\n", file, sweep, conduit,
                        size.nodes, counted(size.scenarios, "instant"),
                        counted(size.noise_levels, "noise level"), counted(size.sensor_sets, "sensor set"),
@@ -125,6 +131,7 @@ Data in_json(const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
                 {"conduit", plan.transmission.conduit_note},
                 {"nodes", size.nodes},
                 {"sensor_sets", size.sensor_sets},
+                {"greedy", size.is_greedy},
                 {"worlds", plan.repetitions}};
     return {{"ok", true},
             {"name", plan.name},

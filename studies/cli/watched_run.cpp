@@ -180,7 +180,7 @@ const Option from_diagnosis_option{
     .value = "ID",
     .meaning =
         "The worlds of a CONFIG with [uncertainty] lie about what this diagnosis in the results database found: its "
-        "friction, stiffness and pretension, and its causes with their probability."};
+        "friction, stiffness and pretension, and its causes with their probability, drawn from the intervals of the fit."};
 
 void take_diagnosis(const Invocation& invocation, StudyPlan& plan) {
     if (!plan.uncertainty.is_stated)

@@ -196,7 +196,12 @@ ReadPlan<Plan> parse_plan(std::string_view toml, const std::string& file,
     std::vector<ConfigProblem> problems = Reading<Plan>(root, config, folder).run();
     if constexpr (std::is_same_v<Plan, StudyPlan>)
         if (problems.empty() && folder) take_named_far_end_log(config);
-    const std::vector<ConfigProblem> more = value_problems(config, problems);
+    std::vector<ConfigProblem> more = value_problems(config, problems);
+    if constexpr (std::is_same_v<Plan, StudyPlan>)
+        if (!problems.empty() && folder && !config.plan.uncertainty.far_end_log.empty())
+            std::erase_if(more, [](const ConfigProblem& each) {  // the log has not been read yet
+                return each.key == "uncertainty.far_end";
+            });
     problems.insert(problems.end(), more.begin(), more.end());
     if (!problems.empty()) throw ConfigError(file, std::move(problems));
     return config;

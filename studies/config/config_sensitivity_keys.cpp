@@ -20,8 +20,6 @@ StudyKey uncertain(std::string name, const std::string& what, std::vector<double
 void add_sensitivity_keys(std::vector<ConfigKey<StudyPlan>>& keys) {
     const std::string at = "sensitivity";
     const SensitivityPlan standard;
-    const KeyCondition<StudyPlan> with_worlds{
-        [](const StudyPlan& plan, int) { return plan.uncertainty.is_stated; }, "[uncertainty]"};
     const KeyCondition<StudyPlan> with_instants{
         [](const StudyPlan& plan, int) { return !plan.uncertainty.is_stated; }, "no [uncertainty]"};
     const auto add = [&](StudyKey key, const KeyCondition<StudyPlan>& condition) {

@@ -11,6 +11,10 @@ namespace capstan::config {
 
 using StudyKeys = std::vector<ConfigKey<StudyPlan>>;
 
+/// Of keys that only studies over worlds have.
+inline const KeyCondition<StudyPlan> with_worlds{
+    [](const StudyPlan& plan, int) { return plan.uncertainty.is_stated; }, "[uncertainty]"};
+
 void add_conduit_keys(StudyKeys& keys);  ///< [transmission] length_m, centre_line, [[transmission.bend]]
 ConfigSection<StudyPlan> bend_section_of_conduit();
 /// Makes the pieces of a conduit that is stated otherwise; what is wrong with it. A centre line lies in

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -54,24 +52,13 @@ LogFit fit_logs(const TwinResiduals& residuals, const std::vector<TwinParameter>
     LogFit log_fit;
     log_fit.fit = fit_least_squares(function, start);
 
-    // Sandwich: residuals are correlated within a block in any way, and independent between blocks.
-    const LeastSquaresFit& fit = log_fit.fit;
-    const std::vector<Eigen::Index> blocks = residuals.block_ends(parts);
-    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(fit.parameters.size(), fit.parameters.size());
-    Eigen::Index first = 0;
-    for (const Eigen::Index end : blocks) {
-        const Eigen::VectorXd score = fit.jacobian.middleRows(first, end - first).transpose() *
-                                      fit.residuals.segment(first, end - first);
-        scores += score * score.transpose();
-        first = end;
-    }
-    const Eigen::MatrixXd normal = fit.jacobian.transpose() * fit.jacobian;
-    const Eigen::MatrixXd inverse =
-        normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+    const Sandwich sandwich =
+        sandwich_of(log_fit.fit.jacobian, log_fit.fit.residuals, residuals.block_ends(parts));
+    log_fit.covariance = sandwich.covariance;
     // Never below what independent residuals of unit spread give, however few blocks there are.
-    log_fit.covariance = inverse * scores * inverse;
-    for (Eigen::Index k = 0; k < inverse.rows(); ++k) {
-        if (log_fit.covariance(k, k) < inverse(k, k)) log_fit.covariance(k, k) = inverse(k, k);
+    for (Eigen::Index k = 0; k < sandwich.inverse.rows(); ++k) {
+        if (log_fit.covariance(k, k) < sandwich.inverse(k, k))
+            log_fit.covariance(k, k) = sandwich.inverse(k, k);
     }
     return log_fit;
 }
@@ -82,18 +69,10 @@ double correlation(const Eigen::MatrixXd& covariance, Eigen::Index a, Eigen::Ind
 
 // Half widths of 95% intervals of the logarithms: the sandwich's, or the jackknife's over runs if larger.
 Eigen::VectorXd half_widths(const LogFit& all_runs, const std::vector<LogFit>& without_a_run) {
-    Eigen::VectorXd widths = two_sided_95 * all_runs.covariance.diagonal().cwiseSqrt();
-    const auto runs = static_cast<double>(without_a_run.size());
-    if (without_a_run.size() < 3) return widths;
-    const double quantile = boost::math::quantile(boost::math::students_t(runs - 1.0), 0.975);
-    for (Eigen::Index k = 0; k < widths.size(); ++k) {
-        double mean = 0.0;
-        for (const LogFit& other : without_a_run) mean += other.fit.parameters[k] / runs;
-        double squares = 0.0;
-        for (const LogFit& other : without_a_run) squares += std::pow(other.fit.parameters[k] - mean, 2);
-        widths[k] = std::max(widths[k], quantile * std::sqrt((runs - 1.0) / runs * squares));
-    }
-    return widths;
+    std::vector<Eigen::VectorXd> fits;
+    for (const LogFit& other : without_a_run) fits.push_back(other.fit.parameters);
+    const Eigen::VectorXd widths = two_sided_95 * all_runs.covariance.diagonal().cwiseSqrt();
+    return widths.cwiseMax(jackknife_half_widths(fits, widths.size()));
 }
 
 std::vector<int> indices_of(const std::vector<TwinParameter>& parameters,

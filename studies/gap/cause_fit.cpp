@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "capstan/gap/block_bootstrap.h"
 #include "capstan/platform/parallel_for.h"
+#include "capstan/platform/statistics.h"
 
 namespace capstan::gap {
 
@@ -144,6 +146,34 @@ double CauseFitter::shape_penalty(const CauseFit& fit) const {
     const Eigen::VectorXd priors = prior_residuals(fit.causes, fit.coordinates);
     return 0.5 * priors.tail(priors.size() - nominal_coordinates).squaredNorm() /
            (prior_weight_ * prior_weight_);
+}
+
+Eigen::VectorXd CauseFitter::half_widths(const CauseFit& fit,
+                                         const std::vector<Eigen::VectorXd>& without_a_run) const {
+    const Eigen::MatrixXd jacobian =
+        jacobian_at([&](const Eigen::MatrixXd& coordinates) { return residuals(fit.causes, coordinates); },
+                    fit.coordinates, fit.residuals);
+    // Channels of one instant are correlated, so a block has the rows of all of them.
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Index>> blocks;  // run, second: rows
+    for (const ResidualSeries& series : series_) {
+        for (std::size_t row = 0; row < series.rows; ++row) {
+            const auto sample = (static_cast<std::size_t>(series.first_sample) + row) *
+                                static_cast<std::size_t>(twin_.stride());
+            const auto second = sample / static_cast<std::size_t>(bootstrap_block_samples(recording_));
+            blocks[{series.run, second}].push_back(static_cast<Eigen::Index>(series.first_row + row));
+        }
+    }
+    std::vector<Eigen::Index> order;
+    std::vector<Eigen::Index> ends;
+    for (const auto& [block, rows] : blocks) {
+        order.insert(order.end(), rows.begin(), rows.end());
+        ends.push_back(static_cast<Eigen::Index>(order.size()));
+    }
+    for (auto row = static_cast<Eigen::Index>(data_rows_); row < jacobian.rows(); ++row) order.push_back(row);
+    const Sandwich sandwich = sandwich_of(jacobian(order, Eigen::all), fit.residuals(order), ends);
+    const Eigen::VectorXd independent = prior_weight_ * prior_weight_ * sandwich.inverse.diagonal();
+    const Eigen::VectorXd deviations = sandwich.covariance.diagonal().cwiseMax(independent).cwiseSqrt();
+    return (two_sided_95 * deviations).cwiseMax(jackknife_half_widths(without_a_run, deviations.size()));
 }
 
 Eigen::VectorXd CauseFitter::prior_residuals(const std::vector<const CandidateCause*>& causes,

@@ -84,6 +84,10 @@ class CauseFitter {
     double shape_penalty(const CauseFit& fit) const;
     /// Mean square of the residuals of the data.
     double misfit(const CauseFit& fit) const;
+    /// Half widths of 95% intervals of the coordinates of a fit, the widest of three: the sandwich over
+    /// blocks of a second of all channels, what the independent samples and the priors leave open, and the
+    /// jackknife over `without_a_run`, if there are at least three.
+    Eigen::VectorXd half_widths(const CauseFit& fit, const std::vector<Eigen::VectorXd>& without_a_run) const;
     /// The distance of each coordinate from its usual value, weighted as a residual.
     Eigen::VectorXd prior_residuals(const std::vector<const CandidateCause*>& causes,
                                     const Eigen::VectorXd& coordinates) const;

@@ -109,6 +109,21 @@ class Diagnoser {
         diagnosis.friction_ratio = numbers.friction_ratio;
         diagnosis.stiffness_ratio = numbers.stiffness_ratio;
         diagnosis.pretension_ratio = numbers.pretension_ratio;
+        const std::vector<PartFit> parts = held_out(fit);
+        std::vector<Eigen::VectorXd> without_a_run;
+        std::vector<HeldOut> models;
+        for (const PartFit& part : parts) {
+            if (part.left_out.is_complete_run()) without_a_run.push_back(part.fit.coordinates);
+            models.push_back({part.left_out, bench_numbers(part.fit.causes, part.fit.coordinates)});
+        }
+        const Eigen::VectorXd widths = fitter_.half_widths(fit, without_a_run);
+        evaluations_ += static_cast<int>(2 * widths.size());
+        const auto ratio_interval = [&](Eigen::Index k) -> FittedInterval {
+            return {std::exp(fit.coordinates[k] - widths[k]), std::exp(fit.coordinates[k] + widths[k])};
+        };
+        diagnosis.friction_interval = ratio_interval(0);
+        diagnosis.stiffness_interval = ratio_interval(1);
+        diagnosis.pretension_interval = ratio_interval(2);
         diagnosis.misfit_before = nominal_misfit_;
         diagnosis.misfit_after = leading.misfit;
         Eigen::Index next = nominal_coordinates;
@@ -116,7 +131,11 @@ class Diagnoser {
             if (cause->effect == "none") continue;
             FittedCause fitted{cause->effect, cause->variant, cause->component, cause->end, {}, {}};
             for (const OpenNumber& number : cause->numbers) {
-                fitted.numbers.push_back({number.name, number.unit, number.value(fit.coordinates[next++])});
+                const double one = number.value(fit.coordinates[next] - widths[next]);
+                const double other = number.value(fit.coordinates[next] + widths[next]);
+                fitted.numbers.push_back({number.name, number.unit, number.value(fit.coordinates[next]),
+                                          FittedInterval{std::min(one, other), std::max(one, other)}});
+                ++next;
                 if (number.kind == OpenNumber::Kind::place) fitted.position_m = fitted.numbers.back().value;
             }
             for (const auto& given : cause->given)
@@ -130,20 +149,25 @@ class Diagnoser {
         }
         diagnosis.gap = measure_gap(
             recording_, fitter_,
-            {numbers, bench_numbers(runner_up.fit.causes, runner_up.fit.coordinates), held_out(fit)});
+            {numbers, bench_numbers(runner_up.fit.causes, runner_up.fit.coordinates), std::move(models)});
     }
 
-    // The bench fitted without each part of the recording in turn.
-    std::vector<HeldOut> held_out(const CauseFit& leading) {
-        std::vector<HeldOut> parts;
+    // A fit without a part of the recording.
+    struct PartFit {
+        LeftOut left_out;
+        CauseFit fit;
+    };
+
+    // Without each part in turn.
+    std::vector<PartFit> held_out(const CauseFit& leading) {
+        std::vector<PartFit> parts;
         for (const LeftOut& part : left_out_in_turn(recording_)) {
             report("fitting without run " + std::to_string(recording_.runs[part.run].number), 0.95);
             CauseFitter::FitOptions options;
             options.left_out = part;
             options.any_size = false;
-            const CauseFit fit = fitter_.fit(leading.hypothesis(), options);
-            evaluations_ += fit.evaluations;
-            parts.push_back({part, bench_numbers(fit.causes, fit.coordinates)});
+            parts.push_back({part, fitter_.fit(leading.hypothesis(), options)});
+            evaluations_ += parts.back().fit.evaluations;
         }
         return parts;
     }

@@ -13,10 +13,17 @@ namespace capstan::gap {
 
 using DiagnosisOptions = CauseSearchOptions;
 
+/// A 95% interval.
+struct FittedInterval {
+    double low = 0.0;
+    double high = 0.0;
+};
+
 struct FittedNumber {
     std::string name;
     std::string unit;
     double value = 0.0;
+    std::optional<FittedInterval> interval{};  ///< none: the recording itself gave the number
 };
 
 /// A cause that the verdict names, with its fitted numbers.
@@ -46,6 +53,10 @@ struct Diagnosis {
     double friction_ratio = 1.0;       ///< nominal numbers as fitted with the causes
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;
+    FittedInterval
+        friction_interval;  ///< of the ratios; no narrower than their priors where nothing is learned
+    FittedInterval stiffness_interval;
+    FittedInterval pretension_interval;
     std::string component;
     std::string end;
     std::optional<double> position_m;

@@ -1,14 +1,12 @@
 #include "capstan/gap/least_squares.h"
 
 #include <Eigen/Cholesky>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <vector>
 
 namespace capstan::gap {
 
-namespace {
-
-// `here`: the residuals at `at`.
 Eigen::MatrixXd jacobian_at(const ResidualFunction& residuals, const Eigen::VectorXd& at,
                             const Eigen::VectorXd& here, const LeastSquaresOptions& options) {
     const Eigen::Index count = at.size();
@@ -23,7 +21,38 @@ Eigen::MatrixXd jacobian_at(const ResidualFunction& residuals, const Eigen::Vect
     return (values.colwise() - here) / options.difference_step;
 }
 
-}  // namespace
+Sandwich sandwich_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
+                     const std::vector<Eigen::Index>& block_ends) {
+    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+    Eigen::Index first = 0;
+    for (const Eigen::Index end : block_ends) {
+        const Eigen::VectorXd score =
+            jacobian.middleRows(first, end - first).transpose() * residuals.segment(first, end - first);
+        scores += score * score.transpose();
+        first = end;
+    }
+    const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    Sandwich sandwich;
+    sandwich.inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+    sandwich.covariance = sandwich.inverse * scores * sandwich.inverse;
+    return sandwich;
+}
+
+Eigen::VectorXd jackknife_half_widths(const std::vector<Eigen::VectorXd>& without_a_run,
+                                      Eigen::Index parameters) {
+    Eigen::VectorXd widths = Eigen::VectorXd::Zero(parameters);
+    if (without_a_run.size() < 3) return widths;
+    const auto runs = static_cast<double>(without_a_run.size());
+    const double quantile = boost::math::quantile(boost::math::students_t(runs - 1.0), 0.975);
+    for (Eigen::Index k = 0; k < parameters; ++k) {
+        double mean = 0.0;
+        for (const Eigen::VectorXd& other : without_a_run) mean += other[k] / runs;
+        double squares = 0.0;
+        for (const Eigen::VectorXd& other : without_a_run) squares += std::pow(other[k] - mean, 2);
+        widths[k] = quantile * std::sqrt((runs - 1.0) / runs * squares);
+    }
+    return widths;
+}
 
 // Marquardt's scaling by the diagonal; the damping falls after a success and grows until one.
 LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <vector>
 
 namespace capstan::gap {
 
@@ -35,6 +36,25 @@ struct LeastSquaresOptions {
     /// After two iterations, a search is given up if its linear model promises more than this.
     double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
 };
+
+/// The derivatives of the residuals at `at`, where they are `here`: residuals x parameters.
+Eigen::MatrixXd jacobian_at(const ResidualFunction& residuals, const Eigen::VectorXd& at,
+                            const Eigen::VectorXd& here, const LeastSquaresOptions& options = {});
+
+/// How a fit spreads, by the sandwich: residuals may be correlated within a block in any way, and are
+/// independent between blocks.
+struct Sandwich {
+    Eigen::MatrixXd inverse;     // parameters x parameters: of the normal matrix
+    Eigen::MatrixXd covariance;  // parameters x parameters
+};
+/// `block_ends`: one past the last row of each block of data; rows beyond them, such as priors, do not vary.
+Sandwich sandwich_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
+                     const std::vector<Eigen::Index>& block_ends);
+
+/// Half widths of 95% intervals from fits that each left out one of several runs (Student's t); of fewer than
+/// three it is zero.
+Eigen::VectorXd jackknife_half_widths(const std::vector<Eigen::VectorXd>& without_a_run,
+                                      Eigen::Index parameters);
 
 /// Levenberg-Marquardt with the Jacobian by differences, from `start`.
 LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,

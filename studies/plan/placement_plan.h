@@ -23,8 +23,9 @@ inline constexpr PlacementObjective all_placement_objectives[] = {
 
 /// Which sets of sensors are compared.
 enum class ComparedSets {
-    named,  ///< those of [layouts], with and without the sensors of other kinds
-    all,    ///< every set that the constraints allow
+    named,   ///< those of [layouts], with and without the sensors of other kinds
+    all,     ///< every set that the constraints allow; of too many, as greedy
+    greedy,  ///< the named ones, and sets that grow by the sensor that helps most
 };
 
 /// The designer's constraints and objective. Nodes are counted from 0 here.

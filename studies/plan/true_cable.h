@@ -15,6 +15,13 @@ struct TrueCable {
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;
     EffectValues effects = absent_effects();
+    // How a study over worlds draws them; elsewhere they have no meaning.
+    double friction_fraction =
+        0.0;  ///< 95% of the worlds lie so near friction_ratio; 0: as [uncertainty] says
+    double stiffness_fraction = 0.0;
+    double pretension_fraction = 0.0;
+    /// Of each effect's numbers: standard deviations over the worlds; an empty list: none.
+    EffectValues effect_deviations = EffectValues(effect_catalogue().size());
 
     bool has_effects() const { return effects != absent_effects(); }
     bool is_the_model() const {

@@ -120,6 +120,14 @@ std::vector<KeyProblem> problems_of_truth(const StudyPlan& plan) {
          {plan.truth.friction_ratio, plan.truth.stiffness_ratio, plan.truth.pretension_ratio}) {
         if (!(ratio > 0.0)) problems.push_back({"truth", "a ratio must be above 0"});
     }
+    for (std::size_t e = 0; e < effect_catalogue().size(); ++e) {
+        const std::size_t given = plan.truth.effect_deviations[e].size();
+        const Effect& effect = effect_catalogue()[e];
+        if (given != 0 && given != effect.parameters.size())
+            problems.push_back({"truth", "deviations of " + effect.name + " are " + std::to_string(given) +
+                                             " numbers, but the effect has " +
+                                             std::to_string(effect.parameters.size())});
+    }
     if (!plan.truth.has_effects()) return problems;
     for (const EndMotion* end : {&plan.motion.proximal, &plan.motion.distal}) {
         if (end->kind != EndKind::position)

@@ -72,12 +72,13 @@ AdviceWhere advice_where(const StudyPlan& plan, double ratio, const WorldAnswer&
     AdviceWhere where;
     where.ratio = ratio;
     where.answer = advice_of(table);
-    const int advised = stated.recommended ? stated.best().expected.candidate : 0;
+    const int advised =
+        stated.recommended ? table.candidate_of(stated.set(stated.best().expected.candidate).sensors) : 0;
     Choice choice(table);
     const int first = choice.worlds();
     choice.fill(Condition::as_stated, std::vector{advised}, first, 2 * first, "the stated advice");
     where.advised_as_stated = choice.expected(advised);
-    const double price = stated.set(advised).price;
+    const double price = table.candidates()[static_cast<std::size_t>(advised)].price;
     for (const PriceBest& best : where.answer.prices) {
         if (std::abs(best.price - price) > 1e-9 * price || best.expected.candidate == advised) continue;
         where.loss = choice.paired(Condition::as_stated, advised, Condition::as_stated,

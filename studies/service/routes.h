@@ -12,6 +12,7 @@
 #include "capstan/service/report_shelf.h"
 #include "capstan/service/service.h"
 #include "capstan/storage/database.h"
+#include "capstan/worlds/hand_placed.h"
 
 namespace capstan::service {
 
@@ -23,6 +24,7 @@ struct RouteContext {
     ReportShelf query_answers{};
     std::mutex scorers_mutex{};
     std::map<std::int64_t, std::shared_ptr<LayoutScorer>> scorers{};  // by study
+    std::map<std::int64_t, std::shared_ptr<HandPlacer>> placers{};    // by study over worlds
 
     /// A text about a study, made when the study has gone on since; of one that is complete never an older
     /// one.

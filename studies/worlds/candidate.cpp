@@ -7,94 +7,15 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
+#include <optional>
 
 #include "capstan/cable/cable_cut.h"
 #include "capstan/worlds/sensor_places.h"
+#include "capstan/worlds/set_constraints.h"
 
 namespace capstan {
 
 namespace {
-
-double price_of(const std::vector<int>& sensors, const std::vector<SensorOffer>& offers) {
-    double price = 0.0;
-    for (const int sensor : sensors) price += offers[static_cast<std::size_t>(sensor)].price;
-    return price;
-}
-
-// What [placement] says of a set of sensors. Nodes of the constraints stand for their places.
-class Constraints {
-  public:
-    Constraints(const StudyPlan& plan, const std::vector<SensorOffer>& offers)
-        : plan_(plan.placement), offers_(offers), cable_(plan.transmission.cable) {}
-
-    bool allow(const std::vector<int>& sensors) const {
-        return may_grow(sensors) && has_all_required(sensors);
-    }
-
-    // Whether a set breaks nothing that more sensors could not put right.
-    bool may_grow(const std::vector<int>& sensors) const {
-        if (static_cast<int>(sensors.size()) > plan_.max_sensors) return false;
-        if (price_of(sensors, offers_) > plan_.budget * (1.0 + 1e-12)) return false;
-        int in_distal_half = 0;
-        std::array<std::vector<double>, 2> places_m;  // of each cable
-        for (const int sensor : sensors) {
-            const SensorOffer& offer = offers_[static_cast<std::size_t>(sensor)];
-            if (is_forbidden(offer)) return false;
-            if (offer.place_m > 0.5 * cable_.length_m() + same_place_m) ++in_distal_half;
-            if (offer.kind == SensorKind::tension)
-                places_m[static_cast<std::size_t>(offer.cable)].push_back(offer.place_m);
-        }
-        if (in_distal_half > plan_.max_in_distal_half) return false;
-        for (std::vector<double>& of_cable : places_m) {
-            std::sort(of_cable.begin(), of_cable.end());
-            for (std::size_t k = 1; k < of_cable.size(); ++k)
-                if (are_too_close(of_cable[k - 1], of_cable[k])) return false;
-        }
-        return true;
-    }
-
-  private:
-    bool are_too_close(double place_m, double next_m) const {
-        const bool by_nodes =
-            plan_.minimum_spacing > 1 &&
-            cable_.nearest_node(next_m) - cable_.nearest_node(place_m) < plan_.minimum_spacing;
-        return by_nodes || next_m - place_m < plan_.minimum_spacing_m - same_place_m;
-    }
-    bool is_near(double place_m, const std::vector<double>& places_m) const {
-        return std::any_of(places_m.begin(), places_m.end(),
-                           [&](double other_m) { return std::abs(other_m - place_m) <= same_place_m; });
-    }
-    std::vector<double> places_of(const std::vector<int>& nodes) const {
-        std::vector<double> places_m;
-        for (const int node : nodes) places_m.push_back(cable_.node_position_m(node));
-        return places_m;
-    }
-    bool is_forbidden(const SensorOffer& offer) const {
-        if (offer.kind != SensorKind::tension) return false;
-        if (is_near(offer.place_m, places_of(plan_.forbidden_nodes))) return true;
-        const std::vector<double>& ranges = plan_.forbidden_m;
-        for (std::size_t k = 0; k + 1 < ranges.size(); k += 2)
-            if (offer.place_m >= ranges[k] - same_place_m && offer.place_m <= ranges[k + 1] + same_place_m)
-                return true;
-        return false;
-    }
-    bool has_all_required(const std::vector<int>& sensors) const {
-        std::vector<double> places_m;
-        for (const int sensor : sensors) {
-            const SensorOffer& offer = offers_[static_cast<std::size_t>(sensor)];
-            if (measures_tension(offer.kind)) places_m.push_back(offer.place_m);
-        }
-        const auto there = [&](double place_m) { return is_near(place_m, places_m); };
-        const std::vector<double> nodes_m = places_of(plan_.required_nodes);
-        return std::all_of(nodes_m.begin(), nodes_m.end(), there) &&
-               std::all_of(plan_.required_m.begin(), plan_.required_m.end(), there);
-    }
-
-    const PlacementPlan& plan_;
-    const std::vector<SensorOffer>& offers_;
-    Cable cable_;
-};
 
 // Sensors by kind: where a family may put tension sensors, and what else can be bought.
 struct Shelf {
@@ -205,33 +126,54 @@ NamedSets named_sets(const StudyPlan& plan, const std::vector<SensorOffer>& offe
     return sets;
 }
 
-void add_all_sets(NamedSets& sets, const Constraints& constraints, std::vector<int>& sensors, int from,
-                  int offers) {
-    for (int next = from; next < offers; ++next) {
-        sensors.push_back(next);
-        if (constraints.may_grow(sensors)) {
-            if (constraints.allow(sensors)) add(sets, sensors, "");
-            if (sets.size() > max_candidates)
-                throw InvalidInput(std::vector<KeyProblem>{
-                    {"placement.max_sensors",
-                     fmt::format("more than {} sets of sensors are allowed; lower it, offer fewer places "
-                                 "in [[sensor]], or set placement.search = \"named\"",
-                                 max_candidates)}});
-            add_all_sets(sets, constraints, sensors, next + 1, offers);
-        }
-        sensors.pop_back();
+// All sets that `constraints` allow; nothing where there are more than `max_candidates`.
+class AllSets {
+  public:
+    AllSets(const SetConstraints& constraints, int offers) : constraints_(constraints), offers_(offers) {}
+
+    std::optional<std::vector<std::vector<int>>> find() {
+        std::vector<int> none;
+        if (!grow(none, 0)) return std::nullopt;
+        return std::move(sets_);
     }
-}
+
+  private:
+    // Every set that begins with `sensors` and goes on with offers from `from`; false where there are too
+    // many.
+    bool grow(std::vector<int>& sensors, int from) {
+        for (int next = from; next < offers_; ++next) {
+            sensors.push_back(next);
+            if (constraints_.may_grow(sensors)) {
+                if (constraints_.allow(sensors)) sets_.push_back(sensors);
+                if (sets_.size() > max_candidates || !grow(sensors, next + 1)) return false;
+            }
+            sensors.pop_back();
+        }
+        return true;
+    }
+
+    const SetConstraints& constraints_;
+    int offers_;
+    std::vector<std::vector<int>> sets_;
+};
 
 }  // namespace
 
 std::vector<Candidate> candidates_of(const StudyPlan& plan, const std::vector<SensorOffer>& offers) {
-    const Constraints constraints(plan, offers);
+    const SetConstraints constraints(plan, offers);
     NamedSets sets = named_sets(plan, offers);
     std::erase_if(sets, [&](const auto& set) { return set.first.empty() || !constraints.allow(set.first); });
+    bool is_greedy = plan.placement.search == ComparedSets::greedy;
     if (plan.placement.search == ComparedSets::all) {
-        std::vector<int> sensors;
-        add_all_sets(sets, constraints, sensors, 0, static_cast<int>(offers.size()));
+        const auto all = AllSets(constraints, static_cast<int>(offers.size())).find();
+        is_greedy = !all;
+        for (const std::vector<int>& set : all.value_or(std::vector<std::vector<int>>{})) add(sets, set, "");
+    }
+    if (is_greedy) {
+        if (const auto required = constraints.fewest(); required && !required->empty())
+            add(sets, *required, "");
+        for (const int sensor : constraints.usable())
+            if (constraints.allow({sensor})) add(sets, {sensor}, "");
     }
     if (sets.empty())
         throw InvalidInput(std::vector<KeyProblem>{
@@ -242,7 +184,17 @@ std::vector<Candidate> candidates_of(const StudyPlan& plan, const std::vector<Se
     std::stable_sort(candidates.begin() + 1, candidates.end(), [](const Candidate& a, const Candidate& b) {
         return std::pair(a.price, a.count()) < std::pair(b.price, b.count());
     });
+    if (is_greedy) {
+        const std::vector<int> all = constraints.usable();
+        candidates.push_back({all, {}, price_of(all, offers), true});
+    }
     return candidates;
+}
+
+double price_of(const std::vector<int>& sensors, const std::vector<SensorOffer>& offers) {
+    double price = 0.0;
+    for (const int sensor : sensors) price += offers[static_cast<std::size_t>(sensor)].price;
+    return price;
 }
 
 std::string words_of(const Candidate& candidate, const std::vector<SensorOffer>& offers) {

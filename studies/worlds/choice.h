@@ -78,6 +78,30 @@ class Choice {
     PlacementObjective objective_;
 };
 
+/// The candidates of one price, and those still in the race.
+struct Group {
+    double price = 0.0;
+    int candidates = 0;
+    std::vector<int> left;
+    std::vector<int> settled;  ///< not told from the best, but better by less than the resolution at most
+    int worlds = 0;            ///< that all of those left have run
+};
+
+/// Candidates by price, the cheapest first; of one price in the order given.
+std::vector<Group> groups_of(const Choice& choice, std::vector<int> candidates);
+
+/// Runs the groups on common worlds until the best of each is resolved. `level` of all tests together.
+void race(Choice& choice, std::vector<Group>& groups, double level);
+
+/// The best of those left.
+int best_of(const Choice& choice, const Group& group);
+
+/// Adds sets to the table that grow from what is required by the sensor that lowers the error most; where
+/// prices differ, also by the one that lowers it most per price. After each, every sensor may move to a
+/// neighbouring place. Ends where nothing more is allowed, or where two further sensors in turn gain less
+/// than the resolution.
+void search_greedily(Choice& choice);
+
 /// The best candidate of every price, and which price is worth it; without baselines and what is said beside.
 WorldAnswer choose_of_each_price(Choice& choice);
 

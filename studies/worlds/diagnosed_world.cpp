@@ -1,14 +1,38 @@
 #include "capstan/worlds/diagnosed_world.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "capstan/worlds/world.h"
 
 namespace capstan {
+
+namespace {
+
+// 95% lie within this fraction, either way by the same factor; 0 where no interval was stored.
+double fraction_of(const std::optional<double>& low, const std::optional<double>& high) {
+    if (!low || !high || !(*low > 0.0) || !(*high >= *low)) return 0.0;
+    return std::sqrt(*high / *low) - 1.0;
+}
+
+double deviation_of(const storage::DiagnosisNumberRecord& number) {
+    if (!number.low_in_unit || !number.high_in_unit) return 0.0;
+    return std::max(*number.high_in_unit - *number.low_in_unit, 0.0) / (2.0 * deviations_of_95);
+}
+
+}  // namespace
 
 DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis) {
     DiagnosedWorld world;
     world.truth.friction_ratio = diagnosis.friction_ratio;
     world.truth.stiffness_ratio = diagnosis.stiffness_ratio;
     world.truth.pretension_ratio = diagnosis.pretension_ratio;
+    world.truth.friction_fraction = fraction_of(diagnosis.friction_low_ratio, diagnosis.friction_high_ratio);
+    world.truth.stiffness_fraction =
+        fraction_of(diagnosis.stiffness_low_ratio, diagnosis.stiffness_high_ratio);
+    world.truth.pretension_fraction =
+        fraction_of(diagnosis.pretension_low_ratio, diagnosis.pretension_high_ratio);
     const auto& catalogue = effect_catalogue();
     for (const storage::DiagnosisCauseRecord& cause : diagnosis.causes) {
         // What one cable of a pair has, a single cable can have.
@@ -21,10 +45,15 @@ DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis) {
                                                            : cause.effect + ", " + cause.variant);
             continue;
         }
-        auto& values = world.truth.effects[static_cast<std::size_t>(effect - catalogue.begin())];
+        const auto at = static_cast<std::size_t>(effect - catalogue.begin());
+        std::vector<double>& deviations = world.truth.effect_deviations[at];
+        deviations.assign(effect->parameters.size(), 0.0);
         for (std::size_t p = 0; p < effect->parameters.size(); ++p) {
-            for (const storage::DiagnosisNumberRecord& number : cause.numbers)
-                if (number.name == effect->parameters[p].name) values[p] = number.value_in_unit;
+            for (const storage::DiagnosisNumberRecord& number : cause.numbers) {
+                if (number.name != effect->parameters[p].name) continue;
+                world.truth.effects[at][p] = number.value_in_unit;
+                deviations[p] = deviation_of(number);
+            }
         }
     }
     if (world.truth.has_effects()) world.probability = diagnosis.confidence_fraction;

@@ -24,9 +24,13 @@ static_assert(std::size(condition_names) == conditions);
 // All of the stated widths times `ratio`.
 void widen(StudyPlan& plan, double ratio) {
     Uncertainty& unknown = plan.uncertainty;
-    for (double* width : {&unknown.friction_fraction, &unknown.wrap_fraction, &unknown.stiffness_fraction,
-                          &unknown.pretension_fraction, &unknown.far_end_range_m})
+    for (double* width :
+         {&unknown.friction_fraction, &unknown.wrap_fraction, &unknown.stiffness_fraction,
+          &unknown.pretension_fraction, &unknown.far_end_range_m, &plan.truth.friction_fraction,
+          &plan.truth.stiffness_fraction, &plan.truth.pretension_fraction})
         *width *= ratio;
+    for (std::vector<double>& deviations : plan.truth.effect_deviations)
+        for (double& deviation : deviations) deviation *= ratio;
 }
 
 StudyPlan plan_under(Condition condition, StudyPlan plan) {
@@ -105,7 +109,21 @@ ErrorTable::ErrorTable(const StudyPlan& plan, TableOptions options)
     questions_.resize(conditions);
     rows_.resize(conditions);
     candidates_ = candidates_of(plan_, question_of(Condition::as_stated).offers);
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+        const int number = static_cast<int>(k);
+        if (candidates_[k].is_bound) bound_ = number;
+        number_of_.insert({candidates_[k].sensors, number});
+    }
     for (auto& rows : rows_) rows.resize(candidates_.size());
+}
+
+int ErrorTable::candidate_of(const std::vector<int>& sensors) {
+    const auto [at, is_new] = number_of_.insert({sensors, static_cast<int>(candidates_.size())});
+    if (!is_new) return at->second;
+    candidates_.push_back({sensors, {}, price_of(sensors, offers())});
+    for (auto& rows : rows_) rows.resize(std::max(rows.size(), candidates_.size()));
+    if (options_.keep_candidate) options_.keep_candidate(at->second, candidates_.back());
+    return at->second;
 }
 
 const WorldQuestion& ErrorTable::question_of(Condition condition) {
@@ -121,9 +139,12 @@ const WorldQuestion& ErrorTable::question_of(Condition condition) {
 }
 
 void ErrorTable::take(const TableEntry& entry) {
-    if (entry.candidate < 0 || entry.candidate >= static_cast<int>(candidates_.size()) || entry.world < 0)
-        return;
-    Row& row = rows_[static_cast<std::size_t>(entry.condition)][static_cast<std::size_t>(entry.candidate)];
+    const std::size_t known = candidates_.size() + (grows() ? max_candidates : 0);
+    const auto candidate = static_cast<std::size_t>(entry.candidate);
+    if (entry.candidate < 0 || candidate >= known || entry.world < 0) return;
+    auto& rows = rows_[static_cast<std::size_t>(entry.condition)];
+    if (candidate >= rows.size()) rows.resize(candidate + 1);
+    Row& row = rows[candidate];
     if (static_cast<int>(row.size()) <= entry.world) row.resize(static_cast<std::size_t>(entry.world) + 1);
     row[static_cast<std::size_t>(entry.world)] = entry.error;
 }
@@ -218,6 +239,13 @@ std::vector<TableEntry> ErrorTable::run(Condition condition, const WorldQuestion
 bool ErrorTable::has(Condition condition, int candidate, int world) const {
     const Row& row = rows_[static_cast<std::size_t>(condition)][static_cast<std::size_t>(candidate)];
     return world < static_cast<int>(row.size()) && row[static_cast<std::size_t>(world)].has_value();
+}
+
+std::size_t ErrorTable::entries(Condition condition, int last) const {
+    std::size_t count = 0;
+    for (int candidate = 0; candidate < static_cast<int>(candidates_.size()); ++candidate)
+        for (int world = 0; world < last; ++world) count += has(condition, candidate, world) ? 1 : 0;
+    return count;
 }
 
 const WorldError& ErrorTable::at(Condition condition, int candidate, int world) const {

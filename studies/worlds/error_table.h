@@ -56,8 +56,9 @@ struct TableProgress {
 };
 
 struct TableOptions {
-    int jobs = 0;                                             ///< threads; 0: all processors
-    std::function<void(std::span<const TableEntry>)> keep{};  ///< stores new entries, in order
+    int jobs = 0;                                                 ///< threads; 0: all processors
+    std::function<void(std::span<const TableEntry>)> keep{};      ///< stores new entries, in order
+    std::function<void(int, const Candidate&)> keep_candidate{};  ///< stores one that a search has added
     std::function<void(const TableProgress&)> on_progress{};
     const std::atomic<bool>* stop = nullptr;
 };
@@ -75,7 +76,11 @@ class ErrorTable {
     const std::vector<Candidate>& candidates() const { return candidates_; }
     const StudyPlan& plan() const { return plan_; }
 
-    /// Takes over an entry that was computed before; entries of unknown candidates are ignored.
+    /// The number of this set of sensors (rising); a new one at the end if it is not there yet.
+    int candidate_of(const std::vector<int>& sensors);
+
+    /// Takes over an entry that was computed before. An entry of a candidate that is not there yet is used
+    /// when the candidate is added; in a table without a greedy search it is ignored.
     void take(const TableEntry& entry);
 
     /// An entry that another run computed: fill() takes and keeps it instead of computing it.
@@ -86,6 +91,12 @@ class ErrorTable {
               std::string_view activity, int stride = 1);
 
     bool has(Condition condition, int candidate, int world) const;
+    /// How many entries there are of the worlds before `last`.
+    std::size_t entries(Condition condition, int last) const;
+    /// Whether a greedy search adds candidates, because all sets are too many.
+    bool grows() const { return bound_.has_value(); }
+    /// All usable sensors together; only of a table that grows.
+    std::optional<int> bound() const { return bound_; }
     /// Must be filled.
     const WorldError& at(Condition condition, int candidate, int world) const;
 
@@ -103,6 +114,8 @@ class ErrorTable {
     StudyPlan plan_;
     TableOptions options_;
     std::vector<Candidate> candidates_;
+    std::optional<int> bound_;
+    std::map<std::vector<int>, int> number_of_;              // sensors: candidate
     std::vector<double> paper_weight_;                       // offers; 0: not needed yet
     std::vector<std::unique_ptr<WorldQuestion>> questions_;  // conditions
     std::vector<std::vector<Row>> rows_;                     // conditions x candidates

@@ -8,27 +8,6 @@ namespace capstan {
 
 namespace {
 
-// The candidates of one price, and those still in the race.
-struct Group {
-    double price = 0.0;
-    int candidates = 0;
-    std::vector<int> left;
-    std::vector<int> settled;  ///< not told from the best, but better by less than the resolution at most
-    int worlds = 0;            ///< that all of those left have run
-};
-
-std::vector<Group> groups_of(const std::vector<Candidate>& candidates) {
-    std::vector<Group> groups;
-    for (std::size_t k = 1; k < candidates.size(); ++k) {
-        const double price = candidates[k].price;
-        if (groups.empty() || price > groups.back().price * (1.0 + 1e-9))
-            groups.push_back({price, 0, {}, {}, 0});
-        groups.back().left.push_back(static_cast<int>(k));
-        ++groups.back().candidates;
-    }
-    return groups;
-}
-
 int looks(int worlds) {
     int count = 1;
     for (int at = fewest_worlds; at < worlds; at *= 2) ++count;
@@ -62,31 +41,10 @@ bool narrow(const Choice& choice, Group& group, int worlds, double level) {
     return group.left.size() > 1;
 }
 
-// A quantile of few worlds says nothing, so its race has one look only.
-std::vector<Group> race(Choice& choice, std::size_t& trials) {
-    std::vector<Group> groups = groups_of(choice.table().candidates());
-    const bool in_rounds = choice.objective() != PlacementObjective::quantile_95;
-    const double level =
-        alpha / (static_cast<double>(choice.candidates()) * (in_rounds ? looks(choice.worlds()) : 1));
-    int worlds = in_rounds ? std::min(fewest_worlds, choice.worlds()) : choice.worlds();
-    std::vector<Group*> open;
-    for (Group& group : groups) open.push_back(&group);
-    for (int before = 0;; before = worlds, worlds = std::min(2 * worlds, choice.worlds())) {
-        std::vector<int> running;
-        for (const Group* group : open) running.insert(running.end(), group->left.begin(), group->left.end());
-        choice.fill(Condition::as_stated, running, before, worlds, "comparing sets of sensors");
-        for (Group* group : open) group->worlds = worlds;
-        trials += running.size() * static_cast<std::size_t>(worlds - before);
-        std::erase_if(open, [&](Group* group) { return !narrow(choice, *group, worlds, level); });
-        if (worlds == choice.worlds() || open.empty()) break;
-    }
-    return groups;
-}
-
 std::vector<PriceBest> best_of_each_price(Choice& choice, std::vector<Group>& groups) {
     std::vector<int> winners;
     for (Group& group : groups) {
-        const int best = best_of(choice, group.left, group.worlds);
+        const int best = best_of(choice, group);
         std::erase(group.left, best);
         group.left.insert(group.left.begin(), best);
         winners.push_back(best);
@@ -139,13 +97,54 @@ std::optional<std::size_t> recommended_of(const Choice& choice, const WorldAnswe
 
 }  // namespace
 
+std::vector<Group> groups_of(const Choice& choice, std::vector<int> candidates) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](int a, int b) { return choice.candidate(a).price < choice.candidate(b).price; });
+    std::vector<Group> groups;
+    for (const int candidate : candidates) {
+        const double price = choice.candidate(candidate).price;
+        if (groups.empty() || price > groups.back().price * (1.0 + 1e-9))
+            groups.push_back({price, 0, {}, {}, 0});
+        groups.back().left.push_back(candidate);
+        ++groups.back().candidates;
+    }
+    return groups;
+}
+
+// A quantile of few worlds says nothing, so its race has one look only.
+void race(Choice& choice, std::vector<Group>& groups, double level) {
+    const bool in_rounds = choice.objective() != PlacementObjective::quantile_95;
+    const double of_test = level / (in_rounds ? looks(choice.worlds()) : 1);
+    int worlds = in_rounds ? std::min(fewest_worlds, choice.worlds()) : choice.worlds();
+    std::vector<Group*> open;
+    for (Group& group : groups) open.push_back(&group);
+    for (int before = 0;; before = worlds, worlds = std::min(2 * worlds, choice.worlds())) {
+        std::vector<int> running;
+        for (const Group* group : open) running.insert(running.end(), group->left.begin(), group->left.end());
+        choice.fill(Condition::as_stated, running, before, worlds, "comparing sets of sensors");
+        for (Group* group : open) group->worlds = worlds;
+        std::erase_if(open, [&](Group* group) { return !narrow(choice, *group, worlds, of_test); });
+        if (worlds == choice.worlds() || open.empty()) break;
+    }
+}
+
+int best_of(const Choice& choice, const Group& group) {
+    return best_of(choice, group.left, group.worlds);
+}
+
 WorldAnswer choose_of_each_price(Choice& choice) {
+    if (choice.table().grows()) search_greedily(choice);
     WorldAnswer answer;
     answer.offers = choice.table().offers();
     answer.candidates = choice.table().candidates();
     answer.worlds = choice.worlds();
     answer.resolution_N = choice.resolution_N();
-    std::vector<Group> groups = race(choice, answer.trials);
+    std::vector<int> compared;
+    for (int k = 1; k < choice.candidates(); ++k)
+        if (!choice.candidate(k).is_bound) compared.push_back(k);
+    std::vector<Group> groups = groups_of(choice, compared);
+    race(choice, groups, alpha / static_cast<double>(choice.candidates()));
+    answer.trials = choice.table().entries(Condition::as_stated, choice.worlds());
     answer.prices = best_of_each_price(choice, groups);
     answer.no_sensor = choice.expected(0);
     answer.recommended = recommended_of(choice, answer, choice.table().plan().worthwhile_gain_N);

@@ -28,6 +28,11 @@ std::string sensors_json(const Candidate& candidate, const std::vector<SensorOff
     return fmt::format("[{}]", fmt::join(sensors, ","));
 }
 
+storage::WorldCandidateRecord record_of(const Candidate& candidate, const std::vector<SensorOffer>& offers) {
+    return {sensors_json(candidate, offers), words_of(candidate, offers),
+            fmt::format("{}", fmt::join(candidate.names, " ")), candidate.count(), candidate.price};
+}
+
 storage::WorldErrorRecord record_of(const TableEntry& entry) {
     const WorldError& error = entry.error;
     return {entry.candidate,      std::string(name_of(entry.condition)),
@@ -102,6 +107,14 @@ std::string_view thing_known(Condition condition) {
     }
 }
 
+std::string bound_words(const WorldAnswer& answer) {
+    if (!answer.bound) return {};
+    const Estimated& gap = answer.bound->gap;
+    return fmt::format(
+        " No allowed set is better by more than {:.3f} N{} (Monte-Carlo interval {:.3f} to {:.3f} N).",
+        gap.value_N, answer.bound->is_of_rms ? " in its root mean square error" : "", gap.low_N, gap.high_N);
+}
+
 }  // namespace
 
 std::string sentence_of(const StudyPlan& plan, const WorldAnswer& answer) {
@@ -109,13 +122,15 @@ std::string sentence_of(const StudyPlan& plan, const WorldAnswer& answer) {
     if (!answer.recommended) {
         return fmt::format(
             "No set of sensors is better than none: {} The cheapest set, {}, changes it by {:.3f} N "
-            "({:.3f} to {:.3f} N).",
+            "({:.3f} to {:.3f} N).{}",
             expectation(objective, answer.no_sensor), answer.words(answer.best().expected.candidate),
-            -answer.gain_over_none.value_N, -answer.gain_over_none.high_N, -answer.gain_over_none.low_N);
+            -answer.gain_over_none.value_N, -answer.gain_over_none.high_N, -answer.gain_over_none.low_N,
+            bound_words(answer));
     }
     std::string text = fmt::format(
         "Use {}. {} Without any sensor it is {:.3f} N.", answer.words(answer.best().expected.candidate),
         expectation(objective, answer.best().expected), answer.no_sensor.objective.value_N);
+    text += bound_words(answer);
     if (answer.further)
         text +=
             fmt::format(" A further sensor gains {:.3f} N ({:.3f} to {:.3f} N).", answer.further_gain.value_N,
@@ -150,9 +165,7 @@ storage::StudyDescription describe_worlds(const StudyPlan& plan, const std::stri
     }
     const std::vector<SensorOffer> offers = sensor_offers(plan);
     for (const Candidate& candidate : candidates_of(plan, offers))
-        description.world_candidates.push_back({sensors_json(candidate, offers), words_of(candidate, offers),
-                                                fmt::format("{}", fmt::join(candidate.names, " ")),
-                                                candidate.count(), candidate.price});
+        description.world_candidates.push_back(record_of(candidate, offers));
     return description;
 }
 
@@ -167,6 +180,12 @@ namespace {
 ErrorTable stored_table(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
                         TableOptions options, bool is_complete) {
     if (!is_complete) {
+        const auto stored = static_cast<int>(storage::load_study(database, study_id).world_candidates.size());
+        options.keep_candidate = [&database, study_id, stored, offers = sensor_offers(plan)](
+                                     int number, const Candidate& candidate) {
+            if (number >= stored)
+                storage::add_world_candidate(database, study_id, number, record_of(candidate, offers));
+        };
         options.keep = [&database, study_id](std::span<const TableEntry> entries) {
             std::vector<storage::WorldErrorRecord> records;
             for (const TableEntry& entry : entries) records.push_back(record_of(entry));
@@ -190,6 +209,11 @@ WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const
     WorldAnswer answer = choose_sensors(table);
     if (!is_complete) storage::finish_world_study(database, study_id, recommendation_record(plan, answer));
     return answer;
+}
+
+ErrorTable complete_table(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                          const TableOptions& options) {
+    return stored_table(database, study_id, plan, options, true);
 }
 
 void fill_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,

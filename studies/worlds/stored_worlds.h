@@ -29,6 +29,10 @@ WorldAnswer run_worlds(storage::Database& database, std::int64_t study_id, const
 void fill_worlds(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
                  const TableOptions& options, int first, int last, int stride);
 
+/// The table of a complete study; what it computes beyond that is not stored.
+ErrorTable complete_table(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
+                          const TableOptions& options);
+
 /// The answer without a database.
 WorldAnswer run_worlds(const StudyPlan& plan, const TableOptions& options);
 

@@ -29,9 +29,43 @@ double log_factor(const Uncertainty& uncertainty, double fraction, double normal
     return std::log(std::max(1.0 + width * evenly, 0.01));
 }
 
+bool is_as_truth_says(const WorldQuestion& question, std::uint32_t index) {
+    const double normal = standard_normals({question.seed, RandomPurpose::world_cable, 1, index, 0})[0];
+    return 0.5 * std::erfc(-normal / std::numbers::sqrt2) < question.uncertainty.truth_probability;
+}
+
+// The stated uncertainty; where the truth's own is known, that of the truth.
+Uncertainty uncertainty_of(const WorldQuestion& question, std::uint32_t index) {
+    Uncertainty unknown = question.uncertainty;
+    if (!is_as_truth_says(question, index)) return unknown;
+    const TrueCable& truth = question.truth;
+    if (truth.friction_fraction > 0.0) unknown.friction_fraction = truth.friction_fraction;
+    if (truth.stiffness_fraction > 0.0) unknown.stiffness_fraction = truth.stiffness_fraction;
+    if (truth.pretension_fraction > 0.0) unknown.pretension_fraction = truth.pretension_fraction;
+    return unknown;
+}
+
+// The effects of a world that is as the truth says.
+EffectValues draw_effects(const WorldQuestion& question, std::uint32_t index) {
+    EffectValues effects = question.truth.effects;
+    std::uint32_t which = 0;
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+        const std::vector<double>& deviations = question.truth.effect_deviations[e];
+        for (std::size_t p = 0; p < effects[e].size(); ++p, ++which) {
+            if (p >= deviations.size() || deviations[p] <= 0.0) continue;
+            const EffectParameter& parameter = effect_catalogue()[e].parameters[p];
+            const double normal =
+                standard_normals({question.seed, RandomPurpose::world_cable, 2, index, which})[0];
+            effects[e][p] += question.uncertainty.worlds_ratio * deviations[p] * normal;
+            effects[e][p] = std::clamp(effects[e][p], parameter.low, parameter.high);
+        }
+    }
+    return effects;
+}
+
 CableFactors draw_factors(const WorldQuestion& question, std::uint32_t index, int cable) {
     const auto first = static_cast<std::uint32_t>(cable * EnsembleCable::drawn_numbers(question.cable));
-    const Uncertainty& unknown = question.uncertainty;
+    const Uncertainty unknown = uncertainty_of(question, index);
     const auto factor = [&](double fraction, std::uint32_t which) {
         return log_factor(
             unknown, fraction,
@@ -103,7 +137,7 @@ class TrueMover {
         pair_state_.cable_a = pretensioned(first);
         begun_m_ = pair_state_.cable_a.displacement_m.front();
         if (!question.truth.has_effects() || !is_as_truth_says(question, index)) return;
-        effects_.emplace(specification_of(question, world.factors[0], index), question.truth.effects,
+        effects_.emplace(specification_of(question, world.factors[0], index), draw_effects(question, index),
                          question.motion.sample_rate_Hz);
     }
 
@@ -135,10 +169,6 @@ class TrueMover {
                 : EndCondition::position_m(far_end_m);
         return step_->advance(pair_state_.cable_a, {EndCondition::position_m(begun_m_ + proximal_m), distal})
             .verified;
-    }
-    static bool is_as_truth_says(const WorldQuestion& question, std::uint32_t index) {
-        const double normal = standard_normals({question.seed, RandomPurpose::world_cable, 1, index, 0})[0];
-        return 0.5 * std::erfc(-normal / std::numbers::sqrt2) < question.uncertainty.truth_probability;
     }
     static CableSpecification specification_of(const WorldQuestion& question, const CableFactors& factors,
                                                std::uint32_t index) {

@@ -19,19 +19,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of so many sets every one runs in every world.
+// Of so many sets every one runs in every world, unless a greedy search follows.
 constexpr std::size_t few_candidates = 100;
 
-// The worlds that shards run, of all candidates.
-int sharded_worlds(const StudyPlan& plan, std::size_t candidates) {
-    return candidates <= few_candidates ? 2 * plan.repetitions : std::min(fewest_worlds, plan.repetitions);
+// What shards run: all candidates that a study begins with, in so many worlds.
+struct Sharded {
+    std::size_t candidates = 0;
+    int worlds = 0;
+};
+
+Sharded sharded(const StudyPlan& plan) {
+    const std::vector<Candidate> candidates = candidates_of(plan, sensor_offers(plan));
+    const bool is_few = candidates.size() <= few_candidates && !candidates.back().is_bound;
+    return {candidates.size(), is_few ? 2 * plan.repetitions : std::min(fewest_worlds, plan.repetitions)};
 }
 
 // How many errors the shard holds when it is done.
-std::size_t errors_of(const StudyPlan& plan, std::size_t candidates, const storage::ShardRecord& shard) {
-    const int worlds = sharded_worlds(plan, candidates);
-    const int own = (worlds - shard.shard) / shard.shards + (worlds >= shard.shard ? 1 : 0);
-    return candidates * static_cast<std::size_t>(std::max(own, 0));
+std::size_t errors_of(const StudyPlan& plan, const storage::ShardRecord& shard) {
+    const Sharded all = sharded(plan);
+    const int own = (all.worlds - shard.shard) / shard.shards + (all.worlds >= shard.shard ? 1 : 0);
+    return all.candidates * static_cast<std::size_t>(std::max(own, 0));
 }
 
 std::string words(const storage::ShardRecord& shard) {
@@ -97,7 +104,7 @@ WorldShards read_shards(const std::vector<fs::path>& paths) {
             continue;
         }
         auto errors = storage::read_world_errors(database, id);
-        const std::size_t all = errors_of(shards.plan, study.world_candidates.size(), *mark);
+        const std::size_t all = errors_of(shards.plan, *mark);
         if (errors.size() < all)
             problems.push_back(fmt::format(
                 "{} is unfinished: {} of its {} trials are done; go on with: capstan study run CONFIG --shard {}/{} "
@@ -136,12 +143,11 @@ std::optional<WorldShardState> read_world_shard_state(storage::Database& databas
     const storage::StudyDescription study = storage::load_study(database, id);
     const StudyPlan plan =
         config::parse_config(study.study.config_toml, "the stored configuration of the shard").plan;
-    return WorldShardState{storage::read_world_errors(database, id).size(),
-                           errors_of(plan, study.world_candidates.size(), *mark)};
+    return WorldShardState{storage::read_world_errors(database, id).size(), errors_of(plan, *mark)};
 }
 
 void require_worlds_for(const StudyPlan& plan, int shards) {
-    const int worlds = sharded_worlds(plan, candidates_of(plan, sensor_offers(plan)).size());
+    const int worlds = sharded(plan).worlds;
     if (shards > worlds)
         throw InvalidInput(
             {fmt::format("there are only {} worlds to deal out, so {} shards would leave some "
@@ -152,10 +158,9 @@ void require_worlds_for(const StudyPlan& plan, int shards) {
 void run_world_shard(storage::Database& database, const StudyPlan& plan, const storage::ShardRecord& shard,
                      const std::string& program_version, const TableOptions& options) {
     const storage::StudyDescription description = describe_worlds(plan, program_version);
-    const std::size_t candidates = description.world_candidates.size();
     require_worlds_for(plan, shard.shards);
     const std::int64_t id = begin_or_find(database, shard, description);
-    fill_worlds(database, id, plan, options, shard.shard - 1, sharded_worlds(plan, candidates), shard.shards);
+    fill_worlds(database, id, plan, options, shard.shard - 1, sharded(plan).worlds, shard.shards);
 }
 
 void merge_world_shards(const fs::path& merged, const std::vector<fs::path>& paths,

@@ -23,6 +23,7 @@ std::optional<int> set_of(const Choice& choice, const std::vector<SensorOffer>& 
                           std::vector<SensorKind> kinds, int candidates) {
     std::sort(kinds.begin(), kinds.end());
     for (int k = 1; k < candidates; ++k) {
+        if (choice.candidate(k).is_bound) continue;
         std::vector<SensorKind> own;
         for (const int sensor : choice.candidate(k).sensors)
             own.push_back(offers[static_cast<std::size_t>(sensor)].kind);
@@ -127,6 +128,41 @@ void add_robustness(Choice& choice, WorldAnswer& answer) {
     }
 }
 
+// Root mean square errors have no mean over worlds of their own; to first order each world adds this.
+std::vector<double> rms_parts(Choice& choice, int candidate, int first, int last) {
+    std::vector<double> parts;
+    double mean_N2 = 0.0;
+    for (int world = first; world < last; ++world) {
+        parts.push_back(choice.table().at(Condition::as_stated, candidate, world).mean_square_N2);
+        mean_N2 += parts.back() / (last - first);
+    }
+    const double rms_N = std::sqrt(mean_N2);
+    for (double& part : parts) part = rms_N + (part - mean_N2) / (2.0 * std::max(rms_N, 1e-12));
+    return parts;
+}
+
+void add_bound(Choice& choice, WorldAnswer& answer) {
+    if (!choice.table().grows()) return;
+    const int all = choice.table().bound().value();
+    const int first = choice.worlds();
+    const int last = 2 * first;
+    choice.fill(Condition::as_stated, std::vector{all}, first, last, "all sensors together");
+    SearchBound& bound = answer.bound.emplace();
+    bound.all = choice.expected(all);
+    bound.is_of_rms = choice.objective() == PlacementObjective::worst_node ||
+                      choice.objective() == PlacementObjective::quantile_95;
+    const auto gap_of = [&](int candidate) {
+        Estimated gap = bound.is_of_rms ? mean_of(differences(rms_parts(choice, candidate, first, last),
+                                                              rms_parts(choice, all, first, last)))
+                                        : choice.paired(Condition::as_stated, candidate, Condition::as_stated,
+                                                        all, first, last);
+        for (double* end : {&gap.value_N, &gap.low_N, &gap.high_N}) *end = std::max(*end, 0.0);
+        return gap;
+    };
+    bound.gap = gap_of(answer.recommended ? answer.best().expected.candidate : 0);
+    for (const PriceBest& best : answer.prices) bound.of_prices.push_back(gap_of(best.expected.candidate));
+}
+
 // Richardson: coarse - exact = (coarse - finer) / (1 - 2^-order).
 void add_grid(Choice& choice, WorldAnswer& answer) {
     const int candidate = answer.best().expected.candidate;
@@ -171,6 +207,7 @@ WorldAnswer choose_sensors(ErrorTable& table) {
     WorldAnswer answer = choose_of_each_price(choice);
     add_baselines(choice, answer);
     add_further(choice, answer);
+    add_bound(choice, answer);
     add_knowledge(choice, answer);
     add_robustness(choice, answer);
     add_grid(choice, answer);

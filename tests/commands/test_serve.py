@@ -74,6 +74,26 @@ class Serve(ServiceTest):
                       {"regime": "partial_both"}, {"noise": 2}, {"nodes": "all"}):
             self.post("/api/studies/1/layout", {**moved, **wrong}, expect=400)
 
+    def test_sensors_by_hand_of_a_study_over_worlds_get_its_errors(self):
+        self.run_capstan("study", "run", CONFIGS / "wrist-exosuit.toml", "--repetitions", "20", "--db", "served.db")
+        before = self.tables("served.db")
+        self.serve()
+        offered = self.get("/api/studies/1/sensors")
+        advice = self.get("/api/studies/1/recommendation")["recommendations"][0]
+        chosen = [offered["sensors"][sensor - 1] for sensor in offered["recommended"]]
+        self.assertEqual([(each["kind"], each["place_m"]) for each in chosen],
+                         [(each["kind"], each["place_m"]) for each in advice["sensors"]])
+        placed = self.post("/api/studies/1/sensors", {"sensors": offered["recommended"][::-1]})
+        for key in ("expected_error_N", "monte_carlo_interval_N", "error_95_N", "set"):
+            self.assertEqual(placed[key], advice[key], key)
+        self.assertFalse(placed["distinguishable"])
+        poor = self.post("/api/studies/1/sensors", {"sensors": [1]})
+        self.assertGreater(poor["worse_than_recommended_N"], 0)
+        for sensors in ([], [1, 1], [0], [999], "1"):
+            self.post("/api/studies/1/sensors", {"sensors": sensors}, expect=400)
+        self.post("/api/studies/1/layout", {"nodes": [1], "method": "mean", "regime": "mass", "noise": 1}, expect=400)
+        self.assert_same_bits(before, self.tables("served.db"))
+
     def test_stopped_and_resumed(self):
         toml = with_repetitions(LONG, 300)
         expected = self.at_the_shell(toml)

@@ -33,10 +33,20 @@ DiagnosisRecord example_diagnosis() {
     record.independent_samples_count = 431.5;
     record.sentence = "Two causes.";
     record.gap_sentence = "Mostly after reversals.";
+    record.friction_low_ratio = 0.98;
+    record.friction_high_ratio = 1.04;
+    record.stiffness_low_ratio = 0.97;
+    record.stiffness_high_ratio = 1.01;
+    record.pretension_low_ratio = 1.01;
+    record.pretension_high_ratio = 1.03;
     record.effects = {{"backlash", 0.48}, {"drift", 0.47}, {"unknown", 0.05}};
-    record.causes = {
-        {"backlash", "", "motor", "", std::nullopt, {{"half_width", 0.01, "rad"}}},
-        {"drift", "linear", "sensor", "motor", 0.25, {{"ratio", 0.5, ""}, {"slope", 2.0, "N/s"}}}};
+    record.causes = {{"backlash", "", "motor", "", std::nullopt, {{"half_width", 0.01, "rad", 0.008, 0.012}}},
+                     {"drift",
+                      "linear",
+                      "sensor",
+                      "motor",
+                      0.25,
+                      {{"ratio", 0.5, "", {}, {}}, {"slope", 2.0, "N/s", 1.5, 2.5}}}};
     record.candidates = {{R"(["backlash","drift"])", R"(["","linear"])", 3, 1.25, 0.5, "[3.0,2.5]", -40.0},
                          {R"(["none"])", R"([""])", 0, 12.5, 0.0, "[]", -900.0}};
     record.channels = {{"motor_angle", "rad", 1e-4, 2e-4, 1e-4, 1.1e-4, 1.5e-4, {}, {}, {}},

@@ -1,6 +1,7 @@
 // Migrating: an older file gets what later versions added and keeps what it holds.
 #include <gtest/gtest.h>
 
+#include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/migration.h"
 #include "capstan/storage/schema.h"
 #include "example_study.h"
@@ -42,6 +43,34 @@ TEST(Migrating, AVersionWithoutAMigrationIsRefused) {
     const TemporaryFolder folder;
     Database database = Database::open_or_create(folder / "results.db");
     expect_says(error_of([&] { migrate(database, {}, schema_version + 1); }), "knows no way");
+}
+
+// A diagnosis of version 2 has no intervals, and keeps everything else.
+TEST(Migrating, ADiagnosisOfVersionTwoOpensWithoutIntervals) {
+    const TemporaryFolder folder;
+    {
+        Database database = Database::open_or_create(folder / "results.db");
+        DiagnosisRecord diagnosis;
+        diagnosis.runs = "[1]";
+        diagnosis.friction_ratio = 1.1;
+        diagnosis.friction_low_ratio = 1.0;
+        diagnosis.causes = {{"creep", "", "cable_a", "", {}, {{"fraction", 0.1, "", 0.05, 0.2}}}};
+        write_diagnosis(database, diagnosis);
+        for (const char* ratio : {"friction", "stiffness", "pretension"})
+            for (const char* end : {"low", "high"})
+                database.execute(
+                    std::string("ALTER TABLE diagnosis DROP COLUMN ") + ratio + "_" + end + "_ratio",
+                    "go back");
+        database.execute("ALTER TABLE diagnosis_number DROP COLUMN low_in_unit", "go back");
+        database.execute("ALTER TABLE diagnosis_number DROP COLUMN high_in_unit", "go back");
+        database.execute("PRAGMA user_version = 2", "go back");
+    }
+    Database database = Database::open_existing(folder / "results.db");
+    const DiagnosisRecord old = load_diagnosis(database, 1);
+    EXPECT_EQ(old.friction_ratio, 1.1);
+    EXPECT_FALSE(old.friction_low_ratio);
+    EXPECT_EQ(old.causes.at(0).numbers.at(0).value_in_unit, 0.1);
+    EXPECT_FALSE(old.causes.at(0).numbers.at(0).low_in_unit);
 }
 
 TEST(Migrating, EveryOlderVersionHasAMigration) {

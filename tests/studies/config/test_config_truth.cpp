@@ -64,5 +64,21 @@ TEST_F(TruthFile, RefusesEffectsOfPulleys) {
     EXPECT_THROW(read("[truth.pulley_friction_motor]\ncoulomb_Nm = 0.01\n"), ConfigError);
 }
 
+// What a stored study needs to go on without the diagnosis.
+TEST(TruthOfWorlds, KeepsItsSpreadInTheConfigurationAndChecksItsShape) {
+    StudyPlan plan = parse_config("[uncertainty]\n", "arm").plan;
+    plan.truth.friction_fraction = 0.04;
+    std::size_t e = 0;
+    while (effect_catalogue()[e].name != "viscous_friction") ++e;
+    plan.truth.effect_deviations[e] = {0.25};
+    const std::string text = config_text(plan, Comments::none);
+    const TrueCable back = parse_config(text, "stored").plan.truth;
+    EXPECT_EQ(back.friction_fraction, 0.04);
+    EXPECT_EQ(back.effect_deviations, plan.truth.effect_deviations);
+    plan.truth.effect_deviations[e] = {0.25, 0.5};
+    EXPECT_THROW(parse_config(config_text(plan, Comments::none), "stored"), ConfigError);
+    EXPECT_THROW(parse_config("[truth]\nfriction_fraction = 0.04\n", "instants"), ConfigError);
+}
+
 }  // namespace
 }  // namespace capstan::config

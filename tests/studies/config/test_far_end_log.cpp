@@ -109,6 +109,15 @@ TEST_F(FarEndLog, ABadOneIsRefusedWithItsFileAndLine) {
     EXPECT_NE(refused().find("no samples"), std::string::npos) << refused();
 }
 
+// The log is read when the rest is right; until then nothing is said of its samples.
+TEST_F(FarEndLog, IsNotMissedWhereAnEarlierProblemKeptItFromBeingRead) {
+    write_sine(0.01, 0.5, 20.0);
+    write("arm.toml",
+          std::string(arm) + "\n[transmission]\ncentre_line = \"no.csv\"\ncentre_line_noise_m = 1e-4\n");
+    EXPECT_NE(refused().find("no.csv"), std::string::npos) << refused();
+    EXPECT_EQ(refused().find("uncertainty.far_end"), std::string::npos) << refused();
+}
+
 TEST_F(FarEndLog, ATextAloneNeedsTheSamples) {
     try {
         parse_config(arm, "posted");

@@ -6,34 +6,12 @@
 
 #include "capstan/platform/parallel_for.h"
 #include "capstan/worlds/choice.h"
+#include "world_plans.h"
 
 namespace capstan {
 namespace {
 
-StudyPlan small_plan(std::uint64_t seed, int worlds) {
-    StudyPlan plan;
-    plan.name = "small";
-    plan.seed = seed;
-    plan.repetitions = worlds;
-    plan.transmission.cable = {.curvature = {{0.4, straight}, {0.3, 0.1}, {0.3, straight}},
-                               .segments = 6,
-                               .axial_stiffness_N = 9000.0,
-                               .dynamic_friction = 0.12,
-                               .static_friction = 0.16,
-                               .pretension_N = 15.0};
-    plan.motion.proximal = {.kind = EndKind::position, .amplitude = 0.002, .frequency_Hz = 1.0};
-    plan.motion.distal.kind = EndKind::position;
-    plan.motion.sample_rate_Hz = 50.0;
-    plan.motion.samples = 40;
-    plan.uncertainty.is_stated = true;
-    plan.uncertainty.far_end_range_m = 0.001;
-    plan.uncertainty.members = 32;
-    plan.layout_families = {"even", "distal", "both"};
-    plan.sensor_counts = {1, 2, 3};
-    plan.noise_levels = {{"3 %", {.multiplicative_ratio = 0.03, .additive_N = 0.1}}};
-    plan.worthwhile_gain_N = 0.02;
-    return plan;
-}
+using testing::small_plan;
 
 TEST(IntervalCoverage, TheMonteCarloIntervalHoldsTheExpectedErrorAsOftenAsItSays) {
     constexpr int studies = 400;

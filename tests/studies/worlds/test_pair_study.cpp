@@ -5,37 +5,12 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/worlds/sensor_places.h"
 #include "capstan/worlds/world_study.h"
+#include "world_plans.h"
 
 namespace capstan {
 namespace {
 
-StudyPlan pair_plan() {
-    StudyPlan plan;
-    plan.name = "pair";
-    plan.seed = 4;
-    plan.repetitions = 40;
-    plan.transmission.arrangement = CableArrangement::pull_pull;
-    plan.transmission.cable = {.curvature = {{0.4, straight}, {0.2, 0.12}, {0.2, straight}, {0.2, 0.08}},
-                               .segments = 8,
-                               .axial_stiffness_N = 9000.0,
-                               .dynamic_friction = 0.12,
-                               .static_friction = 0.16,
-                               .pretension_N = 30.0};
-    plan.motion.proximal = {.kind = EndKind::position, .amplitude = 0.0015, .frequency_Hz = 1.0};
-    plan.motion.distal.kind = EndKind::position;
-    plan.motion.sample_rate_Hz = 100.0;
-    plan.motion.samples = 80;
-    plan.uncertainty.is_stated = true;
-    plan.uncertainty.far_end_range_m = 0.001;
-    plan.uncertainty.members = 64;
-    plan.sensors = {{SensorKind::motor_torque, {}, {0.02, 0.5, 0.0, 0.0}, 1.0},
-                    {SensorKind::load_displacement, {}, {0.0, 1e-4, 0.0, 0.0}, 2.0},
-                    {SensorKind::tension, {0.0, 1.0}, {0.02, 0.5, 0.0, 0.0}, 3.0}};
-    plan.layout_families = {"distal"};
-    plan.sensor_counts = {1};
-    plan.worthwhile_gain_N = 0.02;
-    return plan;
-}
+using testing::pair_plan;
 
 TEST(PairStudy, OffersTensionSensorsOnBothCablesAndNamesThem) {
     StudyPlan plan = pair_plan();

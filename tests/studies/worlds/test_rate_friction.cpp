@@ -4,35 +4,12 @@
 #include <string>
 
 #include "capstan/worlds/error_table.h"
+#include "world_plans.h"
 
 namespace capstan {
 namespace {
 
-// An arm between two ends whose positions are given, in fast motion.
-StudyPlan fast_arm() {
-    StudyPlan plan;
-    plan.name = "fast arm";
-    plan.seed = 5;
-    plan.repetitions = 40;
-    plan.transmission.cable = {.curvature = {{0.4, straight}, {0.2, 0.12}, {0.2, straight}, {0.2, 0.08}},
-                               .segments = 20,
-                               .axial_stiffness_N = 9000.0,
-                               .dynamic_friction = 0.12,
-                               .static_friction = 0.12,
-                               .pretension_N = 25.0};
-    plan.motion.proximal = {.kind = EndKind::position, .amplitude = 0.002, .frequency_Hz = 1.0};
-    plan.motion.distal.kind = EndKind::position;
-    plan.motion.sample_rate_Hz = 100.0;
-    plan.motion.samples = 150;
-    plan.uncertainty.is_stated = true;
-    plan.uncertainty.far_end_range_m = 0.001;
-    plan.uncertainty.members = 64;
-    plan.sensors = {{SensorKind::tension, {0.0, 1.0}, {0.03, 0.5, 0.0, 0.0}, 1.0}};
-    plan.explicit_layouts = {};
-    plan.layout_families = {"both", "distal"};
-    plan.sensor_counts = {1, 2};
-    return plan;
-}
+using testing::fast_arm;
 
 void add_effect(StudyPlan& plan, const std::string& name, std::vector<double> values) {
     for (std::size_t e = 0; e < effect_catalogue().size(); ++e)

@@ -1,0 +1,90 @@
+// How well the numbers of a fit are known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "capstan/gap/cause_fit.h"
+#include "session_with_effects.h"
+
+namespace capstan::gap {
+namespace {
+
+constexpr double true_drag = 2.0;
+
+Recording session_with_drag() {
+    BenchNumbers numbers;
+    numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = true_drag;
+    return exact_session(numbers, coarse_twin);
+}
+
+// An error that stays for half a second, as a model's error does.
+void add_slow_error(Recording& recording, double size) {
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> normal;
+    for (RecordedRun& run : recording.runs) {
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            if (run.drives(recording.channels[channel].name)) continue;
+            double error = 0.0;
+            const auto hold = static_cast<std::size_t>(0.5 * recording.sample_rate_Hz);
+            for (std::size_t sample = 0; sample < run.values[channel].size(); ++sample) {
+                if (sample % hold == 0) error = size * normal(random);
+                run.values[channel][sample] += error;
+            }
+        }
+    }
+}
+
+struct DragFit {
+    OpenNumber number;
+    CauseFit fit;
+    Eigen::VectorXd widths;
+
+    double low() const { return number.value(fit.coordinates[3] - widths[3]); }
+    double high() const { return number.value(fit.coordinates[3] + widths[3]); }
+};
+
+DragFit fit_drag(const Recording& recording) {
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes = candidate_causes(recording);
+    for (const CandidateCause& cause : causes) {
+        if (cause.effect != "viscous_friction") continue;
+        Eigen::VectorXd start = Eigen::VectorXd::Zero(nominal_coordinates + 1);
+        start[3] = 1.0;
+        const CauseFit fit = fitter.fit({{&cause}, start}, {});
+        return {cause.numbers.front(), fit, fitter.half_widths(fit, {})};
+    }
+    throw std::out_of_range("viscous_friction");
+}
+
+TEST(FitIntervals, HoldTheTrueNumberAndGrowWithTheModelsError) {
+    const DragFit exact = fit_drag(session_with_drag());
+    EXPECT_LT(exact.low(), true_drag);
+    EXPECT_GT(exact.high(), true_drag);
+    Recording rough = session_with_drag();
+    add_slow_error(rough, 0.05);
+    const DragFit disturbed = fit_drag(rough);
+    EXPECT_LT(disturbed.low(), true_drag);
+    EXPECT_GT(disturbed.high(), true_drag);
+    EXPECT_GT(disturbed.widths[3], 1.5 * exact.widths[3]);
+}
+
+// Without an error of the model, only noise and priors leave something open.
+TEST(FitIntervals, OfNominalNumbersAreNeverWiderThanTheirPriorsOnAnExactRecording) {
+    const DragFit exact = fit_drag(session_with_drag());
+    for (int k = 0; k < nominal_coordinates; ++k) {
+        EXPECT_GT(exact.widths[k], 0.0);
+        EXPECT_LE(exact.widths[k], 1.96 * nominal_log_std * 1.0001);
+    }
+}
+
+TEST(FitIntervals, TheJackknifeNeedsThreeRunsAndFollowsTheirSpread) {
+    const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
+    EXPECT_EQ(jackknife_half_widths({one(1.0), one(2.0)}, 1)[0], 0.0);
+    // Leave-one-out values 1, 2, 3: standard error sqrt(2/3 * 2), Student's t of 2 degrees 4.303.
+    EXPECT_NEAR(jackknife_half_widths({one(1.0), one(2.0), one(3.0)}, 1)[0], 4.303 * std::sqrt(4.0 / 3.0),
+                2e-3);
+}
+
+}  // namespace
+}  // namespace capstan::gap

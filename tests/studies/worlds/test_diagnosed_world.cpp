@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "capstan/worlds/diagnosed_world.h"
+#include "capstan/worlds/world_trial.h"
+#include "world_plans.h"
+
+namespace capstan {
+namespace {
+
+using testing::arm_plan;
+
+storage::DiagnosisRecord drag_diagnosis() {
+    storage::DiagnosisRecord diagnosis;
+    diagnosis.confidence_fraction = 0.9;
+    diagnosis.friction_ratio = 1.2;
+    diagnosis.causes = {
+        {"viscous_friction", "", "cable_a", "", {}, {{"drag_Ns_per_m2", 4.0, "N s/m2", {}, {}}}}};
+    return diagnosis;
+}
+
+std::size_t viscous() {
+    std::size_t at = 0;
+    while (effect_catalogue()[at].name != "viscous_friction") ++at;
+    return at;
+}
+
+// The standard deviation over worlds of a number of each world.
+template <class Number>
+double spread_of(const StudyPlan& plan, const Number& number) {
+    const WorldQuestion question = world_question(plan);
+    constexpr int worlds = 200;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::uint32_t index = 0; index < worlds; ++index) {
+        const double each = number(draw_world(question, index));
+        sum += each / worlds;
+        squares += each * each / worlds;
+    }
+    return std::sqrt(squares - sum * sum);
+}
+
+StudyPlan plan_about(const storage::DiagnosisRecord& diagnosis) {
+    StudyPlan plan = arm_plan();
+    plan.motion.samples = 40;
+    const DiagnosedWorld found = world_of(diagnosis);
+    plan.truth = found.truth;
+    plan.uncertainty.truth_probability = found.probability;
+    return plan;
+}
+
+double log_friction(const World& world) {
+    return world.factors[0].log_friction;
+}
+
+TEST(DiagnosedWorld, DrawsFrictionFromTheIntervalOfTheFit) {
+    storage::DiagnosisRecord diagnosis = drag_diagnosis();
+    diagnosis.causes.clear();
+    for (const double factor : {1.03, 1.3}) {
+        diagnosis.friction_low_ratio = 1.2 / factor;
+        diagnosis.friction_high_ratio = 1.2 * factor;
+        EXPECT_NEAR(spread_of(plan_about(diagnosis), log_friction), std::log(factor) / 1.96,
+                    0.12 * std::log(factor) / 1.96);
+    }
+}
+
+TEST(DiagnosedWorld, WithoutIntervalsIsAsUncertainAsStated) {
+    storage::DiagnosisRecord diagnosis = drag_diagnosis();
+    diagnosis.causes.clear();
+    EXPECT_EQ(spread_of(plan_about(diagnosis), log_friction), spread_of(arm_plan(), log_friction));
+}
+
+TEST(DiagnosedWorld, DrawsTheNumbersOfACauseFromTheirIntervals) {
+    storage::DiagnosisRecord diagnosis = drag_diagnosis();
+    auto& number = diagnosis.causes.front().numbers.front();
+    number.name = effect_catalogue()[viscous()].parameters.front().name;
+    const auto tension = [](const World& world) { return world.tensions_N(30).back(); };
+    const double fixed = spread_of(plan_about(diagnosis), tension);
+    number.low_in_unit = 0.0;
+    number.high_in_unit = 8.0;
+    const StudyPlan plan = plan_about(diagnosis);
+    EXPECT_NEAR(plan.truth.effect_deviations[viscous()].front(), 8.0 / (2.0 * 1.96), 1e-3);
+    EXPECT_NE(spread_of(plan, tension), fixed);
+    EXPECT_EQ(plan.truth.effects[viscous()].front(), 4.0);
+}
+
+// What the estimator does not know of costs more where it lies in a wider interval.
+TEST(DiagnosedWorld, AWiderIntervalGivesAWiderWorldAndALargerError) {
+    double spread_before = 0.0;
+    double error_before_N = 0.0;
+    for (const double factor : {1.02, 1.3, 2.0}) {
+        storage::DiagnosisRecord diagnosis = drag_diagnosis();
+        diagnosis.causes.clear();
+        diagnosis.friction_ratio = 1.0;
+        diagnosis.friction_low_ratio = 1.0 / factor;
+        diagnosis.friction_high_ratio = factor;
+        const StudyPlan plan = plan_about(diagnosis);
+        const WorldQuestion question = world_question(plan);
+        double error_N = 0.0;
+        for (std::uint32_t index = 0; index < 100; ++index) {
+            const World world = draw_world(question, index);
+            error_N += filter_error(question, question.belief, world, ensemble_draws(question, index),
+                                    std::vector<int>{10})
+                           .mean_abs_N;
+        }
+        const double spread = spread_of(plan, log_friction);
+        EXPECT_GT(spread, spread_before);
+        EXPECT_GT(error_N, error_before_N) << factor;
+        spread_before = spread;
+        error_before_N = error_N;
+    }
+}
+
+}  // namespace
+}  // namespace capstan
