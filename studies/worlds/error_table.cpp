@@ -54,10 +54,13 @@ CableBelief belief_under(Condition condition, CableBelief belief, const World& w
     for (std::size_t cable = 0; cable < belief.expected.size(); ++cable) {
         CableFactors& expected = belief.expected[cable];
         const CableFactors& truth = world.factors[cable];
-        if (condition == Condition::friction_known) expected.log_friction = truth.log_friction;
+        if (condition == Condition::friction_known)
+            expected.log_friction = truth.log_friction + world.log_friction_ratio;
         if (condition == Condition::wrap_known) expected.log_wrap = truth.log_wrap;
-        if (condition == Condition::stiffness_known) expected.log_stiffness = truth.log_stiffness;
-        if (condition == Condition::pretension_known) expected.log_pretension = truth.log_pretension;
+        if (condition == Condition::stiffness_known)
+            expected.log_stiffness = truth.log_stiffness + world.log_stiffness_ratio;
+        if (condition == Condition::pretension_known)
+            expected.log_pretension = truth.log_pretension + world.log_pretension_ratio;
     }
     if (condition == Condition::friction_known) belief.uncertainty.friction = 0.0;
     if (condition == Condition::wrap_known) belief.uncertainty.wrap = 0.0;

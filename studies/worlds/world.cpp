@@ -241,6 +241,11 @@ World draw_world(const WorldQuestion& question, std::uint32_t index) {
     const int cables = cables_of(question.belief.arrangement);
     for (int cable = 0; cable < cables; ++cable)
         world.factors[static_cast<std::size_t>(cable)] = draw_factors(question, index, cable);
+    if (is_as_truth_says(question, index)) {
+        world.log_friction_ratio = std::log(question.truth.friction_ratio);
+        world.log_stiffness_ratio = std::log(question.truth.stiffness_ratio);
+        world.log_pretension_ratio = std::log(question.truth.pretension_ratio);
+    }
     const Cable nominal(question.cable.nominal());
     TrueMover mover(question, world, index);
     const std::vector<double> far_end_m = far_end_of(question, index);

@@ -29,6 +29,10 @@ WorldQuestion world_question(const StudyPlan& plan, int pieces = 1);
 /// it.
 struct World {
     std::array<CableFactors, 2> factors;       // of cable A and of cable B, which only a pair has
+    /// Logarithms of the ratios of [truth], which come on top of the factors where the world is as it says.
+    double log_friction_ratio = 0.0;
+    double log_stiffness_ratio = 0.0;
+    double log_pretension_ratio = 0.0;
     std::vector<double> proximal_increment_m;  // samples
     std::vector<double> tension_N;             // samples x (cables x nodes)
     std::vector<double> sensed;                // samples x offers: without any error, N or m

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "capstan/worlds/diagnosed_world.h"
+#include "capstan/worlds/error_table.h"
 #include "capstan/worlds/world_trial.h"
 #include "world_plans.h"
 
@@ -110,6 +111,23 @@ TEST(DiagnosedWorld, AWiderIntervalGivesAWiderWorldAndALargerError) {
         spread_before = spread;
         error_before_N = error_N;
     }
+}
+
+TEST(DiagnosedWorld, CalibratedFrictionIsThatOfTheTruth) {
+    StudyPlan plan = arm_plan(30);
+    plan.truth.friction_ratio = 1.6;
+    ErrorTable table(plan, {});
+    const int none = table.candidate_of({});
+    const std::vector<int> candidates = {none};
+    table.fill(Condition::as_stated, candidates, 0, 30, "");
+    table.fill(Condition::friction_known, candidates, 0, 30, "");
+    double stated = 0.0;
+    double known = 0.0;
+    for (int world = 0; world < 30; ++world) {
+        stated += table.at(Condition::as_stated, none, world).mean_abs_N;
+        known += table.at(Condition::friction_known, none, world).mean_abs_N;
+    }
+    EXPECT_LT(known, 0.9 * stated);
 }
 
 }  // namespace
