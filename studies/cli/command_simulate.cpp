@@ -48,6 +48,8 @@ void deliver_recording(const Invocation& invocation, Recording recording,
     }
     const std::filesystem::path file = invocation.text("output");
     if (file == "-") return write_standard_output(samples_csv(recording));
+    if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file))  // a device or a pipe
+        return write_file(file, samples_csv(recording));
     if (file.extension() != ".csv") {
         throw UsageError(fmt::format(
             "capstan simulate: a recording is NAME.csv with NAME.json beside it; give -o a name that ends in "
@@ -176,9 +178,10 @@ const Option parameters_option{
     .value = "FILE",
     .meaning = "Recordings only: the model's parameters, in a file written by `capstan calibrate --save`."};
 
-const Option as_recording_option{.name = "recording",
-                              .kind = OptionKind::flag,
-                              .meaning = "Studies only: write the motion as a recording of a single cable."};
+const Option as_recording_option{
+    .name = "recording",
+    .kind = OptionKind::flag,
+    .meaning = "Studies only: write the motion as a recording of a single cable."};
 
 const Option sensors_option{
     .name = "sensors",
@@ -227,8 +230,9 @@ Command simulate_command() {
             "CONFIG",
             "A study (TOML), a recording (CSV with its JSON sidecar), or one or more benches (TOML).",
             ArgumentNeed::one_or_more}},
-        .options = {parameters_option, segments_option, as_recording_option, sensors_option, sensor_noise_option,
-                    simulated_kind_option, seed_option, output_option, page_option, help_option},
+        .options = {parameters_option, segments_option, as_recording_option, sensors_option,
+                    sensor_noise_option, simulated_kind_option, seed_option, output_option, page_option,
+                    help_option},
         .examples =
             {"capstan simulate configs/paper.toml -o motion.csv",
              "capstan simulate my.toml | awk -F, '$4 == \"mass\" {print $1}'",

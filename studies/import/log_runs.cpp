@@ -56,7 +56,8 @@ struct SeenNames {
 std::string columns_in_words(const SeenNames& seen, const std::string& wanted) {
     if (const auto nearest = nearest_name(wanted, seen.names))
         return fmt::format("; did you mean \"{}\"?", *nearest);
-    return seen.list.empty() ? "; `capstan import --suggest` lists the columns" : "; the columns are: " + seen.list;
+    return seen.list.empty() ? "; `capstan import --suggest` lists the columns"
+                             : "; the columns are: " + seen.list;
 }
 
 struct FoundColumn {

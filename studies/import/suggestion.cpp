@@ -11,6 +11,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/import/column_roles.h"
+#include "capstan/import/guessed_units.h"
 #include "capstan/import/importer.h"
 #include "capstan/import/log_runs.h"
 #include "capstan/recording/recording_keys.h"
@@ -21,18 +22,6 @@ namespace capstan::imports {
 namespace {
 
 constexpr double fits_by_name = 0.5;
-constexpr double turn_rad = 2.0 * std::numbers::pi;
-// Steps that encoders have, in counts of a turn.
-constexpr std::array encoder_counts = {360.0,  400.0,  500.0,   512.0,   720.0,   1000.0,  1024.0,  1440.0,
-                                       1800.0, 2000.0, 2048.0,  2500.0,  3600.0,  4000.0,  4096.0,  5000.0,
-                                       8000.0, 8192.0, 10000.0, 16384.0, 20000.0, 32768.0, 36000.0, 65536.0};
-
-double closest_counts(double counts) {
-    return *std::min_element(encoder_counts.begin(), encoder_counts.end(), [&](double a, double b) {
-        return std::abs(std::log(a / counts)) < std::abs(std::log(b / counts));
-    });
-}
-
 double mean(const std::vector<double>& values) {
     double sum = 0.0;
     for (const double value : values) sum += value;
@@ -326,6 +315,16 @@ class Suggesting {
         return nullptr;
     }
 
+    // The other shaft's angle, if its unit is known.
+    KnownAngle other_angle(const std::string& name) {
+        const std::string other = name == channel::motor_angle ? channel::load_angle : channel::motor_angle;
+        const SeenColumn* column = chosen(other);
+        const ChannelMapping* mapping = mapped(other);
+        const auto unit = mapping != nullptr ? find_unit(mapping->unit) : std::nullopt;
+        if (column == nullptr || !unit || unit->quantity != Quantity::angle) return {};
+        return {other, column->span * unit->si / find_unit("turn")->si};
+    }
+
     ChannelMapping* mapped(const std::string& name) {
         for (ChannelMapping& channel : suggestion_.mapping.channels) {
             if (channel.name == name) return &channel;
@@ -340,129 +339,8 @@ class Suggesting {
         channel.from.table = column.table->name;
         if (logs_.size() > 1 && !same_columns()) channel.from.file = column.log->file.filename().string();
         chosen_.emplace_back(name, &column);
-        if (name.ends_with("_angle"))
-            set_angle_unit(channel, column);
-        else
-            set_force_unit(channel, column, name.ends_with("_torque"));
+        guess_unit(channel, column, other_angle(name), suggestion_.guesses);
         suggestion_.mapping.channels.push_back(std::move(channel));
-    }
-
-    void set_angle_unit(ChannelMapping& channel, const SeenColumn& column) {
-        const auto stated = find_unit(column.unit);
-        if (stated && stated->quantity == Quantity::angle) {
-            channel.unit = std::string(stated->name);
-            check_stated_angle(channel, column, stated->si);
-            return;
-        }
-        if ((stated && stated->quantity == Quantity::counts) ||
-            (column.whole_numbers && column.span > 40.0)) {
-            channel.unit = "counts";
-            set_counts(channel, column);
-            return;
-        }
-        const double step = lattice_of(column);
-        const auto nice = [](double counts) {
-            return counts > 90.0 && std::abs(closest_counts(counts) / counts - 1.0) < 2e-3;
-        };
-        if (step > 0.0 && nice(turn_rad / step) != nice(360.0 / step)) {
-            channel.unit = nice(turn_rad / step) ? "rad" : "deg";
-            guess(channel.name, Doubt::likely,
-                  fmt::format("in {} its steps of {:.5g} are {:.0f} counts of a turn", channel.unit, step,
-                              (channel.unit == "rad" ? turn_rad : 360.0) / step));
-            return;
-        }
-        channel.unit = column.span > 2.0 * turn_rad ? "deg" : "rad";
-        guess(channel.name, Doubt::doubtful,
-              fmt::format(
-                  "no unit is stated; it spans {:.3g}, which {}", column.span,
-                  channel.unit == "deg" ? "is more than two turns in rad" : "is less than two turns in rad"));
-    }
-
-    // Where the file states degrees and the steps are those of an encoder in radians, or the other way round.
-    void check_stated_angle(const ChannelMapping& channel, const SeenColumn& column, double si) {
-        const double step = lattice_of(column);
-        if (step <= 0.0) return;
-        const double counts = turn_rad / (step * si);
-        const double others = si == 1.0 ? 360.0 / step : turn_rad / step;
-        const auto nice = [](double n) { return n > 90.0 && std::abs(closest_counts(n) / n - 1.0) < 2e-3; };
-        if (!nice(counts) && nice(others))
-            guess(channel.name, Doubt::doubtful,
-                  fmt::format("the file says {}, but its steps of {:.5g} are {:.0f} counts of a turn in {}",
-                              column.unit, step, others, si == 1.0 ? "deg" : "rad"));
-    }
-
-    void set_counts(ChannelMapping& channel, const SeenColumn& column) {
-        // A counter that wraps shows its range.
-        if (column.span > 200.0) {
-            for (const double counts : encoder_counts) {
-                double largest = 0.0;
-                for (std::size_t k = 1; k < column.readings.size(); ++k)
-                    largest = std::max(largest, std::abs(column.readings[k] - column.readings[k - 1]));
-                if (column.span < counts && column.span > 0.95 * counts && largest > 0.9 * counts) {
-                    channel.counts_per_turn = counts;
-                    guess(channel.name, Doubt::likely,
-                          fmt::format("its counter wraps round at {:.0f}; taken as a turn", counts));
-                    return;
-                }
-            }
-        }
-        // As far as the other angle, if that one has a unit.
-        const std::string other_name =
-            channel.name == channel::motor_angle ? channel::load_angle : channel::motor_angle;
-        const SeenColumn* other = chosen(other_name);
-        const ChannelMapping* other_mapping = mapped(other_name);
-        const auto other_unit = other_mapping != nullptr ? find_unit(other_mapping->unit) : std::nullopt;
-        if (other != nullptr && other_unit && other_unit->quantity == Quantity::angle) {
-            const double turns = other->span * other_unit->si / turn_rad;
-            channel.counts_per_turn = closest_counts(column.span / turns);
-            guess(
-                channel.name, Doubt::doubtful,
-                fmt::format(
-                    "counts_per_turn is a guess from {}, as if both turned equally far; state the encoder's own",
-                    other_name));
-            return;
-        }
-        channel.counts_per_turn = 4096.0;
-        guess(channel.name, Doubt::doubtful,
-              "nothing shows counts_per_turn; 4096 is a placeholder, state the encoder's own");
-    }
-
-    double lattice_of(const SeenColumn& column) const {
-        Source source;
-        source.column = column.column;
-        source.clock.table = column.table;
-        source.clock.sample_rate_Hz = 1.0;
-        return survey_channel(source, {0, 20000}).step;
-    }
-
-    void set_force_unit(ChannelMapping& channel, const SeenColumn& column, bool is_torque) {
-        const auto stated = find_unit(column.unit);
-        const Quantity wanted = is_torque ? Quantity::torque : Quantity::force;
-        if (stated && stated->quantity == wanted) {
-            channel.unit = std::string(stated->name);
-            return;
-        }
-        if (is_torque && stated && stated->quantity == Quantity::current) {
-            channel.unit = std::string(stated->name);
-            channel.torque_constant = 0.05;
-            guess(channel.name, Doubt::doubtful,
-                  "it is a current; torque_constant_Nm_per_A is a placeholder, state the motor's own");
-            return;
-        }
-        if ((stated && stated->quantity == Quantity::counts) ||
-            (column.whole_numbers && column.span > 100.0)) {
-            channel.unit = "counts";
-            channel.scale = is_torque ? 1e-3 : 1e-2;
-            guess(channel.name, Doubt::doubtful,
-                  fmt::format("scale ({} in one count) is a placeholder; state the amplifier's own",
-                              is_torque ? "N m" : "N"));
-            return;
-        }
-        const bool large = column.span > (is_torque ? 100.0 : 3000.0);
-        channel.unit = is_torque ? (large ? "mN m" : "N m") : (large ? "g" : "N");
-        guess(channel.name, Doubt::doubtful,
-              fmt::format("no unit is stated; it spans {:.3g}, which is usual in {}", column.span,
-                          channel.unit));
     }
 
     void find_kind() {

@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "capstan/import/clock_offset.h"
+#include "capstan/import/import_state.h"
+#include "capstan/import/plausibility.h"
+
+namespace capstan::imports {
+
+namespace {
+
+// A channel that lags more than this is another experiment's.
+constexpr double longest_offset_s = 1.0;
+// Within one logger only a filter or a slow bus delays a channel.
+constexpr double longest_delay_s = 0.1;
+// An offset is named when it is more than this many samples and its own uncertainty.
+constexpr double named_offset_periods = 0.75;
+// Without it the others leave at least so many times more of the channel's variance; more within one logger,
+// where an offset is not to be expected.
+constexpr double named_offset_gain = 1.5;
+constexpr double named_delay_gain = 2.5;
+constexpr double named_offset_deviations = 3.0;  // it is larger than so many times its uncertainty
+// How wrong the model of friction may be, as a part of a channel's variance. Angles follow one another
+// exactly but for stretch.
+constexpr double angle_model_error = 1e-6;
+constexpr double torque_model_error = 2e-3;
+constexpr double nominal_model_error = 2e-4;
+constexpr std::size_t most_runs_looked_at = 6;
+
+// Samples of a run at one rate, for looking at it: its longest piece.
+std::vector<std::vector<double>> preview_of(const ImportState& import, std::size_t run, std::size_t limit,
+                                            double& rate_Hz) {
+    const auto& pieces = import.plans[run].pieces;
+    const auto longest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+        return a.to_s - a.from_s < b.to_s - b.from_s;
+    });
+    std::vector<std::vector<double>> values(import.kept.size());
+    if (longest == pieces.end()) return values;
+    Piece piece = *longest;
+    rate_Hz = import.plans[run].surveys.front().period_s > 0.0
+                  ? 1.0 / import.plans[run].surveys.front().period_s
+                  : 1.0;
+    piece.grid_Hz = rate_Hz;
+    piece.thinned_by = 1;
+    piece.to_s = std::min(piece.to_s, piece.from_s + static_cast<double>(limit) / rate_Hz);
+    for_each_row(import.logs.runs[run], piece, import.kept, [&](double, std::span<const double> row) {
+        for (std::size_t k = 0; k < row.size(); ++k) values[k].push_back(row[k]);
+    });
+    return values;
+}
+
+bool same_clock(const ImportState& import, const LogRun& run, std::size_t a, std::size_t b) {
+    const Clock& one = run.sources[import.kept[a]].clock;
+    const Clock& other = run.sources[import.kept[b]].clock;
+    return one.table == other.table && one.column == other.column;
+}
+
+// What the runs say of a channel's offset together.
+struct ChannelOffset {
+    std::size_t channel = 0;  ///< kept
+    ClockOffset offset;
+    double period_s = 0.0;
+    bool other_clock = false;
+};
+
+ChannelOffset together(std::size_t k, const std::vector<ClockOffset>& found, double period_s,
+                       bool other_clock) {
+    ChannelOffset all{k, found.front(), period_s, other_clock};
+    double low = found.front().offset_s;
+    double high = low;
+    double sum = 0.0;
+    for (const ClockOffset& offset : found) {
+        sum += offset.offset_s;
+        low = std::min(low, offset.offset_s);
+        high = std::max(high, offset.offset_s);
+        all.offset.uncertainty_s = std::max(all.offset.uncertainty_s, offset.uncertainty_s);
+        all.offset.unexplained = std::max(all.offset.unexplained, offset.unexplained);
+        all.offset.unexplained_at_zero = std::min(all.offset.unexplained_at_zero, offset.unexplained_at_zero);
+    }
+    all.offset.offset_s = sum / static_cast<double>(found.size());
+    all.offset.uncertainty_s = std::max(all.offset.uncertainty_s, 0.5 * (high - low));
+    return all;
+}
+
+std::optional<ChannelOffset> channel_offset(const ImportState& import, std::size_t k,
+                                            const std::vector<std::size_t>& aligned, bool other_clock) {
+    std::vector<ClockOffset> found;
+    double rate_Hz = 1.0;
+    for (std::size_t run = 0; run < import.logs.runs.size() && found.size() < most_runs_looked_at; ++run) {
+        if (import.plans[run].pieces.empty()) continue;
+        const auto values = preview_of(import, run, 3 * preview_samples, rate_Hz);
+        std::vector<ClockReference> others;
+        for (const std::size_t other : aligned) {
+            // An angle follows an angle, without friction's lag.
+            if (!import.is_angle(k) || import.is_angle(other))
+                others.push_back({values[other], import.is_angle(other) && !import.is_angle(k)});
+        }
+        const auto offset =
+            find_clock_offset(values[k], others, rate_Hz, other_clock ? longest_offset_s : longest_delay_s,
+                              import.is_angle(k) ? angle_model_error : torque_model_error);
+        if (offset) found.push_back(*offset);
+    }
+    if (found.empty()) return std::nullopt;
+    return together(k, found, 1.0 / rate_Hz, other_clock);
+}
+
+// A channel of a clock of its own beside what the nominal model says of it from the aligned inputs.
+std::optional<ChannelOffset> offset_by_model(ImportState& import, std::size_t k,
+                                             const std::vector<std::size_t>& aligned) {
+    const Recording recording = preview_recording(import);
+    if (!recording.nominal) return std::nullopt;
+    std::vector<ClockOffset> found;
+    double period_s = 1.0;
+    for (std::size_t run = 0; run < recording.runs.size() && found.size() < most_runs_looked_at; ++run) {
+        const RecordedRun& recorded = recording.runs[run];
+        const bool inputs_aligned =
+            std::all_of(recorded.driven.begin(), recorded.driven.end(), [&](const auto& name) {
+                const auto channel = recording.channel(name);
+                return channel && std::find(aligned.begin(), aligned.end(),
+                                            static_cast<std::size_t>(*channel)) != aligned.end();
+            });
+        if (!inputs_aligned || recorded.samples() < 2) continue;
+        const std::vector<double> modelled = modelled_channel(recording, run, k);
+        if (modelled.empty()) continue;
+        period_s = (recorded.time_s.back() - recorded.time_s.front()) / (recorded.samples() - 1);
+        if (const auto offset = find_clock_offset(recorded.values[k], {{modelled, false, false}},
+                                                  1.0 / period_s, longest_offset_s, nominal_model_error))
+            found.push_back(*offset);
+    }
+    if (found.empty()) return std::nullopt;
+    return together(k, found, period_s, true);
+}
+
+void note_shift(ImportState& import, const ChannelOffset& by, std::size_t k) {
+    const std::string& name = import.report.channels[k];
+    const double rounded_s = std::round(by.offset.offset_s * 1e5) / 1e5;
+    const std::string from =
+        k == by.channel
+            ? fmt::format("+-{:.2g} ms; without it {:.1f}% of its variance is unexplained, with it {:.1f}%",
+                          1e3 * by.offset.uncertainty_s, 100.0 * by.offset.unexplained_at_zero,
+                          100.0 * by.offset.unexplained)
+            : fmt::format("as that of {}, which shares it", import.report.channels[by.channel]);
+    import.report.findings.push_back(
+        {.kind = FindingKind::clock_offset,
+         .repaired = by.other_clock,
+         .channel = name,
+         .amount = rounded_s,
+         .uncertainty = by.offset.uncertainty_s,
+         .words = fmt::format("the clock of {} is {:.4g} ms {} that of the other channels ({}); {}", name,
+                              std::abs(1e3 * rounded_s), rounded_s > 0 ? "behind" : "ahead of", from,
+                              by.other_clock
+                                  ? "it is shifted"
+                                  : fmt::format("state clock_offset_s = {:.5f} to shift it", rounded_s))});
+    if (!by.other_clock) return;
+    for (LogRun& run : import.logs.runs) run.sources[import.kept[k]].clock_offset_s = rounded_s;
+}
+
+// All channels of the clock are shifted, or it is said that they are late. True if one was shifted.
+bool settle_offset(ImportState& import, const ChannelOffset& found, const LogRun& run) {
+    const ClockOffset& offset = found.offset;
+    const double gain = found.other_clock ? named_offset_gain : named_delay_gain;
+    if (offset.unexplained_at_zero <= gain * offset.unexplained) return false;
+    if (std::abs(offset.offset_s) <
+        std::max(named_offset_periods * found.period_s, named_offset_deviations * offset.uncertainty_s))
+        return false;
+    for (std::size_t k = 0; k < import.kept.size(); ++k) {
+        if (k == found.channel || (found.other_clock && same_clock(import, run, k, found.channel) &&
+                                   !import.mapping.channels[import.kept[k]].clock_offset_s))
+            note_shift(import, found, k);
+    }
+    return found.other_clock;
+}
+
+}  // namespace
+
+void align_clocks(ImportState& import) {
+    std::vector<std::size_t> order(import.kept.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return import.is_angle(a) > import.is_angle(b); });
+    const LogRun& run = import.logs.runs[import.pieces.front().log_run];
+    std::vector<std::size_t> aligned;
+    bool shifted = false;
+    for (const std::size_t k : order) {
+        const bool known = aligned.empty() ||
+                           import.mapping.channels[import.kept[k]].clock_offset_s.has_value() ||
+                           std::any_of(aligned.begin(), aligned.end(),
+                                       [&](std::size_t other) { return same_clock(import, run, k, other); });
+        const bool late_angle =
+            known && !aligned.empty() && import.is_angle(k) && same_clock(import, run, k, aligned.front());
+        if (!known || late_angle) {
+            auto offset = channel_offset(import, k, aligned, !known);
+            if (!known && !import.is_angle(k)) {
+                const auto modelled = offset_by_model(import, k, aligned);
+                if (modelled && (!offset || modelled->offset.uncertainty_s < offset->offset.uncertainty_s))
+                    offset = modelled;
+            }
+            if (offset) shifted |= settle_offset(import, *offset, run);
+        }
+        aligned.push_back(k);
+    }
+    if (!shifted) return;
+    std::vector<Finding> again;  // with shifted clocks the common stretch is another one
+    plan_runs(import, again);
+    number_runs(import);
+}
+
+}  // namespace capstan::imports
