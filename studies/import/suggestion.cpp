@@ -398,30 +398,65 @@ class Suggesting {
                       "it does not move with the motor's angle; its sign cannot be seen");
             }
         }
-        if (motor != nullptr && torque != nullptr && motor->table == torque->table) {
-            const double work = loop_work(torque->readings, motor->readings);
-            const double size = torque->span * motor->span;
-            if (work < -0.05 * size) {
-                mapped(channel::motor_torque)->sign = -1.0;
-                guess(channel::motor_torque, Doubt::likely,
-                      "sign = -1: else the motor would take work from friction over closed loops");
-            } else if (work < 0.05 * size) {
-                guess(channel::motor_torque, Doubt::doubtful,
-                      "its loop over the motor's angle is too narrow to show its sign");
-            }
+        if (torque == nullptr || motor == nullptr || torque->table != motor->table) return;
+        const bool both = load != nullptr && load_torque != nullptr && load->table == motor->table &&
+                          load_torque->table == motor->table;
+        if (both) {
+            signs_by_both_ends(*motor, *load, *torque, *load_torque);
+        } else {
+            sign_by_motor(*motor, *torque);
         }
-        if (torque != nullptr && load_torque != nullptr && torque->table == load_torque->table) {
-            const double motor_sign = mapped(channel::motor_torque)->sign;
-            const double alike = motor_sign * correlation(torque->readings, load_torque->readings);
-            const double means = motor_sign * mean(torque->readings) * mean(load_torque->readings);
-            if (alike < -0.3 || (std::abs(alike) < 0.3 && means < 0.0)) {
-                mapped(channel::load_torque)->sign = -1.0;
-                guess(channel::load_torque, std::abs(alike) < 0.3 ? Doubt::doubtful : Doubt::likely,
-                      "sign = -1: it is positive where it acts as the motor's torque does");
-            } else if (std::abs(alike) < 0.3) {
-                guess(channel::load_torque, Doubt::doubtful,
-                      "it hardly follows the motor's torque; its sign is a guess");
-            }
+    }
+
+    double work_J(const std::string& torque_name, const SeenColumn& torque, const std::string& angle_name,
+                  const SeenColumn& angle) {
+        return loop_work(torque.readings, angle.readings) * mapped(torque_name)->factor() *
+               mapped(angle_name)->factor();
+    }
+
+    // The torques have one direction, in which friction takes work from both ends together.
+    void signs_by_both_ends(const SeenColumn& motor, const SeenColumn& load, const SeenColumn& torque,
+                            const SeenColumn& load_torque) {
+        const double alike = correlation(torque.readings, load_torque.readings);
+        const double together =
+            std::abs(alike) > 0.3 ? alike : mean(torque.readings) * mean(load_torque.readings);
+        const double load_sign = together < 0.0 ? -1.0 : 1.0;
+        const double motor_J = work_J(channel::motor_torque, torque, channel::motor_angle, motor);
+        const double load_J =
+            load_sign * work_J(channel::load_torque, load_torque, channel::load_angle, load);
+        const double lost_J = motor_J - load_J;
+        const double turned = lost_J < 0.0 ? -1.0 : 1.0;
+        mapped(channel::motor_torque)->sign = turned;
+        mapped(channel::load_torque)->sign = turned * load_sign;
+        const bool clear = std::abs(lost_J) > 0.05 * (std::abs(motor_J) + std::abs(load_J));
+        if (turned < 0.0)
+            guess(channel::motor_torque, clear ? Doubt::likely : Doubt::doubtful,
+                  fmt::format("sign = -1: else motor and load together would take {:.3g} J out of friction",
+                              -lost_J));
+        else if (!clear)
+            guess(channel::motor_torque, Doubt::doubtful,
+                  "the work lost to friction is too small to show its sign");
+        if (turned * load_sign < 0.0 || std::abs(alike) < 0.3)
+            guess(channel::load_torque, std::abs(alike) < 0.3 ? Doubt::doubtful : Doubt::likely,
+                  std::abs(alike) < 0.3
+                      ? "it hardly follows the motor's torque; its sign is a guess"
+                      : "sign = -1: it is positive where it acts as the motor's torque does");
+    }
+
+    // Right where the motor drives; a hand that turns it would show the other sign.
+    void sign_by_motor(const SeenColumn& motor, const SeenColumn& torque) {
+        const double work = loop_work(torque.readings, motor.readings);
+        const double size = torque.span * motor.span;
+        const double angle_sign = mapped(channel::motor_angle)->sign;
+        if (work * angle_sign < -0.05 * size) {
+            mapped(channel::motor_torque)->sign = -1.0;
+            guess(
+                channel::motor_torque, Doubt::doubtful,
+                "sign = -1: else the motor would take work from the transmission over closed loops, as it does only where "
+                "a hand turns the load");
+        } else if (work * angle_sign < 0.05 * size) {
+            guess(channel::motor_torque, Doubt::doubtful,
+                  "its loop over the motor's angle is too narrow to show its sign");
         }
     }
 
