@@ -14,8 +14,8 @@ constexpr std::array yields = {0.02, 0.06, 0.15, 0.3, 0.6};  // of the channel's
 constexpr std::size_t coarse_samples = 6000;
 constexpr int parts = 4;
 constexpr std::size_t fewest_fitted = 100;
-// A channel of which the others explain less has no common motion with them.
-constexpr double largest_unexplained = 0.3;
+// A channel of which the others explain less does not show its clock well enough to be shifted.
+constexpr double largest_unexplained = 0.05;
 
 // An elastic-plastic element: it moves with the input until it yields.
 std::vector<double> stop_element(const std::vector<double>& input, double yield) {
