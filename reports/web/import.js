@@ -176,7 +176,7 @@
   }
   function guessItem(guess) {
     const item = element("li", {}, element("span", { className: "doubt", textContent: guess.doubt }), " " + guess.reason);
-    item.dataset.doubt = guess.doubt;
+    item.dataset.doubt = guess.kind ?? guess.doubt;
     return item;
   }
 
@@ -286,9 +286,10 @@
     const names = [...new Set(answer.curves.map((curve) => curve.channel))];
     at("import-result").replaceChildren(
       element("h3", { tabIndex: -1, textContent: `${count(answer.runs.length, "run")}, ${count(samples, "sample")} at ${digits(answer.sample_rate_hz)} Hz: ${count(repaired, "repair")}, ${count(answer.findings.length - repaired, "remark")}` }),
-      answer.findings.length ? resultTable(answer.findings, [["what", "What"], ["done", "The recording"], ["channel", "Channel"], ["words", "Details"]]) : element("p", { textContent: "Nothing had to be repaired, and nothing looks wrong." }),
+      answer.findings.length ? element("ul", { className: "guesses findings" }, ...answer.findings.map((finding) => guessItem({
+        doubt: finding.what + (finding.repaired ? ", repaired" : ""), kind: finding.repaired ? "likely" : finding.what === "assumed" ? "note" : "doubtful", reason: finding.words })))
+        : element("p", { textContent: "Nothing had to be repaired, and nothing looks wrong." }),
       resultTable(answer.runs, [["run", "Run"], ["source", "From"], ["samples", "Samples"], ["duration_s", "Time [s]"]]),
-      ...(answer.assumptions.length ? [element("h4", { textContent: "What the mapping leaves out" }), element("ul", {}, ...answer.assumptions.map((textContent) => element("li", { textContent })))] : []),
       element("div", { className: "channel-figures" }, ...names.map((name) => channelFigure(name, answer.curves.filter((curve) => curve.channel === name)))));
     at("import-result").hidden = false;
     at("import-result").querySelector("h3").focus({ preventScroll: true });

@@ -163,7 +163,6 @@ ordered_json trial(const RouteContext& context, const httplib::Request& request)
     std::string answer;
     const Recording recording = read_recording(folder.import_recording(answer));
     ordered_json json = ordered_json::parse(answer);
-    json["assumptions"] = recording.assumptions;
     json["curves"] = curves_of(recording);
     return json;
 }
@@ -224,7 +223,7 @@ std::vector<Route> import_routes(RouteContext& context) {
          "/api/import/trial",
          "tryImport",
          "Import a log and say what was read and repaired and what looks wrong; nothing is kept",
-         "As `capstan import --try --json` writes it, with `assumptions` and `curves` of the recording",
+         "As `capstan import --try --json` writes it, with `curves` of the recording",
          json_of("object"),
          try_import,
          200,
