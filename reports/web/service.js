@@ -18,6 +18,7 @@
     made.append(...children);
     return made;
   }
+  globalThis.capstanPage = { at, ask, element };  // for import.js
   const cell = (...children) => element("td", {}, ...children);
   const link = (href, text) => element("a", { href, textContent: text });
 

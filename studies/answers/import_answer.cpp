@@ -104,6 +104,47 @@ reports::Answer import_answer(const imports::ImportReport& report) {
     return answer;
 }
 
+reports::Answer column_list_answer(const imports::ColumnList& list) {
+    reports::Answer answer{.id = "columns",
+                           .kind = "Columns of a log",
+                           .title = list.logs.front().file,
+                           .headline = fmt::format("{} column{} in {} file{}.", list.columns.size(),
+                                                   list.columns.size() == 1 ? "" : "s", list.logs.size(),
+                                                   list.logs.size() == 1 ? "" : "s")};
+    Data files = Data::list();
+    for (const imports::ListedLog& log : list.logs)
+        files.push_back({{"file", log.file},
+                         {"format", log.format},
+                         {"same_columns_as", log.same_columns_as},
+                         {"remarks", log.remarks}});
+    Data columns = Data::list();
+    Data shown = Data::list();
+    for (const imports::ListedColumn& column : list.columns) {
+        Data row = {{"file", column.file},    {"table", column.table}, {"column", column.name},
+                    {"unit", column.unit},    {"rows", column.rows},   {"missing", column.missing},
+                    {"smallest", column.low}, {"largest", column.high}};
+        shown.push_back(row);
+        row["drawn_row"] = column.drawn_row;
+        row["drawn_value"] = column.drawn_value;
+        columns.push_back(std::move(row));
+    }
+    answer.values = {{"files", files}, {"columns", columns}};
+    answer.sections = {{.id = "columns",
+                        .heading = "Columns",
+                        .tables = {{"columns",
+                                    "",
+                                    {{"file", "file"},
+                                     {"table", "table"},
+                                     {"column", "column"},
+                                     {"unit", "unit"},
+                                     {"rows", "rows"},
+                                     {"missing", "missing"},
+                                     {"smallest", "smallest"},
+                                     {"largest", "largest"}},
+                                    shown}}}};
+    return answer;
+}
+
 reports::Answer recording_check_answer(const Recording& recording, const std::vector<std::string>& problems) {
     reports::Answer answer{.id = "recording_check", .kind = "Check of a recording", .title = recording.name};
     Data listed = Data::list();

@@ -11,6 +11,7 @@
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/twin.h"
 #include "capstan/gap_trial/trial_score.h"
+#include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"
 #include "capstan/recording/recording.h"
 #include "capstan/reports/answer.h"
@@ -67,6 +68,9 @@ reports::Table run_table(const Recording& recording);
 
 /// What an import read, repaired and doubts; its page draws the channels.
 reports::Answer import_answer(const imports::ImportReport& report);
+
+/// The columns of logs; for programs also a few numbers of each, for drawing them.
+reports::Answer column_list_answer(const imports::ColumnList& list);
 
 /// Whether a recording can be used: every problem, or what was taken for what its sidecar leaves out.
 reports::Answer recording_check_answer(const Recording& recording, const std::vector<std::string>& problems);

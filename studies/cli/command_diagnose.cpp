@@ -9,12 +9,14 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/config/config_truth.h"
+#include "capstan/export/series.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/driven_inputs.h"
 #include "capstan/recording/recording_reader.h"
+#include "capstan/recording/recording_writer.h"
 #include "capstan/storage/diagnosis_store.h"
 
 namespace capstan::cli {
@@ -108,6 +110,30 @@ void store(const Invocation& invocation, const Recording& recording, const Diagn
         say(fmt::format("Stored as diagnosis {} in {}.", id, invocation.text("db")));
 }
 
+// The channels that the corrected model predicts.
+void write_prediction(const std::filesystem::path& file, Recording recording, const Diagnosis& diagnosis) {
+    if (!exports::is_series_file(file) && file.extension() != ".csv")
+        throw UsageError(fmt::format("capstan diagnose: --prediction {} should end in .csv, .mat or .mcap",
+                                     file.string()));
+    for (std::size_t channel = recording.channels.size(); channel-- > 0;) {
+        const auto at = static_cast<std::ptrdiff_t>(channel);
+        const bool is_known = std::all_of(diagnosis.gap.leading.begin(), diagnosis.gap.leading.end(),
+                                          [&](const auto& run) { return !run.values[channel].empty(); });
+        if (!is_known) recording.channels.erase(recording.channels.begin() + at);
+        for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+            auto& values = recording.runs[run].values;
+            if (is_known)
+                values[channel] = diagnosis.gap.leading[run].values[channel];
+            else
+                values.erase(values.begin() + at);
+        }
+    }
+    if (exports::is_series_file(file))
+        exports::write_series(file, exports::series_of(recording));
+    else
+        write_file(file, samples_csv(recording));
+}
+
 ExitCode run_diagnose(const Invocation& invocation) {
     const Recording recording = recorded_bench(invocation);
     gap::DiagnosisOptions options;
@@ -125,6 +151,7 @@ ExitCode run_diagnose(const Invocation& invocation) {
     if (invocation.has("corrected"))
         write_file(invocation.text("corrected"),
                    corrected_model_text(recording, diagnosis, answers::verdict_sentence(diagnosis)));
+    if (invocation.has("prediction")) write_prediction(invocation.text("prediction"), recording, diagnosis);
     deliver_answer(invocation, answers::diagnosis_answer(recording, diagnosis));
     return ExitCode::success;
 }
@@ -151,6 +178,11 @@ const Option corrected_option{
     .value = "FILE",
     .meaning = "Write the corrected model of the cable to FILE, for `capstan study run --truth FILE`."};
 
+const Option prediction_option{
+    .name = "prediction",
+    .value = "FILE",
+    .meaning = "Write what the corrected model predicts to FILE: .csv, .mat (MATLAB) or .mcap."};
+
 Command diagnose_command() {
     return {.name = "diagnose",
             .summary = "Find which unmodelled effect makes a recording disagree with its model.",
@@ -163,8 +195,9 @@ Command diagnose_command() {
                 "causes cannot be distinguished, it lists them and the experiment that would distinguish "
                 "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
             .arguments = {log_argument},
-            .options = {runs_option, calibrate_on_option, keep_option, corrected_option, jobs_option,
-                        output_option, format_option, json_option, page_option, progress_option, help_option},
+            .options = {runs_option, calibrate_on_option, keep_option, corrected_option, prediction_option,
+                        jobs_option, output_option, format_option, json_option, page_option, progress_option,
+                        help_option},
             .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
                          "capstan diagnose bench.csv --html bench.html",
                          "capstan diagnose bench.csv --db bench.db",

@@ -10,6 +10,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/estimate/cycle_trial.h"
+#include "capstan/export/series.h"
 #include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
@@ -72,6 +73,37 @@ void append_cable(std::string& text, const SensedCable& cable, const estimate::E
     });
 }
 
+// A series for each run of each cable, as the lines above have them.
+std::vector<exports::Series> estimated_series(const std::vector<SensedCable>& cables,
+                                              const std::vector<estimate::EstimatorTuning>& tuned,
+                                              const estimate::TrackingOptions& options) {
+    std::vector<exports::Series> all;
+    for (std::size_t c = 0; c < cables.size(); ++c) {
+        const Cable cut(cables[c].specification);
+        const std::size_t first = all.size();
+        for (const estimate::SensedRun& run : cables[c].runs) {
+            exports::Series& series = all.emplace_back();
+            series.name = fmt::format("run_{}/cable_{}", run.number, cables[c].name);
+            for (int node = 0; node < cut.nodes(); ++node) {
+                for (const char* what : {"tension", "band"})
+                    series.channels.push_back(
+                        {fmt::format("{}_at_{:.4g}m", what, cut.node_position_m(node)), "N", {}});
+            }
+        }
+        track(cables[c], all_but(cables[c], {}), tuned[c].trust, options, [&](const TrackedSample& at) {
+            exports::Series& series = all[first + at.run];
+            series.time_s.push_back(cables[c].runs[at.run].time_s[at.sample]);
+            for (std::size_t node = 0; node < at.estimator.mean_N().size(); ++node) {
+                const double mean_N = at.estimator.mean_N()[node];
+                series.channels[2 * node].values.push_back(mean_N);
+                series.channels[2 * node + 1].values.push_back(
+                    estimate::band_N({mean_N, at.estimator.deviation_N()[node]}, tuned[c].widening));
+            }
+        });
+    }
+    return all;
+}
+
 ExitCode score_layouts(const Invocation& invocation) {
     if (invocation.has("leave-out"))
         throw UsageError(
@@ -108,6 +140,10 @@ ExitCode run_estimate(const Invocation& invocation) {
     deliver_page(invocation, answer);
     if (invocation.has("json")) {
         deliver(invocation, reports::answer_json(answer));
+        return ExitCode::success;
+    }
+    if (const std::filesystem::path file = invocation.text("output"); exports::is_series_file(file)) {
+        exports::write_series(file, estimated_series(cables, tuned, options));
         return ExitCode::success;
     }
     std::string text = head_line(cables);
@@ -150,7 +186,7 @@ Command estimate_command() {
             "Runs the recursive estimator over each run of a recording: the measured angles drive the "
             "model from the previous estimate, and every channel that measures a tension corrects it. "
             "Writes CSV: the tension at every node of every cable that carries a sensor, and the "
-            "half-width of its 95% band. The trust in the model is chosen by the likelihood of the "
+            "half-width of its 95% band; as MATLAB file or MCAP where -o ends in .mat or .mcap. The trust in the model is chosen by the likelihood of the "
             "readings; the band is widened by the errors of predicting each channel from the others. "
             "With --leave-out, predicts the named channels from all others and prints the error, the "
             "channel's noise, how often the reading was within the 95% band, and the errors of the model "
@@ -163,6 +199,7 @@ Command estimate_command() {
         .options = {leave_out_option, cut_option, members_option, repetitions_option, seed_option,
                     jobs_option, output_option, json_option, page_option, help_option},
         .examples = {"capstan estimate bench.csv -o tensions.csv --html tensions.html",
+                     "capstan estimate bench.csv -o tensions.mat",
                      "capstan estimate bench.csv --leave-out each",
                      "capstan estimate bench.csv --leave-out tension_2 --json",
                      "capstan estimate configs/paper.toml"},

@@ -8,6 +8,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"
 #include "capstan/import/suggestion.h"
 #include "capstan/platform/progress.h"
@@ -86,6 +87,12 @@ std::filesystem::path mapping_of(const Invocation& invocation) {
 
 ExitCode run_import(const Invocation& invocation) {
     LateProgress display(invocation);
+    if (invocation.has("list")) {
+        const imports::ColumnList list = imports::list_columns(log_files(invocation), display.shown());
+        display.end_line();
+        deliver_answer(invocation, answers::column_list_answer(list));
+        return ExitCode::success;
+    }
     if (invocation.has("suggest")) return suggest(invocation, display);
     const imports::Mapping mapping = imports::read_mapping(mapping_of(invocation));
     imports::ImportOptions options;
@@ -165,6 +172,9 @@ Command import_command() {
              {.name = "suggest",
               .kind = OptionKind::flag,
               .meaning = "Propose a mapping and write it where --output says."},
+             {.name = "list",
+              .kind = OptionKind::flag,
+              .meaning = "List the tables and columns of the logs with their units and ranges."},
              kind_option,
              {.name = "strict",
               .kind = OptionKind::flag,
@@ -182,7 +192,7 @@ Command import_command() {
              page_option,
              progress_option,
              help_option},
-        .examples = {"capstan import --suggest run7.csv -o import.toml",
+        .examples = {"capstan import --list run7.mcap", "capstan import --suggest run7.csv -o import.toml",
                      "capstan import run7.csv --mapping import.toml -o bench",
                      "capstan import monday.bag tuesday.bag -o session --html session.html",
                      "capstan import run7.mcap --try --strict"},

@@ -13,6 +13,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/config/config_file.h"
 #include "capstan/config/config_reader.h"
+#include "capstan/export/series.h"
 #include "capstan/gap/parameter_file.h"
 #include "capstan/gap/twin.h"
 #include "capstan/plan/true_motion.h"
@@ -50,10 +51,11 @@ void deliver_recording(const Invocation& invocation, Recording recording,
     if (file == "-") return write_standard_output(samples_csv(recording));
     if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file))  // a device or a pipe
         return write_file(file, samples_csv(recording));
+    if (exports::is_series_file(file)) return exports::write_series(file, exports::series_of(recording));
     if (file.extension() != ".csv") {
         throw UsageError(fmt::format(
-            "capstan simulate: a recording is NAME.csv with NAME.json beside it; give -o a name that ends in "
-            ".csv instead of {}",
+            "capstan simulate: a recording is NAME.csv with NAME.json beside it, or NAME.mat or NAME.mcap for other "
+            "programs; give -o a name with such an ending instead of {}",
             file.string()));
     }
     if (!recording.name.empty()) recording.name = file.stem().string();
@@ -225,7 +227,8 @@ Command simulate_command() {
             "between pulleys and writes a recording, NAME.csv with NAME.json, each bench a run; --html plots the first with the tension "
             "along the cables. With a recording: drives the bench's model with the recording's driven channels and writes, as a recording "
             "again, the inputs (with the noise removed) and the model's prediction of the other channels; --html plots the prediction over "
-            "the measurement.",
+            "the measurement. A recording is also written as MATLAB file (-o NAME.mat: a struct for each run with t, the channels and units) "
+            "or MCAP (-o NAME.mcap: a topic for each channel, its unit in the metadata).",
         .arguments = {Argument{
             "CONFIG",
             "A study (TOML), a recording (CSV with its JSON sidecar), or one or more benches (TOML).",
@@ -239,7 +242,8 @@ Command simulate_command() {
              "capstan simulate configs/bench-slack.toml --html slack.html -o slack.csv",
              "capstan simulate configs/bench-ramps.toml --sensors 3 --sensor-noise 0.002 -o bench.csv",
              "capstan simulate configs/paper.toml --recording --sensors 5 -o cable.csv",
-             "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html"},
+             "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html",
+             "capstan simulate bench.csv -o model.mcap"},
         .run = run_simulate};
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <memory>
 
 #include "capstan/cable/invalid_input.h"
@@ -21,6 +22,7 @@ constexpr std::size_t mat5_head_bytes = 128;
 constexpr std::size_t mat4_head_bytes = 20;
 constexpr std::size_t largest_variable_bytes = 1u << 30;  // libmatio reads a variable at once
 constexpr std::uint64_t largest_packing = 1100;           // zlib packs at most so many times
+constexpr std::size_t longest_unit_letters = 64;
 constexpr int deepest_struct = 16;
 constexpr std::size_t max_struct_elements = 1024;
 
@@ -133,6 +135,7 @@ class MatReading {
         if (!whole.is_cut && whole.count != SIZE_MAX && variables.size() < whole.count)
             writer_.remark(fmt::format("{} of {} variables can be read; the file is damaged",
                                        variables.size(), whole.count));
+        read_units();
         write_groups(matrices_, writer_);
         if (whole.is_cut)
             writer_.remark(
@@ -181,15 +184,50 @@ class MatReading {
         char* const* names = fields > 0 ? Mat_VarGetStructFieldnames(variable) : nullptr;
         if (!names) return;
         for (std::size_t element = 0; element < elements; ++element) {
+            if (home.empty() && elements == 1) find_units(variable, name);
             const std::string own = elements == 1 ? name : fmt::format("{}({})", name, element + 1);
             for (std::size_t field = 0; field < fields; ++field) {
                 matvar_t* inner = Mat_VarGetStructFieldByIndex(variable, field, element);
                 if (!inner || !names[field]) continue;
+                if (home.empty() && elements == 1 && names[field] == std::string_view("units") &&
+                    inner->class_type == MAT_C_STRUCT)
+                    continue;
                 if (home.empty())
                     collect(inner, own, names[field], depth + 1);
                 else
                     collect(inner, home, own + "." + names[field], depth + 1);
             }
+        }
+    }
+
+    // A struct `units` beside the vectors has their units as texts, by their names. They are read when all
+    // variables are known: libmatio looks for the next one where it read last.
+    void find_units(matvar_t* variable, const std::string& name) {
+        matvar_t* units = Mat_VarGetStructFieldByName(variable, "units", 0);
+        if (!units || units->class_type != MAT_C_STRUCT || units->rank != 2 || !units->data ||
+            units->dims[0] != 1 || units->dims[1] != 1)
+            return;
+        const std::size_t fields = std::min<std::size_t>(Mat_VarGetNumberOfFields(units), LogLimits::columns);
+        char* const* names = fields > 0 ? Mat_VarGetStructFieldnames(units) : nullptr;
+        for (std::size_t field = 0; names && field < fields; ++field) {
+            matvar_t* text = Mat_VarGetStructFieldByIndex(units, field, 0);
+            if (text && names[field] && text->class_type == MAT_C_CHAR && text->rank == 2 && text->dims &&
+                text->dims[0] == 1 && text->dims[1] <= longest_unit_letters)
+                units_[name + "." + names[field]] = text;
+        }
+    }
+
+    void read_units() {
+        for (NamedMatrix& matrix : matrices_) {
+            const auto found = units_.find(matrix.home + "." + matrix.name);
+            if (found == units_.end()) continue;
+            matvar_t* text = found->second;
+            if (Mat_VarReadDataAll(file_, text) != 0 || !text->data) continue;
+            const auto* bytes = static_cast<const char*>(text->data);
+            const auto wide = static_cast<std::size_t>(std::max(text->data_size, 1));
+            for (std::size_t k = 0; k + wide <= text->nbytes && matrix.unit.size() < longest_unit_letters;
+                 k += wide)
+                matrix.unit += bytes[k];
         }
     }
 
@@ -267,6 +305,7 @@ class MatReading {
     std::filesystem::path path_;
     mat_t* file_ = nullptr;
     std::uint64_t file_bytes_ = 0;
+    std::map<std::string, matvar_t*> units_;  // by variable.field
     std::vector<NamedMatrix> matrices_;
     std::vector<std::string> left_out_;
 };

@@ -53,6 +53,7 @@ class McapReading {
         }
         tables_.end();
         for (auto& [topic, table] : json_tables_) table.end();
+        set_units();
         add_remarks(begin);
     }
 
@@ -186,6 +187,7 @@ class McapReading {
         const std::string topic(cursor.prefixed());
         const std::string encoding(cursor.prefixed());
         if (!cursor.is_good() || topic.size() > LogLimits::name_bytes) return false;
+        read_unit(cursor, topic);
         const auto [entry, is_new] = channels_.try_emplace(number);
         if (!is_new) return true;
         const auto found = schemas_.find(schema_number);
@@ -213,6 +215,29 @@ class McapReading {
         return true;
     }
 
+    // Some writers state a unit in the metadata of a topic.
+    void read_unit(ByteCursor& cursor, const std::string& topic) {
+        ByteCursor metadata(cursor.prefixed());
+        while (metadata.is_good()) {
+            const std::string_view key = metadata.prefixed();
+            const std::string_view value = metadata.prefixed();
+            if (!metadata.is_good()) return;
+            if (key == "unit" && value.size() <= LogLimits::name_bytes && units_.size() < LogLimits::columns)
+                units_.try_emplace(as_utf8(topic), as_utf8(value));
+        }
+    }
+
+    void set_units() {
+        for (LogTable& table : writer_.log().tables) {
+            const auto unit = units_.find(table.name);
+            if (unit == units_.end()) continue;
+            for (LogColumn& column : table.columns) {
+                if (column.name != "log_time" && column.name != "header.stamp" && column.unit.empty())
+                    column.unit = unit->second;
+            }
+        }
+    }
+
     bool take(std::uint64_t count) {
         data_.resize(std::min(count, file_.size_bytes() - std::min(file_.position(), file_.size_bytes())));
         data_.resize(file_.read(data_.data(), data_.size()));
@@ -232,6 +257,7 @@ class McapReading {
     MessageTables tables_;
     std::map<std::string, JsonTable> json_tables_;
     std::map<std::uint16_t, Schema> schemas_;
+    std::map<std::string, std::string> units_;  // by topic
     std::size_t schema_bytes_ = 0;
     std::map<std::uint16_t, Channel> channels_;
     std::string data_;

@@ -20,6 +20,7 @@ constexpr WebFile web_files[] = {
     {"page.js", "text/javascript"},
     {"live.js", "text/javascript"},
     {"service.js", "text/javascript"},
+    {"import.js", "text/javascript"},
     {"page.css", "text/css"},
     {"service.css", "text/css"},
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace capstan::service {
@@ -11,7 +12,9 @@ namespace {
 
 constexpr std::string_view bearer = "Bearer ";
 constexpr std::string_view cookie_name = "capstan_token=";
-constexpr std::string_view upload_path = "/api/diagnoses";
+// Only these take files.
+constexpr std::array<std::string_view, 4> upload_paths{"/api/diagnoses", "/api/import/suggestion",
+                                                       "/api/import/trial", "/api/import/diagnosis"};
 
 std::string lower(std::string_view text) {
     std::string small(text);
@@ -48,7 +51,8 @@ bool has_token(const RequestHead& request, const Access& access) {
 }
 
 std::optional<Refusal> refuse_body(const RequestHead& request) {
-    const bool upload = request.path == upload_path;
+    const bool upload =
+        std::find(upload_paths.begin(), upload_paths.end(), request.path) != upload_paths.end();
     if (!request.transfer_encoding.empty() || (writes(request) && !request.content_length))
         return Refusal{411, "The body needs a Content-Length."};
     const std::size_t limit = upload ? largest_upload_bytes : largest_text_bytes;

@@ -67,6 +67,7 @@ std::vector<Route> study_routes(RouteContext& context);
 std::vector<Route> layout_routes(RouteContext& context);
 std::vector<Route> job_routes(RouteContext& context);
 std::vector<Route> diagnosis_routes(RouteContext& context);
+std::vector<Route> import_routes(RouteContext& context);
 std::vector<Route> query_routes(RouteContext& context);
 
 /// All of them, and /openapi.json, which describes them.

@@ -13,6 +13,11 @@ rm -rf "$work/served"
 mkdir -p "$work/served"
 "$capstan" gap-trial --cases 1 --seed 4 --length short --severity strong --keep "$work/served/trial" --generate-only \
     --progress none >/dev/null
+# A laboratory's file: the first run of a recording in degrees and milliseconds, with names that say little.
+awk -F, 'BEGIN { print "Time [ms],Motor torque (Nm),ch3,Joint torque (Nm),ch5" }
+         $1 == 1 { printf "%.3f,%s,%.7f,%s,%.7f\n", 1000 * $2, $3, $4 * 57.29577951308232, $5, $6 * 57.29577951308232 }' \
+    "$configs/recordings/viscous-pair.csv" >"$work/served/laboratory.csv"
+cp "$configs/recordings/viscous-pair.json" "$work/served/bench.json"
 : >"$work/served/messages"
 "$capstan" serve --db "$work/served/capstan.db" --port 0 --configs "$configs" 2>"$work/served/messages" &
 service=$!
@@ -24,4 +29,5 @@ while [ -z "$address" ]; do
     sleep 0.1
 done
 CHROMIUM=$chromium node "$work/service_pages.mjs" "$work/screenshots" "$address" \
-    "$work/served/trial/case001.csv" "$work/served/trial/case001.json"
+    "$work/served/trial/case001.csv" "$work/served/trial/case001.json" \
+    "$work/served/laboratory.csv"

@@ -1,11 +1,11 @@
 // Uses the pages of a running `capstan serve` as a person would, in headless Chromium.
-// usage: node service_pages.mjs SCREENSHOT_FOLDER ADDRESS LOG.csv SIDECAR.json
-import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+// usage: node service_pages.mjs SCREENSHOT_FOLDER ADDRESS LOG.csv SIDECAR.json LABORATORY_LOG.csv
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { check, finish, launch } from "./checks.mjs";
 
-const [folder, address, log, sidecar] = process.argv.slice(2);
+const [folder, address, log, sidecar, laboratory] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
 
@@ -128,6 +128,80 @@ async function diagnose(page) {
   check((await page.$$(".verdict-card tbody tr")).length > 3, "every cause has its probability");
 }
 
+// The file is that of a laboratory: other names, degrees, milliseconds, and two columns whose names say nothing.
+async function importALog(page) {
+  const silent = complaints.length;
+  await page.setInputFiles("#import-files", laboratory);
+  await page.selectOption("#import-kind", "pull_pull");
+  await page.click("#import-form button[type=submit]");
+  await page.waitForSelector("#import-columns .column svg.spark polyline");
+  const columns = await page.$$eval("#import-columns .column b", (all) => all.map((each) => each.textContent));
+  check(columns.length === 5, "all columns are drawn: " + columns.join(", "));
+  const idle = () => page.waitForFunction(() => document.querySelector("#import-try").disabled === false);
+  const columnOf = (role) => page.$eval(`[data-role="${role}"] .role-column`, (each) => each.selectedOptions[0].textContent);
+  const toml = () => page.$eval("#import-text", (each) => each.value);
+  check((await page.$$("#import-roles .guesses li")).length >= 2, "every guess has its reason");
+
+  // With the mouse, then with the keyboard alone.
+  await page.dragAndDrop(`#import-columns .column:nth-child(${columns.indexOf("ch3") + 1})`, '[data-role="motor_angle"]');
+  await page.waitForFunction(() => /motor_angle = .*"ch3"/.test(document.querySelector("#import-text").value));
+  await idle();
+  check(await columnOf("motor_angle") === "ch3", "a column is dragged to a channel");
+  await page.focus('[data-role="load_angle"] .role-column');
+  await page.keyboard.type("ch5");
+  await page.keyboard.press("Tab");
+  await page.waitForFunction(() => /load_angle = .*"ch5"/.test(document.querySelector("#import-text").value));
+  await idle();
+  check(await columnOf("load_angle") === "ch5", "the keyboard assigns a column");
+  for (const role of ["motor_angle", "load_angle"]) {
+    await page.fill(`[data-role="${role}"] .role-unit`, "deg");
+    await page.keyboard.press("Tab");
+    await page.waitForFunction((name) => new RegExp(name + ' = .*"deg"').test(document.querySelector("#import-text").value), role);
+    await idle();
+  }
+  await page.selectOption('[data-role="load_torque"] .role-sign', "-1");
+  await page.waitForFunction(() => /load_torque = .*sign = -1/.test(document.querySelector("#import-text").value));
+  await idle();
+
+  // The text is the truth: what is changed there shows in the channels, and a mistake is told with its line.
+  const before = await toml();
+  await page.fill("#import-text", before.replace(", sign = -1", "").replace(/T0 = .*/g, "T0 = 20.0").replace(/^nominal = .*$/m, `nominal = ${nominalToml()}`));
+  await page.waitForFunction(() => document.querySelector('[data-role="load_torque"] .role-sign').value === "1");
+  const good = await toml();
+  await page.fill("#import-text", good.replace("\n[recording]", "\n[recordings]"));
+  await page.waitForFunction(() => /recordings/.test(document.querySelector("#import-mapping-problems").textContent));
+  await page.fill("#import-text", good);
+  await page.waitForFunction(() => document.querySelector("#import-mapping-problems").textContent === "");
+  await page.locator("#import").screenshot({ path: join(folder, "service_import.png") });
+
+  await page.click("#import-try");
+  await page.waitForSelector("#import-result .channel-chart polyline");
+  check(/1 run, 801 samples at 100 Hz/.test(await text(page, "#import-result h3")), "a trial says what was read: " + await text(page, "#import-result h3"));
+  check((await page.$$("#import-result .channel-chart")).length === 4, "the channels of the recording are drawn");
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#import-save")]);
+  check(saved.suggestedFilename() === "import.toml" && readFileSync(await saved.path(), "utf8") === good, "the mapping is saved as it stands");
+
+  const cards = (await page.$$(".verdict-card")).length;
+  await page.click("#import-diagnose");
+  await page.waitForFunction(() => /Job \d+ is queued/.test(document.querySelector("#import-status").textContent));
+  await page.locator("#import").screenshot({ path: join(folder, "service_import_tried.png") });
+  await page.emulateMedia({ colorScheme: "dark" });
+  await page.setViewportSize({ width: 400, height: 850 });
+  check(await overflow(page) <= 0, "the import has no horizontal scroll on a narrow screen");
+  await page.locator("#import").screenshot({ path: join(folder, "service_import_narrow_dark.png") });
+  await page.setViewportSize({ width: 1280, height: 900 });
+  await page.locator("#import").screenshot({ path: join(folder, "service_import_dark.png") });
+  await page.emulateMedia({ colorScheme: "light" });
+  await page.waitForFunction((count) => document.querySelectorAll(".verdict-card").length > count, cards);
+  check(/laboratory: .*%/.test(await text(page, ".verdict-card")), "the imported log has its verdict: " + (await text(page, ".verdict-card")).slice(0, 80));
+  complaints.splice(silent, complaints.length, ...complaints.slice(silent).filter((words) => !/400/.test(words)));
+}
+function nominalToml() {
+  const nominal = JSON.parse(readFileSync(laboratory.replace(/laboratory\.csv$/, "bench.json"), "utf8")).nominal;
+  const value = (each) => Array.isArray(each) ? "[" + each.map(value).join(", ") + "]" : typeof each === "object" ? "{ " + Object.entries(each).map(([key, inner]) => `${key} = ${value(inner)}`).join(", ") + " }" : JSON.stringify(each);
+  return value(nominal);
+}
+
 let browser;
 try {
   browser = await launch(profile);
@@ -151,6 +225,7 @@ try {
   await refusedQuery(front);
   await query(front);
   await diagnose(front);
+  await importALog(front);
   check(await overflow(front) <= 0, "the front page has no horizontal scroll");
   await front.screenshot({ path: join(folder, "service_front.png"), fullPage: true });
   await front.emulateMedia({ colorScheme: "dark" });

@@ -47,12 +47,13 @@ class ServiceTest(CapstanTest):
         self.assertEqual(status, expect, text)
         return json.loads(text)
 
-    def upload(self, files, expect=202):
-        """`files`: part -> (file name, bytes)."""
+    def upload(self, files, expect=202, path="/api/diagnoses"):
+        """`files`: part -> (file name, bytes), or pairs of these where a part comes more than once."""
         border = uuid.uuid4().hex
+        parts = files.items() if isinstance(files, dict) else files
         body = b"".join(f'--{border}\r\nContent-Disposition: form-data; name="{part}"; filename="{name}"\r\n\r\n'.encode()
-                        + content + b"\r\n" for part, (name, content) in files.items()) + f"--{border}--\r\n".encode()
-        status, _, text = self.ask("POST", "/api/diagnoses", body,
+                        + content + b"\r\n" for part, (name, content) in parts) + f"--{border}--\r\n".encode()
+        status, _, text = self.ask("POST", path, body,
                                    {"Content-Type": f"multipart/form-data; boundary={border}"})
         self.assertEqual(status, expect, text)
         return json.loads(text)

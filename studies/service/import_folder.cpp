@@ -1,0 +1,153 @@
+#include "capstan/service/import_folder.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <semaphore>
+#include <thread>
+
+#include "capstan/platform/child_process.h"
+#include "capstan/platform/files.h"
+
+namespace capstan::service {
+
+namespace {
+
+constexpr std::chrono::seconds import_limit{120};
+constexpr std::chrono::seconds import_patience{10};  // for a turn
+constexpr std::size_t longest_name = 120;
+constexpr std::size_t most_message_bytes = 20000;
+
+std::counting_semaphore<2> import_turns{2};
+
+class ImportTurn {
+  public:
+    ImportTurn() {
+        if (!import_turns.try_acquire_for(import_patience))
+            throw BadRequest("too many imports at once; try again in a moment", 503);
+    }
+    ~ImportTurn() { import_turns.release(); }
+    ImportTurn(const ImportTurn&) = delete;
+    ImportTurn& operator=(const ImportTurn&) = delete;
+};
+
+// Runs a command and ends it after `import_limit`.
+CommandOutput run_limited(const std::vector<std::string>& words) {
+    const ImportTurn turn;
+    ChildProcess child(words, 5);
+    std::mutex mutex;
+    std::condition_variable_any ended;
+    bool late = false;
+    std::jthread watch([&](const std::stop_token& stop) {
+        std::unique_lock lock(mutex);
+        if (ended.wait_for(lock, stop, import_limit, [&] { return stop.stop_requested(); })) return;
+        if (stop.stop_requested()) return;
+        late = true;
+        child.ask_to_stop();
+    });
+    CommandOutput output = child.wait();
+    watch.request_stop();
+    watch.join();
+    if (late)
+        throw BadRequest(
+            fmt::format(
+                "the import took more than {} s; use `capstan import` at the shell for logs as long as this",
+                import_limit.count()),
+            408);
+    return output;
+}
+
+// As a person reads them: without the program's name and the folder.
+std::string plain_messages(std::string text, const std::string& folder) {
+    for (const std::string& unwanted : {folder + "/", std::string("capstan: ")}) {
+        for (std::size_t at = 0; (at = text.find(unwanted, at)) != std::string::npos;)
+            text.erase(at, unwanted.size());
+    }
+    while (text.ends_with('\n')) text.pop_back();
+    return text.size() > most_message_bytes ? text.substr(0, most_message_bytes) + " ..." : text;
+}
+
+std::filesystem::path new_folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "capstan-import-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+        throw std::runtime_error("cannot make a folder for the uploaded files in " +
+                                 std::filesystem::temp_directory_path().string());
+    return name;
+}
+
+}  // namespace
+
+std::string safe_file_name(const std::string& name) {
+    std::string safe = name.substr(name.find_last_of("/\\") + 1);
+    for (char& letter : safe) {
+        const auto byte = static_cast<unsigned char>(letter);
+        if (byte < 32 || byte == 127 || std::string_view("*?:\"<>|").find(letter) != std::string_view::npos)
+            letter = '_';
+    }
+    if (safe.size() > longest_name) safe = safe.substr(safe.size() - longest_name);
+    if (safe.starts_with('.')) safe[0] = '_';
+    return safe.empty() ? "log" : safe;
+}
+
+ImportFolder::ImportFolder(const httplib::Request& request, const JobCommands& commands)
+    : program_(commands.program) {
+    const auto [first, last] = request.files.equal_range("log");
+    const auto count = static_cast<std::size_t>(std::distance(first, last));
+    if (count == 0) throw BadRequest("the part 'log' is missing: send each file of the log as a part 'log'");
+    if (count > max_uploaded_logs)
+        throw BadRequest(fmt::format("{} files; at most {} are taken at once", count, max_uploaded_logs),
+                         413);
+    std::vector<std::string> names;
+    for (auto part = first; part != last; ++part) {
+        const std::string name = safe_file_name(part->second.filename);
+        if (std::find(names.begin(), names.end(), name) != names.end())
+            throw BadRequest(fmt::format("two files are called {}; give them different names", name));
+        names.push_back(name);
+    }
+    folder_ = new_folder();
+    try {
+        std::filesystem::create_directory(folder_ / "logs");
+        std::size_t number = 0;
+        for (auto part = first; part != last; ++part) {
+            logs_.push_back(folder_ / "logs" / names[number++]);
+            write_file(logs_.back(), part->second.content);
+        }
+        has_mapping_ = request.has_file("mapping");
+        if (has_mapping_) write_file(folder_ / "import.toml", request.get_file_value("mapping").content);
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+        throw;
+    }
+}
+
+ImportFolder::~ImportFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+}
+
+std::string ImportFolder::import(const std::vector<std::string>& words) const {
+    std::vector<std::string> command{program_, "import"};
+    for (const auto& log : logs_) command.push_back(log.string());
+    command.insert(command.end(), {"--progress", "none"});
+    command.insert(command.end(), words.begin(), words.end());
+    const CommandOutput ended = run_limited(command);
+    if (ended.exit_code == 0) return ended.output;
+    std::string messages =
+        plain_messages(plain_messages(ended.messages, (folder_ / "logs").string()), folder_.string());
+    throw BadRequest(messages.empty() ? fmt::format("the import ended with code {}", ended.exit_code)
+                                      : messages);
+}
+
+std::filesystem::path ImportFolder::import_recording(std::string& answer) const {
+    if (!has_mapping_) throw BadRequest("the part 'mapping' is missing: send the text of import.toml");
+    const std::filesystem::path recording = folder_ / "recording";
+    answer = import({"--mapping", (folder_ / "import.toml").string(), "-o", recording.string(), "--json"});
+    return recording.string() + ".csv";
+}
+
+}  // namespace capstan::service
