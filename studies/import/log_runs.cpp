@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "capstan/cable/invalid_input.h"
 #include "capstan/platform/nearest_name.h"
 
 namespace capstan::imports {
@@ -284,8 +285,13 @@ double seconds_per_unit(const LogColumn& column, const std::string& stated) {
     return time_unit(column.name).value_or(1.0);
 }
 
-LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
-                      const std::function<void(double)>& on_progress, ProblemList& problems) {
+namespace {
+
+using Wanted = std::function<bool(const std::string& table, const std::string& column)>;
+
+LogRuns read_wanted(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
+                    const Wanted& wanted, const std::function<void(double)>& on_progress,
+                    ProblemList& problems) {
     LogRuns found;
     const std::vector<FileGroup> groups = groups_of(files, mapping, problems);
     problems.throw_if_any();
@@ -298,7 +304,7 @@ LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Map
     }
     double read_bytes = 0.0;
     logs::ReadOptions options;
-    options.wanted = wanted_by(mapping);
+    options.wanted = wanted;
     options.text = mapping.text;
     options.memory_limit_bytes = numbers_in_memory_bytes / std::max<std::size_t>(files.size(), 1);
     for (const auto& file : files) {
@@ -329,6 +335,21 @@ LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Map
     }
     problems.throw_if_any();
     return found;
+}
+
+}  // namespace
+
+LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
+                      const std::function<void(double)>& on_progress, ProblemList& problems) {
+    const Wanted wanted = wanted_by(mapping);
+    const std::size_t before = problems.size();
+    try {
+        return read_wanted(files, mapping, wanted, on_progress, problems);
+    } catch (const InvalidInput&) {
+        if (!wanted || problems.size() == before) throw;
+    }
+    ProblemList again;  // with every column, so that the messages name them
+    return read_wanted(files, mapping, {}, on_progress, again);
 }
 
 }  // namespace capstan::imports
