@@ -30,8 +30,9 @@
   let busy = 0;
   async function during(words, work, problems) {
     const buttons = document.querySelectorAll("#import button");
+    const status = at(problems === "import-run-problems" ? "import-run-status" : "import-status");
     showProblems(problems, []);
-    at("import-status").textContent = words;
+    status.textContent = words;
     ++busy;
     buttons.forEach((button) => { button.disabled = true; });
     try {
@@ -41,7 +42,7 @@
     } finally {
       --busy;
       buttons.forEach((button) => { button.disabled = busy > 0; });
-      if (at("import-status").textContent === words) at("import-status").textContent = "";
+      if (status.textContent === words) status.textContent = "";
     }
   }
 
@@ -101,11 +102,12 @@
   }
 
   // ---- channels
-  async function edit(change, words) {
+  let last_edit = Promise.resolve();  // each is made in the text that the one before left
+  function edit(change) {
     changed_by_hand.add(change.channel);
-    await during(words ?? "Changing the mapping …", async () => {
+    last_edit = last_edit.then(() => during("", async () => {
       take(await postJson({ mapping: at("import-text").value, edit: change }));
-    }, "import-mapping-problems");
+    }, "import-mapping-problems"));
   }
   function assign(role, index) {
     if (index < 0) return edit({ channel: role, remove: true });
@@ -113,7 +115,7 @@
     const change = { channel: role, column: column.column, table: role === "time" ? "" : column.table, file: role !== "time" && severalFiles() ? column.file : "" };
     if (column.unit) change.unit = column.unit;
     else if (role !== "time" && !mapping.channels.some((channel) => channel.name === role)) change.unit = roles.find((each) => each.name === role)?.unit ?? "N";
-    return edit(change, `Assigning ${column.column} to ${role} …`);
+    return edit(change);
   }
 
   function field(label, input, role) {
@@ -303,6 +305,6 @@
   });
   at("import-diagnose").addEventListener("click", () => during("Importing …", async () => {
     const job = await (await postForm("/api/import/diagnosis", true)).json();
-    at("import-status").textContent = `Job ${job.job} is queued. Its progress is in the queue; its verdict will stand under Diagnoses.`;
+    at("import-run-status").textContent = `Job ${job.job} is queued. Its progress is in the queue; its verdict will stand under Diagnoses.`;
   }, "import-run-problems"));
 })();

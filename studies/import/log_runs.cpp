@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "capstan/cable/invalid_input.h"
 #include "capstan/platform/nearest_name.h"
 
 namespace capstan::imports {
@@ -40,24 +41,22 @@ int find_column(const LogTable& table, const std::string& wanted) {
     return number >= 1 && number <= static_cast<int>(table.columns.size()) ? number - 1 : -1;
 }
 
-/// Every column that a reader came across, also of those that it left out, for messages.
-struct SeenNames {
+std::string columns_in_words(const std::vector<const Log*>& logs, const std::string& wanted) {
     std::vector<std::string> names;
     std::string list;
-
-    void add(const std::string& table, const std::string& column) {
-        if (std::find(names.begin(), names.end(), column) != names.end() && table.empty()) return;
-        names.push_back(column);
-        if (list.size() < 600)
-            list += fmt::format("{}{}{}", list.empty() ? "" : ", ", table.empty() ? "" : table + " ", column);
+    for (const Log* log : logs) {
+        for (const LogTable& table : log->tables) {
+            for (const LogColumn& column : table.columns) {
+                names.push_back(column.name);
+                if (list.size() < 600)
+                    list += fmt::format("{}{}{}", list.empty() ? "" : ", ",
+                                        table.name.empty() ? "" : table.name + " ", column.name);
+            }
+        }
     }
-};
-
-std::string columns_in_words(const SeenNames& seen, const std::string& wanted) {
-    if (const auto nearest = nearest_name(wanted, seen.names))
+    if (const auto nearest = nearest_name(wanted, names))
         return fmt::format("; did you mean \"{}\"?", *nearest);
-    return seen.list.empty() ? "; `capstan import --suggest` lists the columns"
-                             : "; the columns are: " + seen.list;
+    return list.empty() ? "; the file has no column of numbers" : "; the columns are: " + list;
 }
 
 struct FoundColumn {
@@ -83,9 +82,8 @@ std::vector<FoundColumn> columns_at(const std::vector<const Log*>& logs, const C
 /// Finds the sources of one run's channels.
 class SourceFinder {
   public:
-    SourceFinder(const Mapping& mapping, std::vector<const Log*> logs, const SeenNames& seen,
-                 ProblemList& problems)
-        : mapping_(&mapping), logs_(std::move(logs)), seen_names_(&seen), problems_(&problems) {}
+    SourceFinder(const Mapping& mapping, std::vector<const Log*> logs, ProblemList& problems)
+        : mapping_(&mapping), logs_(std::move(logs)), problems_(&problems) {}
 
     std::optional<Source> source(const ChannelMapping& channel, const RunMapping* run) {
         const std::vector<FoundColumn> found = columns_at(logs_, channel.from);
@@ -93,7 +91,7 @@ class SourceFinder {
         if (found.empty()) {
             problem(key, fmt::format("no column \"{}\"{} in {}{}", channel.from.column,
                                      channel.from.table.empty() ? "" : " of " + channel.from.table, files(),
-                                     columns_in_words(*seen_names_, channel.from.column)));
+                                     columns_in_words(logs_, channel.from.column)));
             return std::nullopt;
         }
         if (found.size() > 1) {
@@ -136,7 +134,7 @@ class SourceFinder {
                                           files())
                             : fmt::format("no column \"{}\" in {}{}{}", time.column, files(),
                                           found.table->name.empty() ? "" : " " + found.table->name,
-                                          columns_in_words(*seen_names_, time.column)));
+                                          columns_in_words({found.log}, time.column)));
             return false;
         }
         const LogColumn& column = found.table->columns[static_cast<std::size_t>(clock.column)];
@@ -157,26 +155,21 @@ class SourceFinder {
 
     const Mapping* mapping_;
     std::vector<const Log*> logs_;
-    const SeenNames* seen_names_;
     ProblemList* problems_;
     std::set<const LogTable*> said_;
 };
 
-// Which columns an import needs; `seen` notes all.
-std::function<bool(const std::string&, const std::string&)> wanted_by(const Mapping& mapping,
-                                                                      SeenNames& seen) {
+// Which columns an import needs.
+std::function<bool(const std::string&, const std::string&)> wanted_by(const Mapping& mapping) {
     const bool by_number =
         std::any_of(mapping.channels.begin(), mapping.channels.end(), [](const ChannelMapping& channel) {
             return std::all_of(channel.from.column.begin(), channel.from.column.end(), ::isdigit);
         });
     // Numbers count all columns, and a time without a name is searched among all.
-    const bool all = by_number || (mapping.time.column.empty() && mapping.time.sample_rate_Hz == 0.0);
+    if (by_number || (mapping.time.column.empty() && mapping.time.sample_rate_Hz == 0.0)) return {};
     std::set<std::string> names = {mapping.time.column, mapping.run_column.value_or(mapping.time.column)};
     for (const ChannelMapping& channel : mapping.channels) names.insert(channel.from.column);
-    return [all, names, &seen](const std::string& table, const std::string& column) {
-        seen.add(table, column);
-        return all || names.count(column) > 0;
-    };
+    return [names](const std::string&, const std::string& column) { return names.count(column) > 0; };
 }
 
 struct FileGroup {
@@ -297,8 +290,13 @@ double seconds_per_unit(const LogColumn& column, const std::string& stated) {
     return time_unit(column.name).value_or(1.0);
 }
 
-LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
-                      const std::function<void(double)>& on_progress, ProblemList& problems) {
+namespace {
+
+using Wanted = std::function<bool(const std::string& table, const std::string& column)>;
+
+LogRuns read_wanted(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
+                    const Wanted& wanted, const std::function<void(double)>& on_progress,
+                    ProblemList& problems) {
     LogRuns found;
     const std::vector<FileGroup> groups = groups_of(files, mapping, problems);
     problems.throw_if_any();
@@ -311,8 +309,7 @@ LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Map
     }
     double read_bytes = 0.0;
     logs::ReadOptions options;
-    SeenNames seen;
-    options.wanted = wanted_by(mapping, seen);
+    options.wanted = wanted;
     options.text = mapping.text;
     options.memory_limit_bytes = numbers_in_memory_bytes / std::max<std::size_t>(files.size(), 1);
     for (const auto& file : files) {
@@ -333,7 +330,7 @@ LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Map
     for (const FileGroup& group : groups) {
         std::vector<const Log*> group_logs;
         for (const auto& file : group.files) group_logs.push_back(logs.at(file));
-        SourceFinder finder(mapping, group_logs, seen, problems);
+        SourceFinder finder(mapping, group_logs, problems);
         std::vector<Source> sources;
         for (const ChannelMapping& channel : mapping.channels) {
             if (auto source = finder.source(channel, group.mapping)) sources.push_back(*source);
@@ -343,6 +340,21 @@ LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Map
     }
     problems.throw_if_any();
     return found;
+}
+
+}  // namespace
+
+LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
+                      const std::function<void(double)>& on_progress, ProblemList& problems) {
+    const Wanted wanted = wanted_by(mapping);
+    const std::size_t before = problems.size();
+    try {
+        return read_wanted(files, mapping, wanted, on_progress, problems);
+    } catch (const InvalidInput&) {
+        if (!wanted || problems.size() == before) throw;
+    }
+    ProblemList again;  // with every column, so that the messages name them
+    return read_wanted(files, mapping, {}, on_progress, again);
 }
 
 }  // namespace capstan::imports

@@ -183,7 +183,7 @@ async function importALog(page) {
 
   const cards = (await page.$$(".verdict-card")).length;
   await page.click("#import-diagnose");
-  await page.waitForFunction(() => /Job \d+ is queued/.test(document.querySelector("#import-status").textContent));
+  await page.waitForFunction(() => /Job \d+ is queued/.test(document.querySelector("#import-run-status").textContent));
   await page.locator("#import").screenshot({ path: join(folder, "service_import_tried.png") });
   await page.emulateMedia({ colorScheme: "dark" });
   await page.setViewportSize({ width: 400, height: 850 });

@@ -136,6 +136,7 @@ class ServeImport(ServiceTest):
         bad = mapping.replace("Motor position", "Motor angle").replace("Joint position", "Joint angle")
         refused = self.upload([*self.logs, ("mapping", ("", bad.encode()))], 400, "/api/import/trial")["error"]
         self.assertEqual(len(refused.splitlines()), 4, refused)  # two channels in two files
+        self.assertTrue(all("Motor position" in line or "Joint position" in line for line in refused.splitlines()), refused)
         self.assertNotIn(tempfile.gettempdir(), refused)
 
     def test_from_a_log_to_a_verdict(self):
