@@ -72,7 +72,7 @@ std::vector<reports::Column> price_columns(const WorldAnswer& found) {
                                             {"load_end_error_N", "load end", "N", ".3f"},
                                             {"worst_place_error_N", "worst place", "N", ".3f"},
                                             {"covered_fraction", "in band", "", ".1%"},
-                                            {"not_told_apart", "as good"}};
+                                            {"not_distinguished", "as good"}};
     if (found.bound) columns.push_back({"at_most_worse_N", "at most worse", "N", ".3f"});
     return columns;
 }

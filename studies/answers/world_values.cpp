@@ -124,7 +124,7 @@ Data recommendation_data(const StudyPlan& plan, const WorldAnswer& found) {
     Data ties = Data::list();
     if (found.recommended)
         for (const int tie : found.best().ties) ties.push_back(found.words(tie));
-    data["not_told_apart"] = std::move(ties);
+    data["not_distinguished"] = std::move(ties);
     if (found.bound) {
         data["at_most_worse_N"] = found.bound->gap.value_N;
         data["at_most_worse_interval_N"] = interval_data(found.bound->gap);
@@ -149,14 +149,15 @@ Data prices_data(const StudyPlan& plan, const WorldAnswer& found) {
                                          : best.on_front        ? "best of its price"
                                                                 : "no gain over cheaper");
         row["compared"] = best.candidates;
-        row["not_told_apart"] = best.ties.size();
+        row["not_distinguished"] = best.ties.size();
         row["selected_error_N"] = best.selected_N;
         if (found.bound) row["at_most_worse_N"] = found.bound->of_prices[k].value_N;
         rows.push_back(std::move(row));
     }
     if (found.bound) {
         Data row = row_of(found.bound->all, "not for sale");
-        row["set"] = fmt::format("all {} usable sensors together", found.set(found.bound->all.candidate).count());
+        row["set"] =
+            fmt::format("all {} usable sensors together", found.set(found.bound->all.candidate).count());
         rows.push_back(std::move(row));
     }
     return rows;

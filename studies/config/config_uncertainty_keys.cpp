@@ -148,12 +148,13 @@ void add_search_keys(StudyKeys& keys) {
                  {at, "minimum_spacing_m", "m", "Minimum distance between tension sensors."}, zero_or_more,
                  0.0, [](auto& plan, int) -> auto& { return plan.placement.minimum_spacing_m; }),
              with_worlds));
-    keys.push_back(only(number(
-                            {at, "resolution_N", "N",
-                             "Sets whose errors differ by less than this are not told apart by more worlds."},
-                            above_zero, standard.resolution_N,
-                            [](auto& plan, int) -> auto& { return plan.placement.resolution_N; }),
-                        with_worlds));
+    keys.push_back(
+        only(number(
+                 {at, "resolution_N", "N",
+                  "Sets whose errors differ by less than this are not distinguished by more worlds."},
+                 above_zero, standard.resolution_N,
+                 [](auto& plan, int) -> auto& { return plan.placement.resolution_N; }),
+             with_worlds));
     keys.push_back(
         only(number(
                  {at, "target_error_N", "N", "The cheapest set with a lower error is named; 0: no target."},

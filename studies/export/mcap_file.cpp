@@ -133,16 +133,16 @@ class McapWriting {
     void end_chunk() {
         if (chunk_.empty()) return;
         const auto size = static_cast<std::uint64_t>(chunk_.size());
-        const std::string whole = record(chunk_record, Fields()
-                                                           .number(chunk_first_ns_)
-                                                           .number(chunk_last_ns_)
-                                                           .number(size)
-                                                           .number(crc_of(chunk_))
-                                                           .text("")
-                                                           .number(size)
-                                                           .raw(chunk_));
+        const std::string complete = record(chunk_record, Fields()
+                                                              .number(chunk_first_ns_)
+                                                              .number(chunk_last_ns_)
+                                                              .number(size)
+                                                              .number(crc_of(chunk_))
+                                                              .text("")
+                                                              .number(size)
+                                                              .raw(chunk_));
         const std::uint64_t begin = position_;
-        append(whole);
+        append(complete);
         const std::uint64_t indexes = position_;
         Fields offsets;
         for (const auto& [topic, entries] : index_) {
@@ -153,7 +153,7 @@ class McapWriting {
                                                          .number(chunk_first_ns_)
                                                          .number(chunk_last_ns_)
                                                          .number(begin)
-                                                         .number(static_cast<std::uint64_t>(whole.size()))
+                                                         .number(static_cast<std::uint64_t>(complete.size()))
                                                          .text(offsets.bytes())
                                                          .number(position_ - indexes)
                                                          .text("")
@@ -210,9 +210,9 @@ class McapWriting {
             .number(std::uint64_t{20})
             .number(begin)
             .number(offsets_begin);
-        const std::string whole = summary + offsets + footer.bytes();
-        append(whole);
-        append(Fields().number(crc_of(whole)).bytes());
+        const std::string complete = summary + offsets + footer.bytes();
+        append(complete);
+        append(Fields().number(crc_of(complete)).bytes());
     }
 
     AtomicFile file_;

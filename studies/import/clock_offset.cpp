@@ -60,7 +60,7 @@ Eigen::MatrixXd features_of(const std::vector<ClockReference>& others) {
     return features;
 }
 
-/// The unexplained part of a channel's variance at whole shifts in samples.
+/// The unexplained part of a channel's variance at integer shifts in samples.
 class ShiftFit {
   public:
     ShiftFit(const Eigen::MatrixXd& features, Eigen::Index first, Eigen::Index count)
@@ -142,8 +142,8 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
     const auto range = std::min<Eigen::Index>(
         static_cast<Eigen::Index>(longest_s * sample_rate_Hz / static_cast<double>(step)) + 1,
         coarse.size() / 4);
-    const ShiftFit whole(features_of(thinned), range, coarse.size() - 2 * range);
-    const BestShift first = best_shift(whole, coarse, 0, range, model_error);
+    const ShiftFit complete(features_of(thinned), range, coarse.size() - 2 * range);
+    const BestShift first = best_shift(complete, coarse, 0, range, model_error);
     if (first.unexplained > largest_unexplained || !first.inside) return std::nullopt;
 
     // Finely, in quarters of the samples.

@@ -76,11 +76,11 @@ std::vector<SeenColumn> seen_columns(const std::vector<const logs::Log*>& logs) 
                 before = *first;
                 double low = before;
                 double high = before;
-                own.whole_numbers = true;
+                own.integers_only = true;
                 std::size_t rises = 0;
                 for (double& value : own.readings) {
                     if (!std::isfinite(value)) value = before;
-                    own.whole_numbers &= value == std::round(value);
+                    own.integers_only &= value == std::round(value);
                     rises += value > before ? 1u : 0u;
                     low = std::min(low, value);
                     high = std::max(high, value);

@@ -17,7 +17,7 @@ struct SeenColumn {
     std::vector<double> readings;  ///< the first ones, as they stand; a missing one repeats the one before
     double span = 0.0;
     double step = 0.0;  ///< of a lattice; 0: none
-    bool whole_numbers = false;
+    bool integers_only = false;
     bool rising = false;  ///< from row to row: a time or a counter
 };
 

@@ -88,7 +88,7 @@ void set_angle_unit(ChannelMapping& channel, const SeenColumn& column, const Kno
         check_stated_angle(channel, column, stated->si, guesses);
         return;
     }
-    if ((stated && stated->quantity == Quantity::counts) || (column.whole_numbers && column.span > 40.0)) {
+    if ((stated && stated->quantity == Quantity::counts) || (column.integers_only && column.span > 40.0)) {
         channel.unit = "counts";
         set_counts(channel, column, other, guesses);
         return;
@@ -126,7 +126,7 @@ void set_force_unit(ChannelMapping& channel, const SeenColumn& column, bool is_t
               "it is a current; torque_constant_Nm_per_A is a placeholder, state the motor's own");
         return;
     }
-    if ((stated && stated->quantity == Quantity::counts) || (column.whole_numbers && column.span > 100.0)) {
+    if ((stated && stated->quantity == Quantity::counts) || (column.integers_only && column.span > 100.0)) {
         channel.unit = "counts";
         channel.scale = is_torque ? 1e-3 : 1e-2;
         guess(guesses, channel.name, Doubt::doubtful,

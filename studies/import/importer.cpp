@@ -101,7 +101,7 @@ void refuse_repairs(const ImportState& import) {
     }
     if (refused.empty()) return;
     refused.insert(refused.begin(),
-                   "--strict repairs nothing, and this log needs it; mend the log or the mapping, or "
+                   "--strict repairs nothing, and this log needs it; correct the log or the mapping, or "
                    "import without --strict:");
     throw InvalidInput(refused);
 }

@@ -126,11 +126,11 @@ void set_times(StretchPlan& plan, const LogRun& run, const Mapping& mapping, Pie
     const double wanted_Hz = mapping.sample_rate_Hz.value_or(log_Hz);
     const double ratio = log_Hz / wanted_Hz;
     const int every = std::max(1, static_cast<int>(std::lround(ratio)));
-    const bool whole_ratio = std::abs(ratio - every) < rate_tolerance * every;
+    const bool integer_ratio = std::abs(ratio - every) < rate_tolerance * every;
     common.thinning = mapping.thinning;
     common.thinned_by = every;
     plan.sample_rate_Hz = wanted_Hz;
-    if (one_clock && all_read && jitter <= largest_jitter && bridged == 0 && whole_ratio) {
+    if (one_clock && all_read && jitter <= largest_jitter && bridged == 0 && integer_ratio) {
         plan.sample_rate_Hz = mapping.sample_rate_Hz ? wanted_Hz : log_Hz;
         return;  // the log's own samples
     }
@@ -138,8 +138,8 @@ void set_times(StretchPlan& plan, const LogRun& run, const Mapping& mapping, Pie
     std::string why = !one_clock ? "its channels have different clocks"
                       : jitter > largest_jitter
                           ? fmt::format("its sample times vary by {:.0f}% of the period", 100.0 * jitter)
-                      : !whole_ratio ? "its rate is no multiple of the one asked for"
-                                     : "readings are missing in it";
+                      : !integer_ratio ? "its rate is no multiple of the one asked for"
+                                       : "readings are missing in it";
     notes.add(FindingKind::jitter, true, "", 0, jitter,
               fmt::format("resampled at {:g} Hz by straight lines, as {}", common.grid_Hz, why));
 }

@@ -439,7 +439,7 @@ class Suggesting {
         if (turned * load_sign < 0.0 || std::abs(alike) < 0.3)
             guess(channel::load_torque, std::abs(alike) < 0.3 ? Doubt::doubtful : Doubt::likely,
                   std::abs(alike) < 0.3
-                      ? "it hardly follows the motor's torque; its sign is a guess"
+                      ? "its correlation with the motor's torque is below 0.3, so its sign is a guess"
                       : "sign = -1: it is positive where it acts as the motor's torque does");
     }
 

@@ -115,7 +115,7 @@ double lattice_step(const std::vector<double>& changes, double span) {
         if (change > 1e-9 * span && (step == 0.0 || change < step)) step = change;
     }
     if (step == 0.0) return 0.0;
-    // The mean of the changes over their whole numbers of steps is the step without rounding.
+    // The mean of the changes over their integer numbers of steps is the step without rounding.
     double sum = 0.0;
     double count = 0.0;
     for (const double change : changes) {

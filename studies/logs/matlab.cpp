@@ -67,41 +67,41 @@ std::optional<Mat4Head> mat4_head(std::string_view bytes) {
     return std::nullopt;
 }
 
-/// How many variables are whole, and whether something follows them; libmatio itself reads on in the dark.
-struct WholeVariables {
+/// How many variables are complete, and whether something follows them; libmatio itself reads on in the dark.
+struct CompleteVariables {
     std::size_t count = 0;
     bool is_cut = false;
 };
 
-WholeVariables whole_variables(const std::filesystem::path& path, bool is_version_4) {
+CompleteVariables complete_variables(const std::filesystem::path& path, bool is_version_4) {
     FileSource file(path);
-    WholeVariables whole;
+    CompleteVariables complete;
     bool is_big_endian = false;
     if (!is_version_4) {
         std::string head(mat5_head_bytes, '\0');
-        whole.is_cut = file.read(head.data(), head.size()) < head.size();
+        complete.is_cut = file.read(head.data(), head.size()) < head.size();
         is_big_endian = head.ends_with("MI");
     }
-    while (!whole.is_cut && file.position() < file.size_bytes()) {
+    while (!complete.is_cut && file.position() < file.size_bytes()) {
         std::string head(is_version_4 ? mat4_head_bytes : 8, '\0');
         const bool is_short = file.read(head.data(), head.size()) < head.size();
         std::uint64_t bytes = 0;
         if (is_version_4) {
             const auto of_version_4 = mat4_head(head);
-            whole.is_cut = is_short || !of_version_4;
-            if (!whole.is_cut) bytes = of_version_4->bytes();
+            complete.is_cut = is_short || !of_version_4;
+            if (!complete.is_cut) bytes = of_version_4->bytes();
         } else {
             std::uint32_t words[2];
             std::memcpy(words, head.data(), sizeof words);
-            whole.is_cut = is_short;
+            complete.is_cut = is_short;
             bytes = swapped(words[1], is_big_endian);
         }
-        whole.is_cut = whole.is_cut || bytes > file.size_bytes() - file.position();
-        if (whole.is_cut) break;
-        ++whole.count;
+        complete.is_cut = complete.is_cut || bytes > file.size_bytes() - file.position();
+        if (complete.is_cut) break;
+        ++complete.count;
         file.seek(file.position() + bytes);
     }
-    return whole;
+    return complete;
 }
 
 class MatReading {
@@ -119,10 +119,10 @@ class MatReading {
         writer_.log().format = version == MAT_FT_MAT73  ? "MATLAB 7.3"
                                : version == MAT_FT_MAT4 ? "MATLAB 4"
                                                         : "MATLAB 5";
-        WholeVariables whole{SIZE_MAX, false};
-        if (version != MAT_FT_MAT73) whole = whole_variables(path_, version == MAT_FT_MAT4);
+        CompleteVariables complete{SIZE_MAX, false};
+        if (version != MAT_FT_MAT73) complete = complete_variables(path_, version == MAT_FT_MAT4);
         std::vector<Variable> variables;  // the matrices point into them
-        while (variables.size() < std::min(whole.count, LogLimits::columns)) {
+        while (variables.size() < std::min(complete.count, LogLimits::columns)) {
             Variable variable(Mat_VarReadNextInfo(file_));
             if (!variable) break;
             if (variable->name) collect(variable.get(), "", variable->name, 0);
@@ -130,16 +130,16 @@ class MatReading {
         }
         if (variables.empty())
             throw InvalidInput({fmt::format(
-                "{}: has no whole variable; {}", path_.string(),
-                whole.is_cut ? "the file is cut in the first one" : "it is empty, cut or damaged")});
-        if (!whole.is_cut && whole.count != SIZE_MAX && variables.size() < whole.count)
+                "{}: has no complete variable; {}", path_.string(),
+                complete.is_cut ? "the file is cut in the first one" : "it is empty, cut or damaged")});
+        if (!complete.is_cut && complete.count != SIZE_MAX && variables.size() < complete.count)
             writer_.remark(fmt::format("{} of {} variables can be read; the file is damaged",
-                                       variables.size(), whole.count));
+                                       variables.size(), complete.count));
         read_units();
         write_groups(matrices_, writer_);
-        if (whole.is_cut)
+        if (complete.is_cut)
             writer_.remark(
-                fmt::format("The file is cut; the {} variables before that are read", whole.count));
+                fmt::format("The file is cut; the {} variables before that are read", complete.count));
         if (!left_out_.empty())
             writer_.remark(fmt::format("Left out, as {} no matrix of real numbers: {}",
                                        left_out_.size() == 1 ? "it is" : "they are",

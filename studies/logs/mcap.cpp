@@ -73,7 +73,7 @@ class McapReading {
                             damage_, begin, file_.size_bytes(), messages_));
         if (messages_ == 0 && (bad_chunks_ > 0 || !damage_.empty()))
             throw InvalidInput(
-                {fmt::format("{}: no whole message was found; the file is cut or damaged at byte {}",
+                {fmt::format("{}: no complete message was found; the file is cut or damaged at byte {}",
                              writer_.log().file.string(), bad_chunks_ > 0 ? first_bad_chunk_ : begin)});
     }
 
@@ -123,7 +123,7 @@ class McapReading {
             return bad_chunk(begin, "or packed in an unknown way");
         }
         const bool is_whole = packed.size() == packed_bytes && content.size() == unpacked_bytes;
-        // Of a chunk that is cut, what there is counts; of a whole one, what its checksum vouches for.
+        // Of a chunk that is cut, what there is counts; of a complete one, what its checksum vouches for.
         if (is_whole && checksum != 0 &&
             crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size())) !=
                 checksum)

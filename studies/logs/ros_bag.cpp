@@ -69,7 +69,7 @@ class BagReading {
             writer_.remark(fmt::format("The bag {} at byte {} of {}; the {} messages before that are read",
                                        damage_, begin, file_.size_bytes(), messages_));
         if (!damage_.empty() && messages_ == 0)
-            throw InvalidInput({fmt::format("{}: the bag {} at byte {}, before its first whole message",
+            throw InvalidInput({fmt::format("{}: the bag {} at byte {}, before its first complete message",
                                             writer_.log().file.string(), damage_, begin)});
     }
 
@@ -126,7 +126,7 @@ class BagReading {
         return true;
     }
 
-    // The records inside a chunk, as far as they are whole.
+    // The records inside a chunk, as far as they are complete.
     bool read_records(std::string_view content) {
         ByteCursor cursor(content);
         while (!cursor.at_end()) {

@@ -72,7 +72,7 @@ ordered_json placed_json(const HandPlaced& placed, const WorldAnswer& answer) {
             {"recommended", answer.words(answer.recommended ? answer.best().expected.candidate : 0)},
             {"worse_than_recommended_N", placed.worse_than_recommended.value_N},
             {"worse_interval_N", interval(placed.worse_than_recommended)},
-            {"distinguishable", placed.is_told_apart()}};
+            {"distinguishable", placed.is_distinguished()}};
 }
 
 LayoutQuestion question_of(const nlohmann::json& body) {

@@ -19,7 +19,7 @@ struct HandPlaced {
     Estimated gain_over_none;          ///< no sensor - placed, paired
     Estimated worse_than_recommended;  ///< placed - recommended (no sensor where nothing is), paired
     /// Whether a paired t test at 5% tells it from the recommended set.
-    bool is_told_apart() const {
+    bool is_distinguished() const {
         return worse_than_recommended.low_N > 0.0 || worse_than_recommended.high_N < 0.0;
     }
 };

@@ -39,9 +39,9 @@ struct PriceBest {
 };
 
 /// How far the answer of a greedy search can be from the best of all sets. Worlds are drawn from what the
-/// estimator believes, so the posterior mean of all usable sensors together errs no more than that of any set
-/// of them: in the mean square always, in the mean absolute error where the posterior is symmetric. The
-/// ensemble filter takes it to be normal, and obeyed the first law within 2% wherever it was tested.
+/// estimator believes, so the posterior mean of all usable sensors together has no larger error than that of
+/// any set of them: in the mean square always, in the mean absolute error where the posterior is symmetric.
+/// The ensemble filter takes it to be normal, and obeyed the first law within 2% wherever it was tested.
 struct SearchBound {
     Expected all;  ///< every usable sensor together, allowed or not
     bool is_of_rms =

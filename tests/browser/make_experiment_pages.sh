@@ -12,9 +12,7 @@ mkdir -p "$folder"
 "$capstan" simulate "$configs/bench-slack.toml" --html "$folder/bench.html" -o /dev/null
 
 # A simulated bench with more friction than the model of its recording knows.
-"$capstan" simulate "$configs/bench-ramps.toml" -o "$folder/ramps.csv"
-awk -F, 'NR == 1 { print "run,t,motor_torque,motor_angle,load_angle,load_torque" }
-         NR > 1 { printf "1,%s,%s,%s,%s,%s\n", $1, $2, $3, $5, $4 }' "$folder/ramps.csv" >"$folder/recording.csv"
+"$capstan" simulate "$configs/bench-ramps.toml" -o "$folder/recording.csv"
 cat >"$folder/recording.json" <<'SIDECAR'
 {"case": "Ramps & <dwells>", "schema": 1, "mode": "pull_pull", "sample_rate_hz": 200,
  "units": {"t": "s", "motor_torque": "N m", "motor_angle": "rad", "load_angle": "rad", "load_torque": "N m"},

@@ -22,7 +22,7 @@ class Shell(CapstanTest):
 
     @unittest.skipUnless(shutil.which("bash"), "no bash")
     def test_bash_completes(self):
-        self.assertEqual(self.complete("capstan", "rec"), ["recommend"])
+        self.assertEqual(self.complete("capstan", "rec"), ["recommend", "recording"])
         self.assertIn("study", self.complete("capstan", ""))
         self.assertEqual(self.complete("capstan", "study", "ru"), ["run"])
         self.assertEqual(self.complete("capstan", "study", "run", "--rep"), ["--repetitions"])

@@ -271,8 +271,8 @@ def write_bag(log, path, _chance):
     messages.sort(key=lambda each: each[0])
     with rosbag.Bag(str(file), "w", compression="lz4") as bag:
         for time, name, value in messages:
-            whole = math.floor(time)
-            bag.write("/" + name, Float64(value), genpy.Time(START + whole, round((time - whole) * 1e9)))
+            complete = math.floor(time)
+            bag.write("/" + name, Float64(value), genpy.Time(START + complete, round((time - complete) * 1e9)))
     return [(file, clock, ["log_time", "data"], names) for clock, names, _ in log.tables()]
 
 

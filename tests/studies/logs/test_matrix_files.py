@@ -70,16 +70,16 @@ class MatlabFiles(WrittenLogTest):
                 path = self.folder / "log.mat"
                 values = {f"x{k:02d}": np.random.default_rng(k).standard_normal((400, 1)) for k in range(20)}
                 scipy_io.savemat(path, values, format=version, do_compression=compressed)
-                whole = path.read_bytes()
+                complete = path.read_bytes()
                 log = read_log(path)
                 self.assert_numbers(log.tables[""], {name: value[:, 0] for name, value in values.items()})
-                size = len(whole)
+                size = len(complete)
                 for part in range(1, 50):
                     cut = self.folder / "cut.mat"
-                    cut.write_bytes(whole[:size * part // 50])
+                    cut.write_bytes(complete[:size * part // 50])
                     log = read_log(cut)
                     if version == "4" and size * part // 50 % (size // 20) == 0:
-                        continue  # it ends between two variables, and is as good as a whole one
+                        continue  # it ends between two variables, and is as good as a complete one
                     self.assertTrue(log.refusal or "is cut; the" in log.remarks, f"{part}/50: {log.remarks}")
                     for name, got in log.tables.get("", {}).items():
                         self.assertEqual(got, list(values[name][:, 0]), f"{part}/50 {name}")
@@ -87,9 +87,9 @@ class MatlabFiles(WrittenLogTest):
     def test_a_claim_of_four_gigabytes_is_refused(self):
         path = self.folder / "log.mat"
         scipy_io.savemat(path, {"x": np.ones((30, 1))}, format="5")
-        whole = path.read_bytes()
-        dims = whole.index(struct.pack("<II", 30, 1))
-        path.write_bytes(whole[:dims] + struct.pack("<II", 1 << 29, 1) + whole[dims + 8:])
+        complete = path.read_bytes()
+        dims = complete.index(struct.pack("<II", 30, 1))
+        path.write_bytes(complete[:dims] + struct.pack("<II", 1 << 29, 1) + complete[dims + 8:])
         log = read_log(path)
         self.assertTrue("it claims 536870912 x 1 numbers" in log.remarks or log.refusal, log.remarks)
         self.assertEqual(log.tables, {})

@@ -108,9 +108,9 @@ class McapFiles(WrittenLogTest):
 
     def test_a_file_without_a_summary_is_read_and_its_missing_end_told(self):
         path = self.write("zstd")
-        whole = path.read_bytes()
-        data_end = next(begin for operation, begin, _ in self.records(whole) if operation == 15)
-        path.write_bytes(whole[:data_end])
+        complete = path.read_bytes()
+        data_end = next(begin for operation, begin, _ in self.records(complete) if operation == 15)
+        path.write_bytes(complete[:data_end])
         self.assertIn("is cut", self.check(path).remarks)
 
     def test_cuts_are_told(self):
@@ -123,10 +123,10 @@ class McapFiles(WrittenLogTest):
 
     def test_a_chunk_with_a_wrong_checksum_is_left_out_and_told(self):
         path = self.write("none")
-        whole = bytearray(path.read_bytes())
-        second = [begin for operation, begin, _ in self.records(whole) if operation == 6][1]
-        whole[second + 400] ^= 1
-        path.write_bytes(whole)
+        complete = bytearray(path.read_bytes())
+        second = [begin for operation, begin, _ in self.records(complete) if operation == 6][1]
+        complete[second + 400] ^= 1
+        path.write_bytes(complete)
         log = read_log(path)
         self.assertIn(f"1 chunk is left out, the first at byte {second}: damaged, as its checksum shows", log.remarks)
         self.assertLess(log.rows["/joints"], MESSAGES)
@@ -139,7 +139,7 @@ class McapFiles(WrittenLogTest):
             chunk = struct.pack("<QQQI", 0, 0, stated, 0) + struct.pack("<I", 4) + b"zstd" + struct.pack("<Q", len(zeros)) + zeros
             path = self.folder / "bomb.mcap"
             path.write_bytes(b"\x89MCAP0\r\n" + b"\6" + struct.pack("<Q", len(chunk)) + chunk)
-            self.assertIn("no whole message was found", read_log(path).refusal)
+            self.assertIn("no complete message was found", read_log(path).refusal)
 
 
 if __name__ == "__main__":

@@ -93,9 +93,9 @@ class RosBags(WrittenLogTest):
     def test_a_bag_without_an_index_is_read(self):
         """As an interrupted recording leaves it: the header's index position is 0 and the index is missing."""
         path = self.write("lz4")
-        whole = path.read_bytes()
-        index = struct.unpack("<Q", whole.split(b"index_pos=", 1)[1][:8])[0]
-        path.write_bytes(whole[:index].replace(b"index_pos=" + struct.pack("<Q", index), b"index_pos=" + bytes(8)))
+        complete = path.read_bytes()
+        index = struct.unpack("<Q", complete.split(b"index_pos=", 1)[1][:8])[0]
+        path.write_bytes(complete[:index].replace(b"index_pos=" + struct.pack("<Q", index), b"index_pos=" + bytes(8)))
         self.check(path)
 
     def test_cuts_are_told(self):
@@ -108,9 +108,9 @@ class RosBags(WrittenLogTest):
 
     def test_a_claim_of_four_gigabytes_is_refused(self):
         path = self.write("none")
-        whole = path.read_bytes()
-        size = whole.index(b"size=")
-        path.write_bytes(whole[:size + 5] + b"\xff\xff\xff\xff" + whole[size + 9:])
+        complete = path.read_bytes()
+        size = complete.index(b"size=")
+        path.write_bytes(complete[:size + 5] + b"\xff\xff\xff\xff" + complete[size + 9:])
         self.assertIn("chunk of more than 64 MB", read_log(path).refusal)
 
 

@@ -51,20 +51,20 @@ class WrittenLogTest(unittest.TestCase):
                 self.assertTrue(one == other or (math.isnan(one) and math.isnan(other)), f"{name}, row {row}: {one}, not {other}")
 
     def assert_cuts_are_told(self, path, may_be_silent_from=None):
-        """At every fiftieth of the file: the whole part with a remark, or a refusal that says why."""
-        whole = path.read_bytes()
+        """At every fiftieth of the file: the complete part with a remark, or a refusal that says why."""
+        complete = path.read_bytes()
         full = read_log(path)
         paths = []
         for part in range(1, 50):
             cut = path.with_name(f"cut_{part:02d}{path.suffix}")
-            cut.write_bytes(whole[:len(whole) * part // 50])
+            cut.write_bytes(complete[:len(complete) * part // 50])
             paths.append(cut)
         kept = 0
         for cut, log in zip(paths, read_logs(paths)):
             at = cut.stat().st_size
             if may_be_silent_from is not None and at >= may_be_silent_from:
                 continue
-            self.assertTrue(log.remarks or log.refusal, f"{path.name} cut at {at} of {len(whole)} bytes: nothing is said")
+            self.assertTrue(log.remarks or log.refusal, f"{path.name} cut at {at} of {len(complete)} bytes: nothing is said")
             for name, table in log.tables.items():
                 for column, values in table.items():
                     whole_values = full.tables[name][column]

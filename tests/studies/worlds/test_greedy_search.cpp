@@ -128,28 +128,28 @@ TEST(GreedySearch, IsTheSameForEveryNumberOfThreads) {
 
 TEST(GreedySearch, EndsWithTheSameBitsAfterEveryStop) {
     const ScratchFolder folder;
-    storage::Database whole = storage::Database::open_or_create(folder / "whole.db");
-    const std::int64_t whole_id = begin_worlds(whole, many_places(), "test");
-    const WorldAnswer answer = run_worlds(whole, whole_id, many_places(), {});
+    storage::Database unstopped = storage::Database::open_or_create(folder / "unstopped.db");
+    const std::int64_t unstopped_id = begin_worlds(unstopped, many_places(), "test");
+    const WorldAnswer answer = run_worlds(unstopped, unstopped_id, many_places(), {});
     storage::Database stopped = storage::Database::open_or_create(folder / "stopped.db");
     const std::int64_t id = begin_worlds(stopped, many_places(), "test");
     int stops = 0;
-    for (bool complete = false; !complete;) {
+    for (bool finished = false; !finished;) {
         std::atomic<bool> stop = false;
         int blocks = 0;
         try {
             run_worlds(stopped, id, many_places(),
                        {.on_progress = [&](const TableProgress&) { stop = ++blocks >= 9; }, .stop = &stop});
-            complete = true;
+            finished = true;
         } catch (const TableStopped&) {
             ++stops;
         }
         ASSERT_LT(stops, 1000);
     }
     EXPECT_GT(stops, 1);
-    EXPECT_EQ(storage::read_world_errors(stopped, id), storage::read_world_errors(whole, whole_id));
+    EXPECT_EQ(storage::read_world_errors(stopped, id), storage::read_world_errors(unstopped, unstopped_id));
     EXPECT_EQ(storage::load_study(stopped, id).world_candidates,
-              storage::load_study(whole, whole_id).world_candidates);
+              storage::load_study(unstopped, unstopped_id).world_candidates);
     const WorldAnswer read_back = run_worlds(stopped, id, many_places(), {});
     expect_the_same_answer(answer, read_back);
     EXPECT_EQ(answer.trials, read_back.trials);
@@ -158,9 +158,9 @@ TEST(GreedySearch, EndsWithTheSameBitsAfterEveryStop) {
 
 TEST(GreedySearch, EndsWithTheSameBitsInShards) {
     const ScratchFolder folder;
-    storage::Database whole = storage::Database::open_or_create(folder / "whole.db");
-    const std::int64_t id = begin_worlds(whole, many_places(), "test");
-    run_worlds(whole, id, many_places(), {});
+    storage::Database complete = storage::Database::open_or_create(folder / "complete.db");
+    const std::int64_t id = begin_worlds(complete, many_places(), "test");
+    run_worlds(complete, id, many_places(), {});
     std::vector<std::filesystem::path> files;
     for (int number = 1; number <= 2; ++number) {
         files.push_back(folder / ("shard" + std::to_string(number) + ".db"));
@@ -169,8 +169,9 @@ TEST(GreedySearch, EndsWithTheSameBitsInShards) {
     }
     merge_world_shards(folder / "merged.db", files, {});
     storage::Database merged = storage::Database::open_existing(folder / "merged.db");
-    EXPECT_EQ(storage::read_world_errors(merged, 1), storage::read_world_errors(whole, id));
-    EXPECT_EQ(storage::read_world_recommendation(merged, 1), storage::read_world_recommendation(whole, id));
+    EXPECT_EQ(storage::read_world_errors(merged, 1), storage::read_world_errors(complete, id));
+    EXPECT_EQ(storage::read_world_recommendation(merged, 1),
+              storage::read_world_recommendation(complete, id));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST_F(PlacedByHand, ASetOfTheStudyGetsTheBitsOfTheStudy) {
     const HandPlaced recommended = placer.judge(answer.set(answer.best().expected.candidate).sensors);
     EXPECT_EQ(recommended.gain_over_none.value_N, answer.gain_over_none.value_N);
     EXPECT_EQ(recommended.worse_than_recommended.value_N, 0.0);
-    EXPECT_FALSE(recommended.is_told_apart());
+    EXPECT_FALSE(recommended.is_distinguished());
 }
 
 TEST_F(PlacedByHand, ASetThatTheStudyDidNotCompareIsRunInItsWorldsAndNotStored) {
@@ -57,7 +57,7 @@ TEST_F(PlacedByHand, ASetThatTheStudyDidNotCompareIsRunInItsWorldsAndNotStored) 
 
 TEST_F(PlacedByHand, OneSensorAtTheMotorIsToldFromTheRecommendedSet) {
     const HandPlaced placed = placer.judge({0});
-    EXPECT_TRUE(placed.is_told_apart());
+    EXPECT_TRUE(placed.is_distinguished());
     EXPECT_GT(placed.worse_than_recommended.low_N, 0.0);
 }
 
