@@ -113,14 +113,12 @@ void begin_run(Recording& recording, const BenchPlan& plan) {
     recording.runs.push_back(std::move(run));
 }
 
-void record(Recording& recording, const BenchPlan& plan, const BenchInstant& now) {
+void record(Recording& recording, const Cable& cable, const BenchInstant& now) {
     RecordedRun& run = recording.runs.back();
     run.time_s.push_back(now.time_s);
     const double shafts[] = {now.motor_torque_Nm, now.motor_angle_rad, now.load_torque_Nm,
                              now.load_angle_rad};
     for (std::size_t channel = 0; channel < 4; ++channel) run.values[channel].push_back(shafts[channel]);
-    if (recording.tension_sensors.empty()) return;
-    const Cable cable(plan.cable);
     for (std::size_t sensor = 0; sensor < recording.tension_sensors.size(); ++sensor) {
         const TensionSensor& at = recording.tension_sensors[sensor];
         run.values[4 + sensor].push_back(tension_at_place_N(

@@ -19,8 +19,8 @@ struct Instruments {
 /// known.
 Recording empty_recording(const BenchPlan& plan, const Instruments& instruments);
 
-/// Adds an instant of the bench to the recording's last run.
-void record(Recording& recording, const BenchPlan& plan, const BenchInstant& now);
+/// Adds an instant of the bench to the recording's last run. `cable`: the plan's.
+void record(Recording& recording, const Cable& cable, const BenchInstant& now);
 
 /// Begins the run of a bench. Throws InvalidInput if its transmission or sample rate is not that of the
 /// recording.

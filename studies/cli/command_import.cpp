@@ -52,6 +52,12 @@ class LateProgress {
 };
 
 ExitCode suggest(const Invocation& invocation, LateProgress& display) {
+    const std::filesystem::path file = invocation.text("output");
+    if (std::filesystem::is_regular_file(file)) {
+        throw UsageError(fmt::format(
+            "capstan import: {} exists and may hold corrections; give another name with -o, or remove it",
+            file.string()));
+    }
     imports::SuggestOptions options;
     if (invocation.has("kind")) options.mode = mode_named(invocation.text("kind"));
     options.on_progress = display.shown();
@@ -72,8 +78,9 @@ ExitCode suggest(const Invocation& invocation, LateProgress& display) {
     } else {
         deliver(invocation, suggestion.text());
     }
-    say(fmt::format("{} of the guesses {} doubtful. Read each, correct the file, then import with --mapping.",
-                    doubtful, doubtful == 1 ? "is" : "are"));
+    say(fmt::format(
+        "{} of the {} guesses {} doubtful. Read each, correct the file, then import with --mapping.",
+        doubtful, suggestion.guesses.size(), doubtful == 1 ? "is" : "are"));
     return ExitCode::success;
 }
 
@@ -117,16 +124,11 @@ ExitCode run_import(const Invocation& invocation) {
 const Argument recording_argument{"LOG",
                                   "A recording: NAME.csv with NAME.json beside it; either name, or NAME."};
 
-std::filesystem::path named_recording(const Invocation& invocation) {
-    std::filesystem::path path = invocation.argument("LOG");
-    if (path.extension() != ".csv" && path.extension() != ".json") path += ".csv";
-    return path;
-}
-
 ExitCode run_recording_check(const Invocation& invocation) {
     ProblemList problems;
-    Recording recording = read_recording(named_recording(invocation), problems);
-    if (recording.name.empty()) recording.name = named_recording(invocation).stem().string();
+    const std::filesystem::path name = invocation.argument("LOG");
+    Recording recording = read_recording(name, problems);
+    if (recording.name.empty()) recording.name = recording_paths(name).samples.stem().string();
     deliver_answer(invocation, answers::recording_check_answer(recording, problems.listed(SIZE_MAX)));
     return problems.empty() ? ExitCode::success : ExitCode::wrong_input;
 }
@@ -153,7 +155,7 @@ Command import_command() {
         .name = "import",
         .summary = "Turn a laboratory's logs into a recording.",
         .description =
-            "Reads logs as laboratories write them (delimited text, MATLAB .mat, HDF5, ROS bags, rosbag2 .db3, MCAP) by a mapping, "
+            "Reads logs as laboratories write them (delimited text, MATLAB .mat, HDF5, ROS bags, rosbag2 .db3, MCAP, Excel) by a mapping, "
             "the file import.toml, which says which column or topic is which channel, in which unit, with which sign and zero. Writes "
             "a recording: NAME.csv with NAME.json. Everything that differs from the log is listed as a repair: dropped and missing "
             "samples, gaps, resampling, shifted clocks, unwound counters; so is what looks wrong: units, signs, exchanged columns, "

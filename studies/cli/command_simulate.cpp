@@ -69,10 +69,11 @@ ExitCode simulate_bench_files(const Invocation& invocation) {
         const bench::BenchPlan plan = config::read_bench(file).plan;
         if (!recording) recording = bench::empty_recording(plan, instruments);
         bench::begin_run(*recording, plan);
+        const Cable cable(plan.cable);
         answers::BenchAnswer page(plan);
         int unsolved = 0;
         bench::simulate_bench(plan, [&](const bench::BenchInstant& now) {
-            bench::record(*recording, plan, now);
+            bench::record(*recording, cable, now);
             page.add(now);
             unsolved += now.solved ? 0 : 1;
         });

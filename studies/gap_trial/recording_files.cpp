@@ -5,17 +5,13 @@
 
 #include "capstan/gap_trial/trial_case.h"
 #include "capstan/platform/files.h"
+#include "capstan/recording/recording_keys.h"
 
 namespace capstan::gap_trial {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string unit_of(const std::string& channel) {
-    if (channel.ends_with("_torque")) return "N m";
-    return channel.ends_with("_angle") ? "rad" : "N";
-}
 
 // As many digits as the instrument has.
 int digits_of(const std::string& channel) {
@@ -49,7 +45,7 @@ ordered_json nominal_json(const TrialBench& bench) {
 
 ordered_json sidecar(const std::string& name, const TrialBench& bench, const std::vector<TrialRun>& runs) {
     ordered_json units = {{"t", "s"}};
-    for (const std::string& channel : bench.channels()) units[channel] = unit_of(channel);
+    for (const std::string& channel : bench.channels()) units[channel] = channel_unit(channel);
     ordered_json json = {{"case", name},
                          {"schema", 1},
                          {"mode", bench.is_pair() ? "pull_pull" : "single_cable"},

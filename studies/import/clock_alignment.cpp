@@ -31,31 +31,29 @@ constexpr double nominal_model_error = 2e-4;
 constexpr std::size_t most_runs_looked_at = 6;
 
 // Samples of a run at one rate, for looking at it: its longest piece.
-std::vector<std::vector<double>> preview_of(const ImportState& import, std::size_t run, std::size_t limit,
+std::vector<std::vector<double>> preview_of(const ImportState& state, std::size_t run, std::size_t limit,
                                             double& rate_Hz) {
-    const auto& pieces = import.plans[run].pieces;
+    const auto& pieces = state.plans[run].pieces;
     const auto longest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
         return a.to_s - a.from_s < b.to_s - b.from_s;
     });
-    std::vector<std::vector<double>> values(import.kept.size());
+    std::vector<std::vector<double>> values(state.kept.size());
     if (longest == pieces.end()) return values;
     Piece piece = *longest;
-    rate_Hz = import.plans[run].surveys.front().period_s > 0.0
-                  ? 1.0 / import.plans[run].surveys.front().period_s
+    rate_Hz = state.plans[run].surveys.front().period_s > 0.0
+                  ? 1.0 / state.plans[run].surveys.front().period_s
                   : 1.0;
     piece.grid_Hz = rate_Hz;
     piece.thinned_by = 1;
     piece.to_s = std::min(piece.to_s, piece.from_s + static_cast<double>(limit) / rate_Hz);
-    for_each_row(import.logs.runs[run], piece, import.kept, [&](double, std::span<const double> row) {
+    for_each_row(state.logs.runs[run], piece, state.kept, [&](double, std::span<const double> row) {
         for (std::size_t k = 0; k < row.size(); ++k) values[k].push_back(row[k]);
     });
     return values;
 }
 
-bool same_clock(const ImportState& import, const LogRun& run, std::size_t a, std::size_t b) {
-    const Clock& one = run.sources[import.kept[a]].clock;
-    const Clock& other = run.sources[import.kept[b]].clock;
-    return one.table == other.table && one.column == other.column;
+bool same_clock(const ImportState& state, const LogRun& run, std::size_t a, std::size_t b) {
+    return run.sources[state.kept[a]].clock.is(run.sources[state.kept[b]].clock);
 }
 
 // What the runs say of a channel's offset together.
@@ -85,22 +83,22 @@ ChannelOffset together(std::size_t k, const std::vector<ClockOffset>& found, dou
     return all;
 }
 
-std::optional<ChannelOffset> channel_offset(const ImportState& import, std::size_t k,
+std::optional<ChannelOffset> channel_offset(const ImportState& state, std::size_t k,
                                             const std::vector<std::size_t>& aligned, bool other_clock) {
     std::vector<ClockOffset> found;
     double rate_Hz = 1.0;
-    for (std::size_t run = 0; run < import.logs.runs.size() && found.size() < most_runs_looked_at; ++run) {
-        if (import.plans[run].pieces.empty()) continue;
-        const auto values = preview_of(import, run, 3 * preview_samples, rate_Hz);
+    for (std::size_t run = 0; run < state.logs.runs.size() && found.size() < most_runs_looked_at; ++run) {
+        if (state.plans[run].pieces.empty()) continue;
+        const auto values = preview_of(state, run, 3 * preview_samples, rate_Hz);
         std::vector<ClockReference> others;
         for (const std::size_t other : aligned) {
             // An angle follows an angle, without friction's lag.
-            if (!import.is_angle(k) || import.is_angle(other))
-                others.push_back({values[other], import.is_angle(other) && !import.is_angle(k)});
+            if (!state.is_angle(k) || state.is_angle(other))
+                others.push_back({values[other], state.is_angle(other) && !state.is_angle(k)});
         }
         const auto offset =
             find_clock_offset(values[k], others, rate_Hz, other_clock ? longest_offset_s : longest_delay_s,
-                              import.is_angle(k) ? angle_model_error : torque_model_error);
+                              state.is_angle(k) ? angle_model_error : torque_model_error);
         if (offset) found.push_back(*offset);
     }
     if (found.empty()) return std::nullopt;
@@ -108,9 +106,9 @@ std::optional<ChannelOffset> channel_offset(const ImportState& import, std::size
 }
 
 // A channel of a clock of its own beside what the nominal model says of it from the aligned inputs.
-std::optional<ChannelOffset> offset_by_model(ImportState& import, std::size_t k,
+std::optional<ChannelOffset> offset_by_model(ImportState& state, std::size_t k,
                                              const std::vector<std::size_t>& aligned) {
-    const Recording recording = preview_recording(import);
+    const Recording recording = preview_recording(state);
     if (!recording.nominal) return std::nullopt;
     std::vector<ClockOffset> found;
     double period_s = 1.0;
@@ -134,16 +132,16 @@ std::optional<ChannelOffset> offset_by_model(ImportState& import, std::size_t k,
     return together(k, found, period_s, true);
 }
 
-void note_shift(ImportState& import, const ChannelOffset& by, std::size_t k) {
-    const std::string& name = import.report.channels[k];
+void note_shift(ImportState& state, const ChannelOffset& by, std::size_t k) {
+    const std::string& name = state.report.channels[k];
     const double rounded_s = std::round(by.offset.offset_s * 1e5) / 1e5;
     const std::string from =
         k == by.channel
             ? fmt::format("+-{:.2g} ms; without it {:.1f}% of its variance is unexplained, with it {:.1f}%",
                           1e3 * by.offset.uncertainty_s, 100.0 * by.offset.unexplained_at_zero,
                           100.0 * by.offset.unexplained)
-            : fmt::format("as that of {}, which shares it", import.report.channels[by.channel]);
-    import.report.findings.push_back(
+            : fmt::format("as that of {}, which shares it", state.report.channels[by.channel]);
+    state.report.findings.push_back(
         {.kind = FindingKind::clock_offset,
          .repaired = by.other_clock,
          .channel = name,
@@ -155,57 +153,65 @@ void note_shift(ImportState& import, const ChannelOffset& by, std::size_t k) {
                                   ? "it is shifted"
                                   : fmt::format("state clock_offset_s = {:.5f} to shift it", rounded_s))});
     if (!by.other_clock) return;
-    for (LogRun& run : import.logs.runs) run.sources[import.kept[k]].clock_offset_s = rounded_s;
+    for (LogRun& run : state.logs.runs) run.sources[state.kept[k]].clock_offset_s = rounded_s;
 }
 
 // All channels of the clock are shifted, or it is said that they are late. True if one was shifted.
-bool settle_offset(ImportState& import, const ChannelOffset& found, const LogRun& run) {
+bool settle_offset(ImportState& state, const ChannelOffset& found, const LogRun& run) {
     const ClockOffset& offset = found.offset;
     const double gain = found.other_clock ? named_offset_gain : named_delay_gain;
     if (offset.unexplained_at_zero <= gain * offset.unexplained) return false;
     if (std::abs(offset.offset_s) <
         std::max(named_offset_periods * found.period_s, named_offset_deviations * offset.uncertainty_s))
         return false;
-    for (std::size_t k = 0; k < import.kept.size(); ++k) {
-        if (k == found.channel || (found.other_clock && same_clock(import, run, k, found.channel) &&
-                                   !import.mapping.channels[import.kept[k]].clock_offset_s))
-            note_shift(import, found, k);
+    for (std::size_t k = 0; k < state.kept.size(); ++k) {
+        if (k == found.channel || (found.other_clock && same_clock(state, run, k, found.channel) &&
+                                   !state.mapping.channels[state.kept[k]].clock_offset_s))
+            note_shift(state, found, k);
     }
     return found.other_clock;
 }
 
 }  // namespace
 
-void align_clocks(ImportState& import) {
-    std::vector<std::size_t> order(import.kept.size());
+void align_clocks(ImportState& state) {
+    std::vector<std::size_t> order(state.kept.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return import.is_angle(a) > import.is_angle(b); });
-    const LogRun& run = import.logs.runs[import.pieces.front().log_run];
+                     [&](std::size_t a, std::size_t b) { return state.is_angle(a) > state.is_angle(b); });
+    const LogRun& run = state.logs.runs[state.pieces.front().log_run];
     std::vector<std::size_t> aligned;
     bool shifted = false;
     for (const std::size_t k : order) {
         const bool known = aligned.empty() ||
-                           import.mapping.channels[import.kept[k]].clock_offset_s.has_value() ||
+                           state.mapping.channels[state.kept[k]].clock_offset_s.has_value() ||
                            std::any_of(aligned.begin(), aligned.end(),
-                                       [&](std::size_t other) { return same_clock(import, run, k, other); });
+                                       [&](std::size_t other) { return same_clock(state, run, k, other); });
         const bool late_angle =
-            known && !aligned.empty() && import.is_angle(k) && same_clock(import, run, k, aligned.front());
+            known && !aligned.empty() && state.is_angle(k) && same_clock(state, run, k, aligned.front());
         if (!known || late_angle) {
-            auto offset = channel_offset(import, k, aligned, !known);
-            if (!known && !import.is_angle(k)) {
-                const auto modelled = offset_by_model(import, k, aligned);
+            auto offset = channel_offset(state, k, aligned, !known);
+            if (!known && !state.is_angle(k)) {
+                const auto modelled = offset_by_model(state, k, aligned);
                 if (modelled && (!offset || modelled->offset.uncertainty_s < offset->offset.uncertainty_s))
                     offset = modelled;
             }
-            if (offset) shifted |= settle_offset(import, *offset, run);
+            if (offset) shifted |= settle_offset(state, *offset, run);
         }
         aligned.push_back(k);
     }
     if (!shifted) return;
     std::vector<Finding> again;  // with shifted clocks the common stretch is another one
-    plan_runs(import, again);
-    number_runs(import);
+    plan_runs(state, again);
+    number_runs(state);
+    for (Finding& finding : again) {
+        const bool known = std::any_of(
+            state.report.findings.begin(), state.report.findings.end(), [&](const Finding& other) {
+                return other.kind == finding.kind && other.log_run == finding.log_run &&
+                       other.channel == finding.channel;
+            });
+        if (!known) state.report.findings.push_back(std::move(finding));
+    }
 }
 
 }  // namespace capstan::imports

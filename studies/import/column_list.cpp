@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "capstan/import/units.h"
+#include "capstan/import/log_files.h"
 #include "capstan/logs/log.h"
 
 namespace capstan::imports {
@@ -14,14 +14,6 @@ namespace {
 constexpr std::size_t drawn_points = 60000;    // of all columns together
 constexpr std::size_t max_drawn_points = 400;  // of a column
 constexpr std::size_t min_drawn_points = 16;
-
-std::string unit_of_column(const logs::LogColumn& column) {
-    if (!column.unit.empty()) return column.unit;
-    const std::size_t bar = column.name.find_last_of("_ ");
-    if (bar == std::string::npos) return "";
-    const std::string ending = column.name.substr(bar + 1);
-    return find_unit(ending) ? ending : "";
-}
 
 // The extremes of the rows between two drawn places.
 class Stretch {
@@ -69,14 +61,6 @@ void read_column(const logs::LogColumn& from, std::size_t points, ListedColumn& 
     if (low <= high) column.low = low, column.high = high;
 }
 
-std::vector<std::string> column_names_of(const logs::Log& log) {
-    std::vector<std::string> names;
-    for (const logs::LogTable& table : log.tables) {
-        for (const logs::LogColumn& column : table.columns) names.push_back(table.name + "\n" + column.name);
-    }
-    return names;
-}
-
 }  // namespace
 
 ColumnList list_columns(const std::vector<std::filesystem::path>& files,
@@ -95,7 +79,7 @@ ColumnList list_columns(const std::vector<std::filesystem::path>& files,
         listed.file = files[file].filename().string();
         listed.format = log.format;
         listed.remarks = log.remarks;
-        names.push_back(column_names_of(log));
+        names.push_back(column_names(log));
         const auto same = std::find(names.begin(), names.end() - 1, names.back());
         if (same != names.end() - 1) {
             listed.same_columns_as = list.logs[static_cast<std::size_t>(same - names.begin())].file;
@@ -110,7 +94,7 @@ ColumnList list_columns(const std::vector<std::filesystem::path>& files,
                 column.file = listed.file;
                 column.table = table.name;
                 column.name = from.name;
-                column.unit = unit_of_column(from);
+                column.unit = stated_unit(from);
                 column.rows = table.rows;
                 read_column(from, points, column);
             }

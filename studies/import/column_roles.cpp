@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "capstan/import/log_files.h"
 #include "capstan/import/units.h"
 #include "capstan/rig/channel_names.h"
 
@@ -64,11 +65,8 @@ std::vector<SeenColumn> seen_columns(const std::vector<const logs::Log*>& logs) 
     for (const logs::Log* log : logs) {
         for (const logs::LogTable& table : log->tables) {
             for (const logs::LogColumn& column : table.columns) {
-                SeenColumn own{log, &table, &column, column.unit,
+                SeenColumn own{log, &table, &column, stated_unit(column),
                                logs::numbers_of(column.values, seen_readings)};
-                const std::size_t bar = column.name.find_last_of("_ ");
-                if (own.unit.empty() && bar != std::string::npos && find_unit(column.name.substr(bar + 1)))
-                    own.unit = column.name.substr(bar + 1);
                 double before = 0.0;
                 const auto first = std::find_if(own.readings.begin(), own.readings.end(),
                                                 [](double value) { return std::isfinite(value); });

@@ -26,23 +26,23 @@ struct ImportState {
 };
 
 /// Surveys every run of the log and cuts it into pieces. Findings are noted in `findings`.
-void plan_runs(ImportState& import, std::vector<Finding>& findings);
+void plan_runs(ImportState& state, std::vector<Finding>& findings);
 
 /// Numbers the pieces as runs of the recording.
-void number_runs(ImportState& import);
+void number_runs(ImportState& state);
 
 /// Shifts channels of other clocks to that of the first angle, or of the first channel, by what their motion
 /// shows. Then clock after clock is aligned to those that are: an angle that follows another angle knows its
 /// offset best, and speaks for its clock; a torque lags behind angles for other reasons too, so it comes
 /// last. Offsets that the mapping states are kept. An angle that is late within the first clock is named and
 /// left.
-void align_clocks(ImportState& import);
+void align_clocks(ImportState& state);
 
 /// The recording's description.
-nlohmann::ordered_json imported_sidecar(const ImportState& import);
+nlohmann::ordered_json imported_sidecar(const ImportState& state);
 
 /// The recording with at most `preview_samples` of each run; counts the samples of `report.runs`. Throws
 /// InvalidInput where the mapping's [recording] is wrong.
-Recording preview_recording(ImportState& import);
+Recording preview_recording(ImportState& state);
 
 }  // namespace capstan::imports

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "capstan/import/import_state.h"
+#include "capstan/import/log_files.h"
 #include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
 
@@ -14,9 +15,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const RunMapping* conditions_of(const ImportState& import, const LogRun& run) {
+const RunMapping* conditions_of(const ImportState& state, const LogRun& run) {
     if (run.mapping != nullptr || run.run_column == nullptr) return run.mapping;
-    for (const RunMapping& mapped : import.mapping.runs) {
+    for (const RunMapping& mapped : state.mapping.runs) {
         const auto number = mapped.conditions.find("run");
         if (number != mapped.conditions.end() && number->is_number() &&
             number->get<double>() == run.run_value)
@@ -26,17 +27,17 @@ const RunMapping* conditions_of(const ImportState& import, const LogRun& run) {
 }
 
 // Of the converter: stated, or one count.
-double step_of(const ImportState& import, std::size_t k) {
-    const ChannelMapping& channel = import.mapping.channels[import.kept[k]];
+double step_of(const ImportState& state, std::size_t k) {
+    const ChannelMapping& channel = state.mapping.channels[state.kept[k]];
     if (channel.step) return *channel.step;
     const auto unit = find_unit(channel.unit);
     const bool counts = unit ? unit->quantity == Quantity::counts : channel.scale.has_value();
     if (counts && (channel.scale || channel.counts_per_turn)) return std::abs(channel.factor());
     double step = 0.0;  // a lattice that all runs share
     if (!channel.name.ends_with("_angle")) return 0.0;
-    for (const StretchPlan& plan : import.plans) {
+    for (const StretchPlan& plan : state.plans) {
         if (plan.surveys.empty()) continue;
-        const double own = plan.surveys[import.kept[k]].step;
+        const double own = plan.surveys[state.kept[k]].step;
         if (own == 0.0 || (step != 0.0 && std::abs(own - step) > 0.02 * step)) return 0.0;
         step = own;
     }
@@ -44,40 +45,39 @@ double step_of(const ImportState& import, std::size_t k) {
 }
 
 // Without those of channels that are left out.
-ordered_json kept_sensors(const ImportState& import, const ordered_json& sensors) {
+ordered_json kept_sensors(const ImportState& state, const ordered_json& sensors) {
     ordered_json kept = ordered_json::array();
     for (const auto& sensor : sensors) {
         const std::string channel = sensor.is_object() ? sensor.value("channel", "") : "";
-        const bool mapped = std::any_of(import.mapping.channels.begin(), import.mapping.channels.end(),
+        const bool mapped = std::any_of(state.mapping.channels.begin(), state.mapping.channels.end(),
                                         [&](const auto& each) { return each.name == channel; });
-        const auto& channels = import.report.channels;
+        const auto& channels = state.report.channels;
         if (!mapped || std::find(channels.begin(), channels.end(), channel) != channels.end())
             kept.push_back(sensor);
     }
     return kept;
 }
 
-ordered_json runs_json(const ImportState& import) {
+ordered_json runs_json(const ImportState& state) {
     ordered_json runs = ordered_json::array();
-    for (std::size_t index = 0; index < import.pieces.size(); ++index) {
-        const LogRun& run = import.logs.runs[import.pieces[index].log_run];
-        ordered_json entry = {{"run", import.report.runs[index].number},
-                              {"source", import.report.runs[index].source}};
-        if (const RunMapping* mapped = conditions_of(import, run)) {
+    for (std::size_t index = 0; index < state.pieces.size(); ++index) {
+        const LogRun& run = state.logs.runs[state.pieces[index].log_run];
+        ordered_json entry = {{"run", state.report.runs[index].number},
+                              {"source", state.report.runs[index].source}};
+        if (const RunMapping* mapped = conditions_of(state, run)) {
             for (const auto& [key, value] : mapped->conditions.items()) entry[key] = value;
-            entry["run"] = import.report.runs[index].number;
+            entry["run"] = state.report.runs[index].number;
         }
-        if (!entry.contains("t_session_start") && import.starts_s[index] > 0.0)
-            entry["t_session_start"] = std::round(import.starts_s[index] * 1e6) / 1e6;
+        if (!entry.contains("t_session_start") && state.starts_s[index] > 0.0)
+            entry["t_session_start"] = std::round(state.starts_s[index] * 1e6) / 1e6;
         runs.push_back(entry);
     }
     return runs;
 }
 
-std::string source_words(const ImportState& import, const LogRun& run, const Piece& piece) {
-    std::string words;
-    for (const auto& file : run.files) words += (words.empty() ? "" : ", ") + file.filename().string();
-    const StretchPlan& plan = import.plans[piece.log_run];
+std::string source_words(const ImportState& state, const LogRun& run, const Piece& piece) {
+    std::string words = file_names(run.files);
+    const StretchPlan& plan = state.plans[piece.log_run];
     if (plan.pieces.size() > 1)
         words += fmt::format(", {:.4g} s to {:.4g} s", piece.from_s - plan.pieces.front().from_s,
                              piece.to_s - plan.pieces.front().from_s);
@@ -86,37 +86,37 @@ std::string source_words(const ImportState& import, const LogRun& run, const Pie
 
 }  // namespace
 
-void number_runs(ImportState& import) {
-    import.report.runs.clear();
-    import.starts_s.clear();
+void number_runs(ImportState& state) {
+    state.report.runs.clear();
+    state.starts_s.clear();
     std::set<int> used;
     double session_start_s = 0.0;
     bool first = true;
-    for (const Piece& piece : import.pieces) {
-        const LogRun& run = import.logs.runs[piece.log_run];
+    for (const Piece& piece : state.pieces) {
+        const LogRun& run = state.logs.runs[piece.log_run];
         int number = run.run_column != nullptr ? static_cast<int>(run.run_value) : 0;
         if (number <= 0 || used.count(number) > 0) number = used.empty() ? 1 : *used.rbegin() + 1;
         used.insert(number);
         if (first) session_start_s = piece.from_s;
         first = false;
-        ImportedRun imported{number, source_words(import, run, piece), 0, piece.to_s - piece.from_s};
-        import.report.runs.push_back(imported);
-        import.starts_s.push_back(piece.from_s - session_start_s);
+        ImportedRun imported{number, source_words(state, run, piece), 0, piece.to_s - piece.from_s};
+        state.report.runs.push_back(imported);
+        state.starts_s.push_back(piece.from_s - session_start_s);
     }
 }
 
-ordered_json imported_sidecar(const ImportState& import) {
-    ordered_json sidecar = {{"case", import.mapping.recording.value("case", import.report.files.front())},
+ordered_json imported_sidecar(const ImportState& state) {
+    ordered_json sidecar = {{"case", state.mapping.recording.value("case", state.report.files.front())},
                             {"schema", 1}};
-    if (import.mapping.recording.is_object()) {
-        for (const auto& [key, value] : import.mapping.recording.items()) sidecar[key] = value;
+    if (state.mapping.recording.is_object()) {
+        for (const auto& [key, value] : state.mapping.recording.items()) sidecar[key] = value;
     }
-    sidecar["sample_rate_hz"] = import.report.sample_rate_Hz;
+    sidecar["sample_rate_hz"] = state.report.sample_rate_Hz;
     if (sidecar.contains("tension_sensors") && sidecar["tension_sensors"].is_array())
-        sidecar["tension_sensors"] = kept_sensors(import, sidecar["tension_sensors"]);
+        sidecar["tension_sensors"] = kept_sensors(state, sidecar["tension_sensors"]);
     ordered_json units = {{"t", "s"}};
-    for (std::size_t k = 0; k < import.kept.size(); ++k) {
-        const ChannelMapping& channel = import.mapping.channels[import.kept[k]];
+    for (std::size_t k = 0; k < state.kept.size(); ++k) {
+        const ChannelMapping& channel = state.mapping.channels[state.kept[k]];
         std::string unit(channel_unit(channel.name));
         if (unit.empty()) {
             const auto known = find_unit(channel.unit);
@@ -124,55 +124,55 @@ ordered_json imported_sidecar(const ImportState& import) {
         }
         units[channel.name] = unit;
         if (channel.noise_std) sidecar["noise_std"][channel.name] = *channel.noise_std;
-        if (const double step = step_of(import, k); step > 0.0) sidecar["encoder_step"][channel.name] = step;
+        if (const double step = step_of(state, k); step > 0.0) sidecar["encoder_step"][channel.name] = step;
     }
     sidecar["units"] = units;
-    sidecar["runs"] = runs_json(import);
+    sidecar["runs"] = runs_json(state);
     ordered_json repairs = ordered_json::array();
-    for (const Finding& finding : import.report.findings) {
+    for (const Finding& finding : state.report.findings) {
         if (finding.kind != FindingKind::assumed)
             repairs.push_back({{"what", finding_name(finding.kind)},
                                {"repaired", finding.repaired},
                                {"words", finding.words}});
     }
-    sidecar["import"] = {{"files", import.report.files},
-                         {"mapping", std::filesystem::path(import.mapping.file).filename().string()},
+    sidecar["import"] = {{"files", state.report.files},
+                         {"mapping", std::filesystem::path(state.mapping.file).filename().string()},
                          {"findings", repairs}};
     return sidecar;
 }
 
-Recording preview_recording(ImportState& import) {
-    SampleTable samples{import.report.channels, {}, 1.0 / import.report.sample_rate_Hz};
+Recording preview_recording(ImportState& state) {
+    SampleTable samples{state.report.channels, {}, 1.0 / state.report.sample_rate_Hz};
     samples.columns.insert(samples.columns.begin(), {"run", "t"});
-    for (const ImportedRun& run : import.report.runs) samples.run_numbers.push_back(run.number);
-    const std::string place = import.mapping.file.empty() ? "mapping" : import.mapping.file + " [recording]";
+    for (const ImportedRun& run : state.report.runs) samples.run_numbers.push_back(run.number);
+    const std::string place = state.mapping.file.empty() ? "mapping" : state.mapping.file + " [recording]";
     Recording recording =
-        read_sidecar(nlohmann::json(imported_sidecar(import)), place, samples, import.problems);
-    import.problems.throw_if_any();
+        read_sidecar(nlohmann::json(imported_sidecar(state)), place, samples, state.problems);
+    state.problems.throw_if_any();
     // The reader orders channels by the sidecar; here they follow the table.
     std::sort(recording.channels.begin(), recording.channels.end(), [&](const Channel& a, const Channel& b) {
         const auto place_of = [&](const Channel& channel) {
-            return std::find(import.report.channels.begin(), import.report.channels.end(), channel.name);
+            return std::find(state.report.channels.begin(), state.report.channels.end(), channel.name);
         };
         return place_of(a) < place_of(b);
     });
-    for (std::size_t index = 0; index < import.pieces.size(); ++index) {
+    for (std::size_t index = 0; index < state.pieces.size(); ++index) {
         RecordedRun& run = recording.runs[index];
-        run.values.assign(import.kept.size(), {});
-        const Piece& piece = import.pieces[index];
-        const double expected = (piece.to_s - piece.from_s) * import.report.sample_rate_Hz + 1.0;
-        const auto every =
-            static_cast<std::size_t>(std::ceil(expected / static_cast<double>(preview_samples)));
+        run.values.assign(state.kept.size(), {});
+        const Piece& piece = state.pieces[index];
+        const double expected = (piece.to_s - piece.from_s) * state.report.sample_rate_Hz + 1.0;
+        const auto every = static_cast<std::size_t>(
+            std::max(1.0, std::ceil(expected / static_cast<double>(preview_samples))));
         std::size_t row = 0;
-        import.report.runs[index].samples = for_each_row(import.logs.runs[piece.log_run], piece, import.kept,
-                                                   [&](double time_s, std::span<const double> values) {
-                                                       if (row++ % std::max<std::size_t>(every, 1) != 0)
-                                                           return;
-        run.time_s.push_back(time_s);
-        for (std::size_t k = 0; k < values.size(); ++k) run.values[k].push_back(values[k]);
-    });
+        const auto keep_some = [&](double time_s, std::span<const double> values) {
+            if (row++ % every != 0) return;
+            run.time_s.push_back(time_s);
+            for (std::size_t k = 0; k < values.size(); ++k) run.values[k].push_back(values[k]);
+        };
+        state.report.runs[index].samples =
+            for_each_row(state.logs.runs[piece.log_run], piece, state.kept, keep_some);
+    }
+    return recording;
 }
-return recording;
-}  // namespace capstan::imports
 
 }  // namespace capstan::imports

@@ -9,6 +9,8 @@
 #include <set>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/import/log_files.h"
+#include "capstan/import/log_times.h"
 #include "capstan/platform/nearest_name.h"
 
 namespace capstan::imports {
@@ -19,26 +21,8 @@ using logs::Log;
 using logs::LogColumn;
 using logs::LogTable;
 
-constexpr std::size_t numbers_in_memory_bytes = 64u << 20;
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 bool matches(const std::string& pattern, const std::string& name) {
     return pattern.empty() || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-}
-
-// Column by name, or by its number from 1.
-int find_column(const LogTable& table, const std::string& wanted) {
-    const int named = table.column(wanted);
-    if (named >= 0) return named;
-    if (wanted.empty() || !std::all_of(wanted.begin(), wanted.end(), ::isdigit) || wanted.size() > 4)
-        return -1;
-    const int number = std::stoi(wanted);
-    return number >= 1 && number <= static_cast<int>(table.columns.size()) ? number - 1 : -1;
 }
 
 std::string columns_in_words(const std::vector<const Log*>& logs, const std::string& wanted) {
@@ -119,7 +103,6 @@ class SourceFinder {
     bool find_clock(const FoundColumn& found, Clock& clock) {
         const TimeMapping& time = mapping_->time;
         clock.table = found.table;
-        clock.name = found.table->name;
         if (time.sample_rate_Hz > 0.0) {
             clock.sample_rate_Hz = time.sample_rate_Hz;
             return true;
@@ -139,14 +122,13 @@ class SourceFinder {
         }
         const LogColumn& column = found.table->columns[static_cast<std::size_t>(clock.column)];
         clock.seconds = seconds_per_unit(column, time.unit);
-        clock.name += (clock.name.empty() ? "" : " ") + column.name;
         return true;
     }
 
     std::string files() const {
-        std::string names;
-        for (const Log* log : logs_) names += (names.empty() ? "" : ", ") + log->file.filename().string();
-        return names;
+        std::vector<std::filesystem::path> files;
+        for (const Log* log : logs_) files.push_back(log->file);
+        return file_names(files);
     }
 
     void problem(const std::string& key, const std::string& what) {
@@ -255,43 +237,6 @@ void add_stretches(const FileGroup& group, const Mapping& mapping, std::vector<S
     }
 }
 
-}  // namespace
-
-int time_column(const LogTable& table, const std::string& wanted) {
-    if (!wanted.empty()) return find_column(table, wanted);
-    for (const char* usual :
-         {"header.stamp", "log_time", "t", "time", "timestamp", "stamp", "time_s", "seconds", "time_ms",
-          "t_ms", "time_us", "t_us", "time_ns", "t_ns", "millis", "micros", "%time"}) {
-        for (std::size_t column = 0; column < table.columns.size(); ++column) {
-            if (lower(table.columns[column].name) == usual) return static_cast<int>(column);
-        }
-    }
-    for (std::size_t column = 0; column < table.columns.size(); ++column) {
-        const std::string name = lower(table.columns[column].name);
-        if (name.find("time") != std::string::npos || name.find("zeit") != std::string::npos)
-            return static_cast<int>(column);
-    }
-    return -1;
-}
-
-double seconds_per_unit(const LogColumn& column, const std::string& stated) {
-    const auto time_unit = [](std::string_view text) -> std::optional<double> {
-        const auto unit = find_unit(text);
-        if (!unit || unit->quantity != Quantity::time) return std::nullopt;
-        return unit->si;
-    };
-    if (const auto unit = time_unit(stated)) return *unit;
-    if (const auto unit = time_unit(column.unit)) return *unit;
-    const std::size_t bar = column.name.rfind('_');
-    if (bar != std::string::npos) {
-        if (const auto unit = time_unit(std::string_view(column.name).substr(bar + 1))) return *unit;
-    }
-    if (column.name == "%time") return 1e-9;  // rostopic echo -p
-    return time_unit(column.name).value_or(1.0);
-}
-
-namespace {
-
 using Wanted = std::function<bool(const std::string& table, const std::string& column)>;
 
 LogRuns read_wanted(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
@@ -300,32 +245,16 @@ LogRuns read_wanted(const std::vector<std::filesystem::path>& files, const Mappi
     LogRuns found;
     const std::vector<FileGroup> groups = groups_of(files, mapping, problems);
     problems.throw_if_any();
-    std::map<std::filesystem::path, const Log*> logs;
-    double bytes = 0.0;
-    for (const auto& file : files) {
-        std::error_code none;
-        const auto size = std::filesystem::file_size(file, none);
-        if (!none) bytes += static_cast<double>(size);
-    }
-    double read_bytes = 0.0;
     logs::ReadOptions options;
     options.wanted = wanted;
     options.text = mapping.text;
-    options.memory_limit_bytes = numbers_in_memory_bytes / std::max<std::size_t>(files.size(), 1);
-    for (const auto& file : files) {
-        std::error_code none;
-        const auto size = std::filesystem::file_size(file, none);
-        const double file_bytes = none ? 0.0 : static_cast<double>(size);
-        if (on_progress && bytes > 0.0)
-            options.on_progress = [&](double fraction) {
-                on_progress((read_bytes + fraction * file_bytes) / bytes);
-            };
-        found.logs.push_back(std::make_unique<Log>(logs::read_log(file, options)));
-        read_bytes += file_bytes;
-        logs[file] = found.logs.back().get();
-        for (const std::string& remark : found.logs.back()->remarks)
+    found.logs = read_logs(files, options, on_progress);
+    std::map<std::filesystem::path, const Log*> logs;
+    for (const auto& log : found.logs) {
+        logs[log->file] = log.get();
+        for (const std::string& remark : log->remarks)
             found.findings.push_back({.kind = FindingKind::unread,
-                                      .words = fmt::format("{}: {}", file.filename().string(), remark)});
+                                      .words = fmt::format("{}: {}", log->file.filename().string(), remark)});
     }
     for (const FileGroup& group : groups) {
         std::vector<const Log*> group_logs;

@@ -36,11 +36,4 @@ struct LogRuns {
 LogRuns read_log_runs(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
                       const std::function<void(double)>& on_progress, ProblemList& problems);
 
-/// The column of times of a table: `wanted`, or one of the usual names; -1: there is none.
-int time_column(const logs::LogTable& table, const std::string& wanted);
-
-/// Seconds in one unit of a time column: of `stated`, else of the column's own unit, else of a unit at the
-/// end of its name ("time_ms"), else 1.
-double seconds_per_unit(const logs::LogColumn& column, const std::string& stated);
-
 }  // namespace capstan::imports

@@ -12,6 +12,7 @@
 #include "capstan/gap/twin.h"
 #include "capstan/import/units.h"
 #include "capstan/platform/statistics.h"
+#include "capstan/recording/recording_reader.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::imports {
@@ -22,11 +23,13 @@ constexpr std::size_t compared_runs = 3;
 constexpr std::size_t compared_samples = 600;  // of a run
 constexpr int compared_segments = 20;
 constexpr int modelled_segments = 60;
-constexpr double not_explained = 0.5;
-constexpr double explained = 0.34;
-// What a channel may leave before corrections are tried, and the part of it that one of them may leave.
-constexpr double looked_into = 0.1;
-constexpr double most_left = 0.2;
+// Parts of a channel's variance that the model leaves.
+constexpr double not_explained = 0.5;  // with more, a channel is not explained
+constexpr double explaining_gain =
+    0.4;  // and a correction that explains it takes this much of the sum over channels
+constexpr double looked_into = 0.1;  // with less, no correction is tried
+constexpr double most_left = 0.2;    // of the sum over channels, by a correction that explains none anew
+constexpr double guessed = 0.34;     // with more after all corrections, these are called guesses
 constexpr int most_corrections = 3;
 
 /// A channel's numbers times a factor, or two channels exchanged.
@@ -85,7 +88,7 @@ Recording thinned(const Recording& recording) {
         };
         kept.time_s = pick(run.time_s);
         for (auto& values : kept.values) values = pick(values);
-        if (kept.time_s.size() >= 20) thin.runs.push_back(std::move(kept));
+        if (kept.time_s.size() >= min_run_samples) thin.runs.push_back(std::move(kept));
     }
     return thin;
 }
@@ -209,14 +212,14 @@ std::vector<Finding> doubts_by_model(const Recording& recording) {
         // One correction has to explain a channel that was not explained before, or most of what is left of
         // all.
         const bool explains =
-            best->unexplained() < fit->unexplained() && fit->total() - best->total() > not_explained - 0.1;
+            best->unexplained() < fit->unexplained() && fit->total() - best->total() > explaining_gain;
         if (!explains && best->total() > most_left * fit->total()) break;
         found.push_back(named(now, *chosen, *fit, *best));
         now = corrected(now, *chosen);
         fit = best;
     }
     // Corrections that leave the rest unexplained are guesses; a real gap may be behind it.
-    if (fit && !found.empty() && fit->worst() > explained) {
+    if (fit && !found.empty() && fit->worst() > guessed) {
         for (Finding& finding : found)
             finding.words += fmt::format("; even so {:.0f}% of a channel is left, so this is a guess",
                                          100.0 * fit->worst());
@@ -292,12 +295,15 @@ std::vector<Finding> doubts_by_work(const Recording& recording) {
                              -work.motor_J, std::abs(work.load_J))});
     if (work.motor_path_Nm_rad <= 0.0 || work.load_path_Nm_rad <= 0.0) return found;
     const double passed_on = work.load_path_Nm_rad / work.motor_path_Nm_rad;
+    constexpr double largest_angle_rad = 8.0 * std::numbers::pi;  // four turns; more is rather in degrees
     constexpr double least_passed_on = 0.02;  // friction of exp(-4), a wrap of three turns at 0.2
     constexpr double most_passed_on = 5.0;    // a load that drives the motor through the same friction
-    if (passed_on > least_passed_on && passed_on < most_passed_on && angle_span < 8.0 * std::numbers::pi)
-        return found;
+    constexpr double rather_torque =
+        300.0;  // between the factors of a degree, 57, and of a millinewton metre, 1000
+    const bool large_angle = angle_span > largest_angle_rad;
+    if (passed_on > least_passed_on && passed_on < most_passed_on && !large_angle) return found;
     const double off = passed_on > 1.0 ? passed_on : 1.0 / passed_on;
-    const char* unit = angle_span > 8.0 * std::numbers::pi ? "deg" : off > 300.0 ? "mN m" : "deg";
+    const char* unit = !large_angle && off > rather_torque ? "mN m" : "deg";
     std::string suspect = channel::motor_angle;
     const double motor_span = span_of(recording.runs[0].values[at[0]]);
     const double load_span = span_of(recording.runs[0].values[at[2]]);

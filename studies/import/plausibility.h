@@ -9,10 +9,10 @@ namespace capstan::imports {
 
 /// Channels of a recording that contradict physics, each with the unit, sign or exchange that would put it
 /// right. Where the bench is known, its nominal model (E1-E8, E15-E17) is compared with the channels: a
-/// factor of a unit, a sign or two columns exchanged are named when they alone take a channel from "not
-/// explained" (more than half of its variance is left) to "explained" (less than a third). Where it is not
-/// known, motor and load are compared: a transmission gives out no more work than it takes in, and friction
-/// takes work from the motor. All findings are doubts: nothing is changed. Nothing is said where the
+/// factor of a unit, a sign or two columns exchanged are named when they alone explain a
+/// channel of which more than half of the variance was left, or take four fifths of all that is left. Where
+/// it is not known, motor and load are compared: a transmission gives out no more work than it takes in, and
+/// friction takes work from the motor. All findings are doubts: nothing is changed. Nothing is said where the
 /// recording holds too little to tell.
 std::vector<Finding> doubts_of(const Recording& recording);
 

@@ -15,7 +15,8 @@ struct Clock {
     int column = -1;              ///< in the table; -1: row / rate
     double seconds = 1.0;         ///< in one unit of the column
     double sample_rate_Hz = 0.0;  ///< where there is no column
-    std::string name;             ///< for messages: "time", "/joint_states header.stamp"
+
+    bool is(const Clock& other) const { return table == other.table && column == other.column; }
 };
 
 /// A channel's column and its clock in one run's logs.

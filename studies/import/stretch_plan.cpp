@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/import/log_files.h"
+#include "capstan/recording/recording_reader.h"
+
 namespace capstan::imports {
 
 namespace {
 
 // A median deviation of a sample's time by more than this part of the period is resampled.
 constexpr double largest_jitter = 0.05;
-// Shorter stretches hold no motion.
-constexpr std::size_t fewest_samples = 20;
 // Two rates are the same, and one is a multiple of another, within this.
 constexpr double rate_tolerance = 0.01;
 
@@ -21,9 +22,7 @@ class Notes {
   public:
     Notes(const LogRun& run, std::size_t index, std::vector<Finding>& findings)
         : run_(static_cast<int>(index) + 1), findings_(&findings) {
-        std::string files;
-        for (const auto& file : run.files) files += (files.empty() ? "" : ", ") + file.filename().string();
-        where_ = fmt::format("run {} ({})", run_, files);
+        where_ = fmt::format("run {} ({})", run_, file_names(run.files));
     }
 
     void add(FindingKind kind, bool repaired, const std::string& channel, std::size_t count, double amount,
@@ -69,10 +68,7 @@ void note_saturation(const ChannelSurvey& survey, const Source& source, Notes& n
 }
 
 void unwrap(ChannelSurvey& survey, Source& source, RowRange rows, Notes& notes) {
-    if (source.wraps_at > 0.0) {
-        survey = survey_channel(source, rows);
-        return;
-    }
+    if (source.wraps_at > 0.0) return;  // stated, or found before
     const double range = wrap_range(survey, source);
     if (range == 0.0) return;
     source.wraps_at = range;
@@ -83,8 +79,7 @@ void unwrap(ChannelSurvey& survey, Source& source, RowRange rows, Notes& notes) 
 }
 
 bool same_clock(const Source& a, const Source& b) {
-    return a.clock.table == b.clock.table && a.clock.column == b.clock.column &&
-           a.clock_offset_s == b.clock_offset_s;
+    return a.clock.is(b.clock) && a.clock_offset_s == b.clock_offset_s;
 }
 
 std::vector<TimeGap> merged(std::vector<TimeGap> gaps) {
@@ -153,10 +148,10 @@ StretchPlan plan_stretch(LogRun& run, std::size_t index, const Mapping& mapping,
     std::vector<const Source*> clocks;
     for (Source& source : run.sources) {
         ChannelSurvey survey = survey_channel(source, run.rows);
-        if (survey.readings < fewest_samples) {
+        if (survey.readings < min_run_samples) {
             notes.add(FindingKind::short_stretch, true, source.mapping->name, survey.readings, 0.0,
                       fmt::format("{} has {} readings, fewer than {}; the run is left out",
-                                  source.mapping->name, survey.readings, fewest_samples));
+                                  source.mapping->name, survey.readings, min_run_samples));
             return {};
         }
         unwrap(survey, source, run.rows, notes);
@@ -187,7 +182,7 @@ StretchPlan plan_stretch(LogRun& run, std::size_t index, const Mapping& mapping,
     double from_s = common.from_s;
     const auto keep = [&](double to_s) {
         const double samples = (to_s - from_s) * plan.sample_rate_Hz + 1.0;
-        if (samples + 1e-6 >= static_cast<double>(fewest_samples)) {
+        if (samples + 1e-6 >= static_cast<double>(min_run_samples)) {
             Piece piece = common;
             piece.from_s = from_s;
             piece.to_s = to_s;
@@ -196,7 +191,7 @@ StretchPlan plan_stretch(LogRun& run, std::size_t index, const Mapping& mapping,
             notes.add(
                 FindingKind::short_stretch, true, "", static_cast<std::size_t>(std::max(samples, 0.0)), 0.0,
                 fmt::format("the stretch from {:.4g} s to {:.4g} s has fewer than {} samples; it is left out",
-                            from_s - common.from_s, to_s - common.from_s, fewest_samples));
+                            from_s - common.from_s, to_s - common.from_s, min_run_samples));
         }
     };
     for (const TimeGap& gap : gaps) {

@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <set>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/import/column_motion.h"
 #include "capstan/import/column_roles.h"
+#include "capstan/import/guessed_signs.h"
 #include "capstan/import/guessed_units.h"
 #include "capstan/import/importer.h"
-#include "capstan/import/log_runs.h"
+#include "capstan/import/log_files.h"
+#include "capstan/import/log_times.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/recording/recording_keys.h"
 #include "capstan/rig/channel_names.h"
 
@@ -22,52 +24,6 @@ namespace capstan::imports {
 namespace {
 
 constexpr double fits_by_name = 0.5;
-double mean(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(std::max<std::size_t>(values.size(), 1));
-}
-
-// Of the parts that both have.
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-    const std::size_t count = std::min(a.size(), b.size());
-    if (count < 3) return 0.0;
-    const double mean_a = mean(a);
-    const double mean_b = mean(b);
-    double ab = 0.0;
-    double aa = 0.0;
-    double bb = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-        ab += (a[k] - mean_a) * (b[k] - mean_b);
-        aa += (a[k] - mean_a) * (a[k] - mean_a);
-        bb += (b[k] - mean_b) * (b[k] - mean_b);
-    }
-    return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
-}
-
-// Of a torque over an angle; positive where the torque drives against friction.
-double loop_work(const std::vector<double>& torque, const std::vector<double>& angle) {
-    const std::size_t count = std::min(torque.size(), angle.size());
-    const double mean_torque = mean(torque);
-    double sum = 0.0;
-    for (std::size_t k = 1; k < count; ++k)
-        sum += (0.5 * (torque[k] + torque[k - 1]) - mean_torque) * (angle[k] - angle[k - 1]);
-    return sum;
-}
-
-// Smooth from reading to reading, or on an encoder's lattice: an angle. A load cell is noisy.
-bool looks_like_angle(const SeenColumn& column) {
-    double first = 0.0;
-    double second = 0.0;
-    for (std::size_t k = 2; k < column.readings.size(); ++k) {
-        const double change = column.readings[k] - column.readings[k - 1];
-        const double bend = column.readings[k] - 2.0 * column.readings[k - 1] + column.readings[k - 2];
-        first += change * change;
-        second += bend * bend;
-    }
-    return second < first;
-}
-
 /// Builds a suggestion step by step.
 class Suggesting {
   public:
@@ -75,15 +31,10 @@ class Suggesting {
         : files_(files), options_(options) {
         logs::ReadOptions reading;
         reading.text = options.text;
-        reading.memory_limit_bytes = (64u << 20) / std::max<std::size_t>(files.size(), 1);
-        for (std::size_t file = 0; file < files.size(); ++file) {
-            if (options.on_progress)
-                reading.on_progress = [this, file, &options](double part) {
-                    options.on_progress(
-                        "reading", (static_cast<double>(file) + part) / static_cast<double>(files_.size()));
-                };
-            logs_.push_back(std::make_unique<logs::Log>(logs::read_log(files[file], reading)));
-        }
+        const auto on_read = [&](double part) {
+            if (options.on_progress) options.on_progress("reading", part);
+        };
+        logs_ = read_logs(files, reading, on_read);
         suggestion_.mapping.file = "the suggestion";
         suggestion_.mapping.text = options.text;
     }
@@ -98,7 +49,7 @@ class Suggesting {
         find_times();
         find_channels();
         find_kind();
-        find_signs();
+        guess_signs(suggestion_.mapping, chosen_, suggestion_.guesses);
         for (std::size_t file = 0; same_columns() && file < files_.size(); ++file) {
             RunMapping& run = suggestion_.mapping.runs.emplace_back();
             run.files = {files_[file].filename().string()};
@@ -113,22 +64,18 @@ class Suggesting {
     }
 
     bool same_columns() const {
-        const auto names = [](const logs::Log& log) {
-            std::vector<std::string> all;
-            for (const auto& table : log.tables) {
-                for (const auto& column : table.columns) all.push_back(table.name + "\n" + column.name);
-            }
-            return all;
-        };
-        return std::all_of(logs_.begin(), logs_.end(),
-                           [&](const auto& log) { return names(*log) == names(*logs_.front()); });
+        return std::all_of(logs_.begin(), logs_.end(), [&](const auto& log) {
+            return column_names(*log) == column_names(*logs_.front());
+        });
     }
 
     // Times by name; else the column that rises with every row.
     void find_times() {
         TimeMapping& time = suggestion_.mapping.time;
-        std::set<const logs::LogTable*> tables;
-        for (const SeenColumn& column : columns_) tables.insert(column.table);
+        std::vector<const logs::LogTable*> tables;  // in the order of the files
+        for (const SeenColumn& column : columns_) {
+            if (tables.empty() || tables.back() != column.table) tables.push_back(column.table);
+        }
         for (const logs::LogTable* table : tables) {
             int found = time_column(*table, "");
             bool by_name = found >= 0;
@@ -165,30 +112,18 @@ class Suggesting {
             if (readings[k] > readings[k - 1]) periods.push_back(readings[k] - readings[k - 1]);
         }
         if (periods.empty()) return;
-        std::nth_element(periods.begin(), periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2),
-                         periods.end());
-        const double period = periods[periods.size() / 2];
-        const auto usual = [&](double seconds) {
-            const double rate_Hz = 1.0 / (period * seconds);
-            return rate_Hz >= 15.0 && rate_Hz <= 20000.0;
-        };
-        const std::string name = find_unit(column.unit) ? column.unit : stated == 1.0 ? "s" : "";
-        if (usual(stated)) {
-            for (const char* unit : {"s", "ms", "us", "ns"}) {
-                if (find_unit(unit)->si == stated) time.unit = unit;
-            }
+        const double period = upper_median(periods);
+        if (is_usual_period(period * stated)) {
+            time.unit = time_unit_name(stated);
             return;
         }
-        for (const char* unit : {"s", "ms", "us", "ns"}) {
-            if (!usual(find_unit(unit)->si)) continue;
-            time.unit = unit;
-            guess("time", Doubt::likely,
-                  fmt::format("in {} the rate is {:.4g} Hz; in {} it would be {:.4g} Hz, which no bench has",
-                              unit, 1.0 / (period * find_unit(unit)->si),
-                              column.unit.empty() ? "s" : "\"" + column.unit + "\", as the head says,",
-                              1.0 / (period * stated)));
-            return;
-        }
+        time.unit = usual_time_unit(period);
+        if (time.unit.empty()) return;
+        guess("time", Doubt::likely,
+              fmt::format("in {} the rate is {:.4g} Hz; in {} it would be {:.4g} Hz, unusual for a bench",
+                          time.unit, 1.0 / (period * find_unit(time.unit)->si),
+                          column.unit.empty() ? "s" : "\"" + column.unit + "\", as the head says,",
+                          1.0 / (period * stated)));
     }
 
     const SeenColumn* best_by_name(const std::string& channel, double& margin) const {
@@ -285,7 +220,7 @@ class Suggesting {
         const auto loop = [&](const SeenColumn* torque) {
             return std::abs(loop_work(torque->readings, motor->readings)) / torque->span;
         };
-        std::sort(torques.begin(), torques.end(), [&](auto* a, auto* b) { return loop(a) > loop(b); });
+        std::stable_sort(torques.begin(), torques.end(), [&](auto* a, auto* b) { return loop(a) > loop(b); });
         if (!torques.empty()) motor_torque = torques[0];
         if (torques.size() > 1) load_torque = torques[1];
         const auto take = [&](const char* name, const SeenColumn* column, const std::string& reason) {
@@ -377,89 +312,6 @@ class Suggesting {
             "every number of the bench below, the places of tension sensors and each run's T0 are placeholders; replace them");
     }
 
-    // Motor and load turn the same way when cable A pulls, and friction takes work from the motor.
-    void find_signs() {
-        const SeenColumn* motor = chosen(channel::motor_angle);
-        const SeenColumn* load = chosen(channel::load_angle);
-        const SeenColumn* torque = chosen(channel::motor_torque);
-        const SeenColumn* load_torque = chosen(channel::load_torque);
-        if (motor != nullptr && load != nullptr && motor->table == load->table) {
-            const double alike = correlation(motor->readings, load->readings);
-            if (alike < -0.3) {
-                mapped(channel::load_angle)->sign = -1.0;
-                guess(
-                    channel::load_angle, Doubt::likely,
-                    fmt::format(
-                        "sign = -1: it falls as the motor's angle rises (correlation {:.2f}), and cable A turns both the "
-                        "same way",
-                        alike));
-            } else if (std::abs(alike) < 0.3) {
-                guess(channel::load_angle, Doubt::doubtful,
-                      "it does not move with the motor's angle; its sign cannot be seen");
-            }
-        }
-        if (torque == nullptr || motor == nullptr || torque->table != motor->table) return;
-        const bool both = load != nullptr && load_torque != nullptr && load->table == motor->table &&
-                          load_torque->table == motor->table;
-        if (both) {
-            signs_by_both_ends(*motor, *load, *torque, *load_torque);
-        } else {
-            sign_by_motor(*motor, *torque);
-        }
-    }
-
-    double work_J(const std::string& torque_name, const SeenColumn& torque, const std::string& angle_name,
-                  const SeenColumn& angle) {
-        return loop_work(torque.readings, angle.readings) * mapped(torque_name)->factor() *
-               mapped(angle_name)->factor();
-    }
-
-    // The torques have one direction, in which friction takes work from both ends together.
-    void signs_by_both_ends(const SeenColumn& motor, const SeenColumn& load, const SeenColumn& torque,
-                            const SeenColumn& load_torque) {
-        const double alike = correlation(torque.readings, load_torque.readings);
-        const double together =
-            std::abs(alike) > 0.3 ? alike : mean(torque.readings) * mean(load_torque.readings);
-        const double load_sign = together < 0.0 ? -1.0 : 1.0;
-        const double motor_J = work_J(channel::motor_torque, torque, channel::motor_angle, motor);
-        const double load_J =
-            load_sign * work_J(channel::load_torque, load_torque, channel::load_angle, load);
-        const double lost_J = motor_J - load_J;
-        const double turned = lost_J < 0.0 ? -1.0 : 1.0;
-        mapped(channel::motor_torque)->sign = turned;
-        mapped(channel::load_torque)->sign = turned * load_sign;
-        const bool clear = std::abs(lost_J) > 0.05 * (std::abs(motor_J) + std::abs(load_J));
-        if (turned < 0.0)
-            guess(channel::motor_torque, clear ? Doubt::likely : Doubt::doubtful,
-                  fmt::format("sign = -1: else motor and load together would take {:.3g} J out of friction",
-                              -lost_J));
-        else if (!clear)
-            guess(channel::motor_torque, Doubt::doubtful,
-                  "the work lost to friction is too small to show its sign");
-        if (turned * load_sign < 0.0 || std::abs(alike) < 0.3)
-            guess(channel::load_torque, std::abs(alike) < 0.3 ? Doubt::doubtful : Doubt::likely,
-                  std::abs(alike) < 0.3
-                      ? "its correlation with the motor's torque is below 0.3, so its sign is a guess"
-                      : "sign = -1: it is positive where it acts as the motor's torque does");
-    }
-
-    // Right where the motor drives; a hand that turns it would show the other sign.
-    void sign_by_motor(const SeenColumn& motor, const SeenColumn& torque) {
-        const double work = loop_work(torque.readings, motor.readings);
-        const double size = torque.span * motor.span;
-        const double angle_sign = mapped(channel::motor_angle)->sign;
-        if (work * angle_sign < -0.05 * size) {
-            mapped(channel::motor_torque)->sign = -1.0;
-            guess(
-                channel::motor_torque, Doubt::doubtful,
-                "sign = -1: else the motor would take work from the transmission over closed loops, as it does only where "
-                "a hand turns the load");
-        } else if (work * angle_sign < 0.05 * size) {
-            guess(channel::motor_torque, Doubt::doubtful,
-                  "its loop over the motor's angle is too narrow to show its sign");
-        }
-    }
-
     // What a trial import finds: clocks to be shifted, units and signs that contradict physics.
     void try_it() {
         if (pretension_N_ > 0.0) {
@@ -502,7 +354,7 @@ class Suggesting {
     std::vector<SeenColumn> columns_;
     std::set<const logs::LogColumn*> times_;
     std::set<const SeenColumn*> used_;
-    std::vector<std::pair<std::string, const SeenColumn*>> chosen_;
+    ChosenColumns chosen_;
     double pretension_N_ = 0.0;
     Suggestion suggestion_;
 };

@@ -13,8 +13,6 @@ namespace {
 
 // Samples may jitter by half a period; more than one and a half is a gap.
 constexpr double longest_period_in_samples = 1.5;
-// A run this short has no motion in it.
-constexpr int min_samples = 20;
 // Units are called swapped when a relation that geometry fixes is off by more than this; friction and
 // elasticity explain a factor of a few.
 constexpr double implausible_factor = 20.0;
@@ -120,9 +118,9 @@ void check_next_time(const RecordedRun& run, double time_s, double sample_rate_H
 
 void check_recording(const Recording& recording, const std::string& place, ProblemList& problems) {
     for (const RecordedRun& run : recording.runs) {
-        if (run.samples() < min_samples)
+        if (run.time_s.size() < min_run_samples)
             problems.add(place, fmt::format("run {} has {} samples; at least {} are needed", run.number,
-                                            run.samples(), min_samples));
+                                            run.samples(), min_run_samples));
     }
     if (!problems.empty()) return;
     check_constant_channels(recording, place, problems);

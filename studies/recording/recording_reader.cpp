@@ -97,11 +97,21 @@ SampleTable sample_table(const CsvNumbers& table) {
 
 }  // namespace
 
+RecordingPaths recording_paths(const std::filesystem::path& name) {
+    const std::string ending = name.extension().string();
+    const std::filesystem::path base =
+        ending == ".csv" || ending == ".json" ? name.parent_path() / name.stem() : name;
+    return {base.string() + ".csv", base.string() + ".json"};
+}
+
 Recording read_recording(const std::filesystem::path& path, ProblemList& problems) {
-    std::filesystem::path samples_path = path;
-    std::filesystem::path sidecar_path = path;
-    samples_path.replace_extension(".csv");
-    sidecar_path.replace_extension(".json");
+    const auto [samples_path, sidecar_path] = recording_paths(path);
+    if (std::filesystem::is_regular_file(path) && path != samples_path && path != sidecar_path) {
+        problems.add(
+            path.string(),
+            "is not a recording, which is NAME.csv with NAME.json; `capstan import` makes one of a laboratory's log");
+        return {};
+    }
     if (std::filesystem::exists(samples_path) && !std::filesystem::exists(sidecar_path)) {
         problems.add(
             sidecar_path.string(),

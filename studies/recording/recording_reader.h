@@ -21,6 +21,16 @@ Recording read_recording(const std::filesystem::path& path, ProblemList& problem
 /// channel that is constant in every run, a channel in other units than it says.
 Recording read_recording(const std::filesystem::path& path);
 
+/// The two files of a recording; `name` is either, or NAME without an ending.
+struct RecordingPaths {
+    std::filesystem::path samples;
+    std::filesystem::path sidecar;
+};
+RecordingPaths recording_paths(const std::filesystem::path& name);
+
+/// A run of fewer samples has no motion in it.
+inline constexpr std::size_t min_run_samples = 20;
+
 // The steps of reading.
 
 /// What the table of samples shows before anything is known of it, for what a sidecar leaves out.

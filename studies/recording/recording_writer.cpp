@@ -8,6 +8,7 @@
 
 #include "capstan/platform/files.h"
 #include "capstan/recording/recording_keys.h"
+#include "capstan/recording/recording_reader.h"
 
 namespace capstan {
 
@@ -58,7 +59,8 @@ std::string samples_csv(const Recording& recording) {
     for (const RecordedRun& run : recording.runs) {
         for (std::size_t sample = 0; sample < run.time_s.size(); ++sample) {
             fmt::format_to(out, "{},{}", run.number, run.time_s[sample]);
-            for (const std::vector<double>& channel : run.values) fmt::format_to(out, ",{:.9g}", channel[sample]);
+            for (const std::vector<double>& channel : run.values)
+                fmt::format_to(out, ",{:.9g}", channel[sample]);
             text += "\n";
         }
     }
@@ -87,12 +89,13 @@ std::string sidecar_text(const Recording& recording) {
 }
 
 void write_recording(const std::filesystem::path& path, const Recording& recording) {
-    std::filesystem::path samples = path;
-    std::filesystem::path sidecar = path;
-    samples.replace_extension(".csv");
-    sidecar.replace_extension(".json");
-    write_file(samples, samples_csv(recording));
-    write_file(sidecar, sidecar_text(recording));
+    const RecordingPaths paths = recording_paths(path);
+    AtomicFile samples(paths.samples);
+    AtomicFile sidecar(paths.sidecar);
+    samples.append(samples_csv(recording));
+    sidecar.append(sidecar_text(recording));
+    samples.finish();
+    sidecar.finish();
 }
 
 }  // namespace capstan

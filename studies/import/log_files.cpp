@@ -1,0 +1,66 @@
+#include "capstan/import/log_files.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "capstan/import/units.h"
+
+namespace capstan::imports {
+
+std::string file_names(const std::vector<std::filesystem::path>& files) {
+    std::string names;
+    for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.filename().string();
+    return names;
+}
+
+std::vector<std::unique_ptr<logs::Log>> read_logs(const std::vector<std::filesystem::path>& files,
+                                                  logs::ReadOptions options,
+                                                  const std::function<void(double)>& on_progress) {
+    const auto bytes_of = [](const std::filesystem::path& file) {
+        std::error_code failed;
+        const auto size = std::filesystem::file_size(file, failed);
+        return failed ? 0.0 : static_cast<double>(size);
+    };
+    double all_bytes = 0.0;
+    for (const auto& file : files) all_bytes += bytes_of(file);
+    double read_bytes = 0.0;
+    options.memory_limit_bytes /= std::max<std::size_t>(files.size(), 1);
+    std::vector<std::unique_ptr<logs::Log>> read;
+    for (const auto& file : files) {
+        const double file_bytes = bytes_of(file);
+        if (on_progress && all_bytes > 0.0)
+            options.on_progress = [&](double fraction) {
+                on_progress((read_bytes + fraction * file_bytes) / all_bytes);
+            };
+        read.push_back(std::make_unique<logs::Log>(logs::read_log(file, options)));
+        read_bytes += file_bytes;
+    }
+    return read;
+}
+
+int find_column(const logs::LogTable& table, const std::string& wanted) {
+    const int named = table.column(wanted);
+    if (named >= 0) return named;
+    if (wanted.empty() || !std::all_of(wanted.begin(), wanted.end(), ::isdigit) || wanted.size() > 4)
+        return -1;
+    const int number = std::stoi(wanted);
+    return number >= 1 && number <= static_cast<int>(table.columns.size()) ? number - 1 : -1;
+}
+
+std::vector<std::string> column_names(const logs::Log& log) {
+    std::vector<std::string> names;
+    for (const logs::LogTable& table : log.tables) {
+        for (const logs::LogColumn& column : table.columns) names.push_back(table.name + "\n" + column.name);
+    }
+    return names;
+}
+
+std::string stated_unit(const logs::LogColumn& column) {
+    if (!column.unit.empty()) return column.unit;
+    const std::size_t bar = column.name.find_last_of("_ ");
+    if (bar == std::string::npos) return "";
+    const std::string ending = column.name.substr(bar + 1);
+    return find_unit(ending) ? ending : "";
+}
+
+}  // namespace capstan::imports
