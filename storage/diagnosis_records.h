@@ -14,12 +14,16 @@ namespace capstan::storage {
 struct DiagnosisEffectRecord {  // its position is its place, from 1
     std::string effect;
     double probability_fraction = 0;
+    std::optional<double> present_fraction{};  // none: of a diagnosis before it was stored
+    std::string varies{};
     bool operator==(const DiagnosisEffectRecord&) const = default;
 };
 template <>
 inline constexpr auto columns<DiagnosisEffectRecord> = std::tuple{
     Column{"effect", &DiagnosisEffectRecord::effect},
     Column{"probability_fraction", &DiagnosisEffectRecord::probability_fraction},
+    Column{"present_fraction", &DiagnosisEffectRecord::present_fraction},
+    Column{"varies", &DiagnosisEffectRecord::varies},
 };
 
 struct DiagnosisNumberRecord {

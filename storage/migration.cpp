@@ -117,6 +117,10 @@ ALTER TABLE diagnosis ADD COLUMN pretension_low_ratio REAL;
 ALTER TABLE diagnosis ADD COLUMN pretension_high_ratio REAL;
 ALTER TABLE diagnosis_number ADD COLUMN low_in_unit REAL;
 ALTER TABLE diagnosis_number ADD COLUMN high_in_unit REAL;
+)sql"},
+        {3,
+         R"sql(ALTER TABLE diagnosis_effect ADD COLUMN present_fraction REAL;
+ALTER TABLE diagnosis_effect ADD COLUMN varies TEXT NOT NULL DEFAULT '';
 )sql"}};
     return steps;
 }

@@ -390,14 +390,16 @@ CREATE TABLE diagnosis_effect (
     diagnosis_id      INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
     place             INTEGER NOT NULL CHECK (place > 0),  -- 1: the most probable
     effect            TEXT    NOT NULL,            -- as in the catalogue of effects; 'none', 'unknown'
-    probability_fraction REAL    NOT NULL CHECK (probability_fraction BETWEEN 0 AND 1),  -- of this effect being a cause
+    probability_fraction REAL    NOT NULL CHECK (probability_fraction BETWEEN 0 AND 1),  -- its share of the probability of the explanations that hold it
+    present_fraction  REAL,                        -- probability that the effect is there at all, whatever else is; NULL before version 4
+    varies            TEXT    NOT NULL DEFAULT '', -- the condition of the runs that its numbers follow; '': none
     PRIMARY KEY (diagnosis_id, place)
 ) STRICT, WITHOUT ROWID;
 
--- The causes that the verdict names, none to two.
+-- The causes that the verdict names.
 CREATE TABLE diagnosis_cause (
     diagnosis_id INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
-    cause_index  INTEGER NOT NULL,                 -- 0, 1
+    cause_index  INTEGER NOT NULL,                 -- 0, 1, ...
     effect       TEXT    NOT NULL,                 -- as in the catalogue of effects
     variant      TEXT    NOT NULL,                 -- '' where the effect has one form only
     component    TEXT    NOT NULL,                 -- what it sits in

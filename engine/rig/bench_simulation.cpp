@@ -263,7 +263,7 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(const BenchInputs
     Free free;
     for (int lane = 0; lane < count_; ++lane) {
         const BenchPulleys& pulleys = pulleys_[static_cast<std::size_t>(lane)];
-        all.of[lane] = true;
+        all.of[lane] = !stopped_.of[lane];
         free.motor.of[lane] = pulleys.motor_is_free(inputs);
         free.load.of[lane] = pulleys.load_is_free(inputs);
         angles[static_cast<std::size_t>(lane)] = pulleys.start(inputs);
@@ -272,11 +272,16 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(const BenchInputs
     iterate(inputs, free, all, angles, reports);
     for (int lane = 0; lane < count_; ++lane) {
         const auto bench = static_cast<std::size_t>(lane);
-        if (!reports[bench].converged)
+        if (stopped_.of[lane]) {
+            reports[bench].converged = false;
+            angles[bench] = pulleys_[bench].angles();
+        } else if (!reports[bench].converged) {
             bracket(inputs, free, lane, pulleys_[bench].start(inputs), angles, reports);
+        }
     }
     cables_.store();
     for (int lane = 0; lane < count_; ++lane) {
+        if (stopped_.of[lane]) continue;
         double motor_pull_N = 0.0;
         double load_pull_N = 0.0;
         double way = 1.0;

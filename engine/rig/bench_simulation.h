@@ -40,6 +40,8 @@ class BenchSimulations {
 
     /// Throws InvalidInput if the inputs determine no motion or are not finite; nothing has moved then.
     std::array<BenchReport, bench_lanes> advance(const BenchInputs& inputs);
+    /// The bench moves no further; its reports say that it does not converge.
+    void stop(int bench) { stopped_.of[bench] = true; }
 
     const BenchPulleys& pulleys(int bench) const { return pulleys_[static_cast<std::size_t>(bench)]; }
     /// 0: cable A, 1: cable B.
@@ -71,6 +73,7 @@ class BenchSimulations {
                  EachReport& reports);
 
     int count_;
+    LaneFlags stopped_;
     Pulleys radii_;
     std::vector<BenchEffects> effects_;
     std::vector<double> pretension_N_;

@@ -85,8 +85,12 @@ Data candidates_data(const DiagnosisRecord& diagnosis) {
 // The form that a judge reads (case, ranked, where, RMS before and after) and everything else.
 Data values_of(const DiagnosisRecord& diagnosis) {
     Data data = {{"case", diagnosis.recording}, {"ranked", Data::list()}};
-    for (const auto& each : diagnosis.effects)
-        data["ranked"].push_back({{"effect", each.effect}, {"probability", each.probability_fraction}});
+    for (const auto& each : diagnosis.effects) {
+        Data entry = {{"effect", each.effect}, {"probability", each.probability_fraction}};
+        if (each.present_fraction) entry["present"] = *each.present_fraction;
+        if (!each.varies.empty()) entry["varies"] = each.varies;
+        data["ranked"].push_back(entry);
+    }
     data["where"] = {{"component", text_or_nothing(diagnosis.component)},
                      {"end", text_or_nothing(diagnosis.cable_end)},
                      {"s_m", diagnosis.position_m},

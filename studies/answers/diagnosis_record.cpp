@@ -105,7 +105,7 @@ storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap:
     record.sentence = verdict_sentence(diagnosis);
     record.gap_sentence = gap::gap_sentence(diagnosis.gap.map);
     for (const gap::RankedEffect& each : diagnosis.ranked)
-        record.effects.push_back({each.effect, each.probability});
+        record.effects.push_back({each.effect, each.probability, each.present, each.varies});
     for (const gap::FittedCause& each : diagnosis.causes) record.causes.push_back(cause_record(each));
     for (const gap::CandidateScore& each : diagnosis.candidates) {
         record.candidates.push_back({json_line(Data(each.effects)), json_line(Data(each.variants)),

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "capstan/gap/bench_knowledge.h"
 #include "capstan/gap/effects_twin.h"
 #include "capstan/recording/recording.h"
 
@@ -52,15 +53,19 @@ struct CandidateCause {
     };
     std::vector<GivenNumber> given;  ///< parameters of the effect that the recording itself decides
     std::function<void(BenchNumbers&, std::span<const double> values)> apply;
+    bool of_runs = false;  ///< only a nominal number or a zero that differs between runs
+    std::string varies;    ///< the condition of the runs that the numbers follow; empty: none
     /// How far friction, stiffness and pretension may be from their nominal values (logarithms, standard
     /// deviation): one of them far, if that is the cause.
     double friction_std = 0.0;
     double stiffness_std = 0.0;
     double pretension_std = 0.0;
-};
 
-/// The uncertainty of the nominal numbers of a well-kept laboratory.
-inline constexpr double nominal_log_std = 0.015;
+    /// As above for one of the first three floating numbers; 0 for the others.
+    double nominal_std(Eigen::Index number) const {
+        return number == 0 ? friction_std : number == 1 ? stiffness_std : number == 2 ? pretension_std : 0.0;
+    }
+};
 
 /// The step on which all values of a channel lie, if it is coarser than the noise and step that the sidecar
 /// states; none if the values lie anywhere.

@@ -15,6 +15,10 @@ namespace {
 // The correlation time of residuals.
 constexpr double correlation_time_s = 0.25;
 
+double prior_std(const std::vector<FloatingNumber>& numbers, Eigen::Index number) {
+    return numbers[static_cast<std::size_t>(number)].prior_std;
+}
+
 }  // namespace
 
 CauseFitter::CauseFitter(const Recording& recording, const EffectsTwinOptions& options, int threads)
@@ -58,19 +62,24 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
                                             std::optional<LeftOut> left_out) const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data_rows_),
                                                 static_cast<Eigen::Index>(hypotheses.size()));
-    const std::vector<BenchGroup> groups = to_be_moved_at_once(by_bench(hypotheses));
-    const std::size_t runs = recording_.runs.size();
-    parallel_for_each_index(static_cast<int>(runs * groups.size()), threads_, [&](int task) {
-        const std::size_t run = static_cast<std::size_t>(task) % runs;
-        const BenchGroup& group = groups[static_cast<std::size_t>(task) / runs];
-        if (left_out && left_out->run == run && left_out->is_complete_run()) return;
+    struct RunGroup {
+        std::size_t run;
+        BenchGroup benches;
+    };
+    std::vector<RunGroup> groups;
+    for (std::size_t run = 0; run < recording_.runs.size(); ++run) {
+        if (left_out && left_out->run == run && left_out->is_complete_run()) continue;
+        for (BenchGroup& benches : to_be_moved_at_once(by_bench(hypotheses, run)))
+            groups.push_back({run, std::move(benches)});
+    }
+    parallel_for_each_index(static_cast<int>(groups.size()), threads_, [&](int task) {
+        const auto& [run, group] = groups[static_cast<std::size_t>(task)];
         std::vector<BenchNumbers> moved;
         for (const SameBench& bench : group) moved.push_back(bench.numbers);
         const std::vector<TwinRun> twins = twin_.run_each(run, moved);
         for (std::size_t lane = 0; lane < twins.size(); ++lane) {
             for (const std::size_t k : group[lane].hypotheses) {
-                const auto faults =
-                    bench_numbers(hypotheses[k].causes, hypotheses[k].coordinates).sensor_faults;
+                const auto faults = bench_numbers(hypotheses[k]).in_run(run).sensor_faults;
                 auto smooth = faults;
                 for (auto& [channel, fault] : smooth) {
                     if (lattice_[static_cast<std::size_t>(*recording_.channel(channel))]) fault.step = 0.0;
@@ -90,30 +99,30 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
     return all;
 }
 
-std::vector<std::vector<double>> CauseFitter::visibility(std::span<const CauseFit> fits) const {
-    std::vector<Hypothesis> hypotheses;
-    for (const CauseFit& fit : fits) {
-        hypotheses.push_back(fit.hypothesis());
-        for (const CandidateCause* cause : fit.causes) {
-            Hypothesis without =
-                only_causes(fit.hypothesis(), [&](const CandidateCause& other) { return &other != cause; });
-            if (cause->friction_std > nominal_log_std) without.coordinates[0] = 0.0;
-            if (cause->stiffness_std > nominal_log_std) without.coordinates[1] = 0.0;
-            if (cause->pretension_std > nominal_log_std) without.coordinates[2] = 0.0;
-            hypotheses.push_back(without);
+Visibility CauseFitter::visibility(const CauseFit& fit) const {
+    std::vector<Hypothesis> hypotheses = {fit.hypothesis()};
+    for (const CandidateCause* cause : fit.causes) {
+        Hypothesis without =
+            only_causes(fit.hypothesis(), [&](const CandidateCause& other) { return &other != cause; });
+        for (Eigen::Index number = 0; number < nominal_coordinates; ++number) {
+            if (cause->nominal_std(number) > prior_std(fit.bench->numbers, number))
+                without.coordinates[number] = 0.0;
         }
+        hypotheses.push_back(without);
+    }
+    const Eigen::Index numbers = fit.bench->size() > nominal_coordinates ? fit.bench->size() : 0;
+    for (Eigen::Index number = 0; number < numbers; ++number) {
+        hypotheses.push_back(fit.hypothesis());
+        hypotheses.back().coordinates[number] = 0.0;
     }
     const Eigen::MatrixXd residuals = data_residuals(hypotheses);
-    std::vector<std::vector<double>> all;
-    Eigen::Index column = 0;
-    for (const CauseFit& fit : fits) {
-        const Eigen::Index with_all = column++;
-        std::vector<double> each;
-        for (std::size_t k = 0; k < fit.causes.size(); ++k)
-            each.push_back(clearest_change(residuals.col(column++) - residuals.col(with_all)));
-        all.push_back(each);
+    Visibility visibility;
+    for (Eigen::Index column = 1; column < residuals.cols(); ++column) {
+        const bool of_cause = visibility.of_causes.size() < fit.causes.size();
+        (of_cause ? visibility.of_causes : visibility.of_the_bench)
+            .push_back(clearest_change(residuals.col(column) - residuals.col(0)));
     }
-    return all;
+    return visibility;
 }
 
 double CauseFitter::clearest_change(const Eigen::VectorXd& change) const {
@@ -138,21 +147,21 @@ double CauseFitter::misfit(const CauseFit& fit) const {
 }
 
 double CauseFitter::nominal_penalty(const CauseFit& fit) const {
-    return 0.5 * prior_residuals(fit.causes, fit.coordinates).head(nominal_coordinates).squaredNorm() /
+    return 0.5 * prior_residuals(fit.hypothesis(), fit.coordinates).head(fit.bench->size()).squaredNorm() /
            (prior_weight_ * prior_weight_);
 }
 
 double CauseFitter::shape_penalty(const CauseFit& fit) const {
-    const Eigen::VectorXd priors = prior_residuals(fit.causes, fit.coordinates);
-    return 0.5 * priors.tail(priors.size() - nominal_coordinates).squaredNorm() /
+    const Eigen::VectorXd priors = prior_residuals(fit.hypothesis(), fit.coordinates);
+    return 0.5 * priors.tail(priors.size() - fit.bench->size()).squaredNorm() /
            (prior_weight_ * prior_weight_);
 }
 
 Eigen::VectorXd CauseFitter::half_widths(const CauseFit& fit,
                                          const std::vector<Eigen::VectorXd>& without_a_run) const {
-    const Eigen::MatrixXd jacobian =
-        jacobian_at([&](const Eigen::MatrixXd& coordinates) { return residuals(fit.causes, coordinates); },
-                    fit.coordinates, fit.residuals);
+    const Eigen::MatrixXd jacobian = jacobian_at(
+        [&](const Eigen::MatrixXd& coordinates) { return residuals(fit.hypothesis(), coordinates); },
+        fit.coordinates, fit.residuals);
     // Channels of one instant are correlated, so a block has the rows of all of them.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Index>> blocks;  // run, second: rows
     for (const ResidualSeries& series : series_) {
@@ -176,22 +185,18 @@ Eigen::VectorXd CauseFitter::half_widths(const CauseFit& fit,
     return (two_sided_95 * deviations).cwiseMax(jackknife_half_widths(without_a_run, deviations.size()));
 }
 
-Eigen::VectorXd CauseFitter::prior_residuals(const std::vector<const CandidateCause*>& causes,
+Eigen::VectorXd CauseFitter::prior_residuals(const Hypothesis& hypothesis,
                                              const Eigen::VectorXd& coordinates) const {
-    // Each nominal number gets the widest prior of all causes.
-    double spread[nominal_coordinates] = {nominal_log_std, nominal_log_std, nominal_log_std};
-    for (const CandidateCause* cause : causes) {
-        spread[0] = std::max(spread[0], cause->friction_std);
-        spread[1] = std::max(spread[1], cause->stiffness_std);
-        spread[2] = std::max(spread[2], cause->pretension_std);
-    }
     Eigen::VectorXd priors(coordinates.size());
     Eigen::Index row = 0;
-    for (const double std : spread) {
-        priors[row] = prior_weight_ * coordinates[row] / std;
-        ++row;
+    for (; row < hypothesis.bench->size(); ++row) {
+        // Each nominal number gets the widest prior of all causes.
+        double spread = prior_std(hypothesis.bench->numbers, row);
+        for (const CandidateCause* cause : hypothesis.causes)
+            spread = std::max(spread, cause->nominal_std(row));
+        priors[row] = prior_weight_ * coordinates[row] / spread;
     }
-    for (const CandidateCause* cause : causes) {
+    for (const CandidateCause* cause : hypothesis.causes) {
         for (const OpenNumber& number : cause->numbers) {
             priors[row] = prior_weight_ * (coordinates[row] - number.prior_mean()) / number.prior_std();
             ++row;
@@ -200,16 +205,15 @@ Eigen::VectorXd CauseFitter::prior_residuals(const std::vector<const CandidateCa
     return priors;
 }
 
-Eigen::MatrixXd CauseFitter::residuals(const std::vector<const CandidateCause*>& causes,
-                                       const Eigen::MatrixXd& coordinates,
+Eigen::MatrixXd CauseFitter::residuals(const Hypothesis& hypothesis, const Eigen::MatrixXd& coordinates,
                                        std::optional<LeftOut> left_out) const {
     std::vector<Hypothesis> hypotheses;
     for (Eigen::Index column = 0; column < coordinates.cols(); ++column)
-        hypotheses.push_back({causes, coordinates.col(column)});
+        hypotheses.push_back({hypothesis.causes, coordinates.col(column), hypothesis.bench});
     Eigen::MatrixXd all(static_cast<Eigen::Index>(data_rows_) + coordinates.rows(), coordinates.cols());
     all.topRows(static_cast<Eigen::Index>(data_rows_)) = data_residuals(hypotheses, left_out);
     for (Eigen::Index column = 0; column < coordinates.cols(); ++column)
-        all.col(column).tail(coordinates.rows()) = prior_residuals(causes, coordinates.col(column));
+        all.col(column).tail(coordinates.rows()) = prior_residuals(hypothesis, coordinates.col(column));
     return all;
 }
 
@@ -235,7 +239,7 @@ Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOpt
     }
     if (!has_size) return start.coordinates;
     Eigen::Index best = 0;
-    residuals(start.causes, tried, options.left_out).colwise().squaredNorm().minCoeff(&best);
+    residuals(start, tried, options.left_out).colwise().squaredNorm().minCoeff(&best);
     evaluations += static_cast<int>(factors.size());
     return tried.col(best);
 }
@@ -243,8 +247,10 @@ Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOpt
 CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) const {
     CauseFit fit;
     fit.causes = start.causes;
-    const Eigen::VectorXd from =
-        options.any_size ? roughly_sized(start, options, fit.evaluations) : start.coordinates;
+    fit.bench = start.bench;
+    const Eigen::VectorXd from = options.any_size && !start.causes.empty()
+                                     ? roughly_sized(start, options, fit.evaluations)
+                                     : start.coordinates;
     LeastSquaresOptions search;
     search.differences = Differences::forward;
     search.parameter_tolerance = 1e-3;
@@ -253,9 +259,7 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     search.dampings_at_once = bench_lanes;
     search.pruned_sum_of_squares = options.pruned_sum_of_squares;
     const LeastSquaresFit found = fit_least_squares(
-        [&](const Eigen::MatrixXd& coordinates) {
-            return residuals(start.causes, coordinates, options.left_out);
-        },
+        [&](const Eigen::MatrixXd& coordinates) { return residuals(start, coordinates, options.left_out); },
         from, search);
     fit.coordinates = found.parameters;
     fit.residuals = found.residuals;

@@ -43,16 +43,25 @@ struct LeftOut {
 /// The best fit of one or several causes together.
 struct CauseFit {
     std::vector<const CandidateCause*> causes;
-    Eigen::VectorXd coordinates;  // friction, stiffness, pretension logarithms, then each cause's numbers
+    Eigen::VectorXd coordinates;  // the bench's floating numbers, then each cause's numbers
     Eigen::VectorXd residuals;    // all series one after the other, then the priors
     double sum_of_squares = 0.0;
     int evaluations = 0;
     bool converged = false;
 
-    Hypothesis hypothesis() const { return {causes, coordinates}; }
+    const BenchKnowledge* bench = &measured_bench();
+
+    Hypothesis hypothesis() const { return {causes, coordinates, bench}; }
 };
 
-/// Fits causes to a recording: nominal numbers float within their uncertainty for every one of them.
+/// The rms change of the clearest channel when one cause or number alone is removed, in units of noise and
+/// floor. A wrong nominal number is compared with the nominal bench.
+struct Visibility {
+    std::vector<double> of_causes;
+    std::vector<double> of_the_bench;
+};
+
+/// Fits causes to a recording: the bench's numbers float within their uncertainty for every one of them.
 class CauseFitter {
   public:
     /// `recording` must outlive it. `threads` as for parallel_for_each_index.
@@ -72,11 +81,10 @@ class CauseFitter {
     Eigen::MatrixXd data_residuals(std::span<const Hypothesis> hypotheses,
                                    std::optional<LeftOut> left_out = {}) const;
     /// Residuals and priors for one set of coordinates a column.
-    Eigen::MatrixXd residuals(const std::vector<const CandidateCause*>& causes,
-                              const Eigen::MatrixXd& coordinates, std::optional<LeftOut> left_out = {}) const;
-    /// How visible each cause of a fit is: the rms change of the clearest channel when that cause alone is
-    /// removed, in units of noise and floor. A wrong nominal number is compared with the nominal bench.
-    std::vector<std::vector<double>> visibility(std::span<const CauseFit> fits) const;
+    Eigen::MatrixXd residuals(const Hypothesis& hypothesis, const Eigen::MatrixXd& coordinates,
+                              std::optional<LeftOut> left_out = {}) const;
+    /// How visible each cause of a fit is, and each number of the bench that a measured bench does not have.
+    Visibility visibility(const CauseFit& fit) const;
     /// Half the squared distance of the nominal numbers from their nominal values, in their uncertainties.
     double nominal_penalty(const CauseFit& fit) const;
     /// The same for the causes' own numbers and their usual values (a toe of a tenth of a newton or a bend of
@@ -89,8 +97,7 @@ class CauseFitter {
     /// jackknife over `without_a_run`, if there are at least three.
     Eigen::VectorXd half_widths(const CauseFit& fit, const std::vector<Eigen::VectorXd>& without_a_run) const;
     /// The distance of each coordinate from its usual value, weighted as a residual.
-    Eigen::VectorXd prior_residuals(const std::vector<const CandidateCause*>& causes,
-                                    const Eigen::VectorXd& coordinates) const;
+    Eigen::VectorXd prior_residuals(const Hypothesis& hypothesis, const Eigen::VectorXd& coordinates) const;
 
     const EffectsTwin& twin() const { return twin_; }
     /// The number of independent instants in the recording: neighbouring residuals are correlated.

@@ -1,7 +1,7 @@
 #include "capstan/gap/cause_search.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,17 +12,19 @@ namespace capstan::gap {
 
 namespace {
 
-// How many causes get a full fit after the screening.
+// How many causes get a full fit after the screening, alone and beside others.
 constexpr std::size_t max_fitted = 8;
-// How many of the best single causes are fitted with a second, and with how many others each.
-constexpr std::size_t max_first_causes = 2;
-constexpr std::size_t max_second_causes = 3;
-constexpr int max_exchanges = 2;
+constexpr std::size_t max_fitted_further = 3;
+// How many of the best sets of one size are extended.
+constexpr std::size_t max_extended = 2;
+constexpr std::size_t max_causes = 5;
 // A search is pruned if its linear model promises more than this many times the best misfit so far.
 constexpr double pruned_factor = 2.5;
 // The screening uses fewer segments and samples.
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
+// Fits that a search usually makes; progress is stated in parts of it.
+constexpr double usual_fits = 30.0;
 
 double min_sum(const std::vector<ScoredFit>& fits) {
     double least = std::numeric_limits<double>::infinity();
@@ -35,12 +37,33 @@ std::string in_words(const CandidateCause& cause) {
     return cause.variant.empty() ? title : title + " (" + channel_words(cause.variant) + ")";
 }
 
+std::string in_words(const std::vector<const CandidateCause*>& causes) {
+    std::string words;
+    for (const CandidateCause* cause : causes) words += (words.empty() ? "" : " with ") + in_words(*cause);
+    return words;
+}
+
 // A wrong nominal number beside a cause that lets the same number go far already.
 bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
-    const auto goes_far = [](double std) { return std > nominal_log_std; };
-    return cause.numbers.empty() && ((goes_far(cause.friction_std) && goes_far(first.friction_std)) ||
-                                     (goes_far(cause.stiffness_std) && goes_far(first.stiffness_std)) ||
-                                     (goes_far(cause.pretension_std) && goes_far(first.pretension_std)));
+    if (!cause.numbers.empty()) return false;
+    for (Eigen::Index number = 0; number < nominal_coordinates; ++number) {
+        if (cause.nominal_std(number) > nominal_log_std && first.nominal_std(number) > nominal_log_std)
+            return true;
+    }
+    return false;
+}
+
+bool has_effect(const ScoredFit& fit, const std::string& effect) {
+    return std::any_of(fit.fit.causes.begin(), fit.fit.causes.end(),
+                       [&](const CandidateCause* cause) { return cause->effect == effect; });
+}
+
+// Of a bench whose numbers float widely, no number can be wrong beyond that.
+void remove_wrong_numbers(std::vector<CandidateCause>& causes, bool zeros_float) {
+    std::erase_if(causes, [&](const CandidateCause& cause) {
+        return (cause.numbers.empty() && cause.effect != "none") ||
+               (zeros_float && (cause.effect == "sensor_offset" || cause.effect == "pulley_friction"));
+    });
 }
 
 }  // namespace
@@ -50,46 +73,82 @@ void sort_by_evidence(std::vector<ScoredFit>& fits) {
                      [](const ScoredFit& a, const ScoredFit& b) { return a.evidence > b.evidence; });
 }
 
+CauseSearch::Model::Model(const Recording& recording, const EffectsTwinOptions& options, int threads)
+    : fitter(recording, options, threads),
+      discrepancy(recording, fitter.series(), options.stride, fitter.independent_samples()) {}
+
 CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& options)
     : options_(options),
-      fitter_(recording, {options.segments, options.stride}, options.threads),
-      screener_(recording, {screening_segments, screening_stride_factor * options.stride}, options.threads),
-      evidence_(fitter_.independent_samples()),
-      causes_(candidate_causes(recording)) {}
+      fine_(recording, {options.segments, options.stride}, options.threads),
+      coarse_(recording, {screening_segments, screening_stride_factor * options.stride}, options.threads),
+      evidence_(fine_.fitter.independent_samples()),
+      described_{recording.nominal_is_fitted ? undescribed_bench(recording) : measured_bench(),
+                 candidate_causes(recording)},
+      built_{built_bench(recording), candidate_causes(recording)} {
+    if (recording.nominal_is_fitted) remove_wrong_numbers(described_.causes, true);
+    remove_wrong_numbers(built_.causes, false);
+}
 
 FoundCauses CauseSearch::run() {
-    report("nominal model", 0.0);
-    nominal_ = {{}, Eigen::VectorXd::Zero(nominal_coordinates)};
-    nominal_misfit_ = fitter_.residuals(nominal_.causes, nominal_.coordinates).squaredNorm() /
-                      static_cast<double>(fitter_.data_rows());
+    report("nominal model");
+    const Hypothesis nominal = nominal_hypothesis(described_.bench);
+    nominal_misfit_ = fine_.fitter.data_residuals({&nominal, 1}).squaredNorm() /
+                      static_cast<double>(fine_.fitter.data_rows());
     FoundCauses found;
-    found.singles = {scored(fitter_.fit({{&causes_.front()}, nominal_.coordinates}, {}))};
-    report("screening all causes", 0.02);
-    const std::vector<Screened> screened = screen(screener_, causes_, nominal_);
-    fit_best(screened, found.singles);
-    sort_by_evidence(found.singles);
-    found.pairs = pairs_with(found.singles);
-    if (found.pairs.empty() || found.pairs.front().evidence < found.singles.front().evidence)
-        fit_confusable(screened, found.singles);
+    const bool is_measured = described_.bench.size() == nominal_coordinates;
+    found.fits = search_one(described_);
+    bool built = is_measured && is_better_when_built(found.fits.front());
+    if (!built) {
+        search_several(described_, found.fits);
+        built = is_measured && found.fits.front().fit.causes.size() > 1 &&
+                is_better_when_built(found.fits.front());
+    }
+    if (built) {
+        Fits rougher = search_one(built_);
+        search_several(built_, rougher);
+        rougher = finely_fitted(rougher);
+        std::move(rougher.begin(), rougher.end(), std::back_inserter(found.fits));
+        sort_by_evidence(found.fits);
+    } else if (!is_measured) {
+        found.fits = finely_fitted(found.fits);
+    }
     found.nominal_misfit = nominal_misfit_;
     found.evaluations = evaluations_;
     return found;
 }
 
-ScoredFit CauseSearch::scored(CauseFit fit) {
-    evaluations_ += fit.evaluations;
-    ScoredFit scored;
-    scored.fit = std::move(fit);
-    scored.misfit = fitter_.misfit(scored.fit);
-    scored.nominal_penalty = fitter_.nominal_penalty(scored.fit);
-    scored.shape_penalty = fitter_.shape_penalty(scored.fit);
-    scored.visibility = fitter_.visibility({&scored.fit, 1}).front();
-    scored.evidence = evidence_.of(scored);
-    return scored;
+// Whether the best explanation leaves much, and gains clearly by rough knowledge of the bench.
+bool CauseSearch::is_better_when_built(const ScoredFit& best) {
+    constexpr double clearly = 3.0;
+    if (!worth_a_further_cause(best)) return false;
+    report("fitting the bench's own numbers");
+    Hypothesis built = nominal_hypothesis(built_.bench);
+    built.coordinates.head(nominal_coordinates) = best.fit.coordinates.head(nominal_coordinates);
+    Eigen::Index next = nominal_coordinates;
+    for (const CandidateCause* cause : best.fit.causes) {
+        const auto count = static_cast<Eigen::Index>(cause->numbers.size());
+        const auto same = std::find_if(built_.causes.begin(), built_.causes.end(), [&](const auto& other) {
+            return other.effect == cause->effect && other.variant == cause->variant;
+        });
+        if (same != built_.causes.end() && same->effect != "none")
+            built = with_cause(built, &*same, best.fit.coordinates.segment(next, count));
+        next += count;
+    }
+    if (built.causes.empty()) built = with_cause(built, &built_.causes.front(), {});
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    return scored(fine_, fine_.fitter.fit(built, options)).evidence > best.evidence + clearly;
 }
 
-// Fits the most promising causes.
-void CauseSearch::fit_best(const std::vector<Screened>& screened, std::vector<ScoredFit>& fits) {
+CauseSearch::Fits CauseSearch::search_one(const Level& level) {
+    const bool is_measured = level.bench.size() == nominal_coordinates;
+    const Hypothesis start = nominal_hypothesis(level.bench);
+    Fits singles = {fitted(level, with_cause(start, &level.causes.front(), {}), {})};
+    // Numbers that float widely move first, for every cause is screened beside them.
+    const Hypothesis nothing =
+        is_measured ? start : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
+    report("screening all causes");
+    const std::vector<Screened> screened = screen(coarse_.fitter, level.causes, nothing);
     std::size_t fitted = 0;
     for (const Screened& each : screened) {
         // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
@@ -97,80 +156,157 @@ void CauseSearch::fit_best(const std::vector<Screened>& screened, std::vector<Sc
         const bool nominal_number = each.cause->numbers.empty();
         if (fitted == max_fitted && !nominal_number) continue;
         if (!nominal_number) ++fitted;
-        report("fitting " + in_words(*each.cause),
-               0.2 + 0.4 * static_cast<double>(fits.size()) / (max_fitted + nominal_coordinates));
-        CauseFitter::FitOptions options;
-        options.pruned_sum_of_squares = pruned_factor * min_sum(fits);
-        fits.push_back(scored(fitter_.fit(with_cause(nominal_, each.cause, each.start), options)));
+        add_single(level, each, nothing, singles);
+    }
+    sort_by_evidence(singles);
+    if (!worth_a_further_cause(singles.front())) add_confusable(level, screened, nothing, singles);
+    return singles;
+}
+
+void CauseSearch::search_several(const Level& level, Fits& all) {
+    Fits sets = all;
+    for (std::size_t causes = 2; causes <= max_causes; ++causes) {
+        sets = larger_sets(level, sets);
+        if (sets.empty()) return;
+        const bool better = sets.front().evidence > all.front().evidence;
+        std::copy(sets.begin(), sets.end(), std::back_inserter(all));
+        sort_by_evidence(all);
+        if (!better) return;
     }
 }
 
+void CauseSearch::report(const std::string& activity) {
+    const double done = static_cast<double>(fitted_) / usual_fits;
+    options_.on_progress(activity, 0.9 * (1.0 - std::exp(-done)));
+}
+
+// A bench with many floating numbers is searched with the coarse model, and its best sets are fitted again.
+ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start,
+                              const CauseFitter::FitOptions& options) {
+    const Model& model = level.bench.size() == nominal_coordinates ? fine_ : coarse_;
+    return scored(model, model.fitter.fit(start, options));
+}
+
+CauseSearch::Fits CauseSearch::finely_fitted(const Fits& coarse) {
+    constexpr std::size_t most = 4;
+    Fits fine;
+    for (const ScoredFit& each : coarse) {
+        if (fine.size() >= most && !has_effect(each, "none")) continue;
+        report("fitting " + in_words(each.fit.causes) + " finely");
+        CauseFitter::FitOptions options;
+        options.any_size = false;
+        fine.push_back(scored(fine_, fine_.fitter.fit(each.fit.hypothesis(), options)));
+    }
+    sort_by_evidence(fine);
+    return fine;
+}
+
+ScoredFit CauseSearch::scored(const Model& model, CauseFit fit) {
+    ++fitted_;
+    evaluations_ += fit.evaluations;
+    ScoredFit scored;
+    scored.fit = std::move(fit);
+    scored.misfit = model.fitter.misfit(scored.fit);
+    scored.nominal_penalty = model.fitter.nominal_penalty(scored.fit);
+    scored.shape_penalty = model.fitter.shape_penalty(scored.fit);
+    const Visibility visibility = model.fitter.visibility(scored.fit);
+    scored.visibility = visibility.of_causes;
+    constexpr double visible = 2.0;
+    for (std::size_t k = 0; k < visibility.of_the_bench.size(); ++k) {
+        const std::string& effect = scored.fit.bench->numbers[k].effect;
+        if (visibility.of_the_bench[k] > visible && !effect.empty()) scored.far_numbers.push_back(k);
+    }
+    scored.beside = model.discrepancy.of(scored.fit.residuals);
+    scored.evidence = evidence_.of(scored);
+    return scored;
+}
+
+void CauseSearch::add_single(const Level& level, const Screened& screened, const Hypothesis& nothing,
+                             Fits& singles) {
+    report("fitting " + in_words(*screened.cause));
+    CauseFitter::FitOptions options;
+    options.pruned_sum_of_squares = pruned_factor * min_sum(singles);
+    singles.push_back(fitted(level, with_cause(nothing, screened.cause, screened.start), options));
+}
+
 // The screening is linear. Causes that are easily confused with the best one are fitted whatever it says.
-void CauseSearch::fit_confusable(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles) {
+void CauseSearch::add_confusable(const Level& level, const std::vector<Screened>& screened,
+                                 const Hypothesis& nothing, Fits& singles) {
     const std::string best = singles.front().fit.causes.front()->effect;
-    const auto is_fitted = [&](const std::string& effect) {
-        return std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& single) {
-            return single.fit.causes.front()->effect == effect;
-        });
-    };
     for (const std::string& rival : confusable_causes(best)) {
-        if (is_fitted(rival)) continue;
+        if (std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& fit) {
+                return fit.fit.causes.size() == 1 && has_effect(fit, rival);
+            }))
+            continue;
         const auto found = std::find_if(screened.begin(), screened.end(),
                                         [&](const Screened& each) { return each.cause->effect == rival; });
-        if (found == screened.end()) continue;
-        CauseFitter::FitOptions options;
-        options.pruned_sum_of_squares = pruned_factor * min_sum(singles);
-        singles.push_back(scored(fitter_.fit(with_cause(nominal_, found->cause, found->start), options)));
+        if (found != screened.end()) add_single(level, *found, nothing, singles);
     }
     sort_by_evidence(singles);
 }
 
-// Fits the best single causes with the most promising others, then exchanges one cause of the best pair for
-// as long as that improves it.
-std::vector<ScoredFit> CauseSearch::pairs_with(const std::vector<ScoredFit>& singles) {
-    std::vector<ScoredFit> pairs;
-    if (!worth_a_second_cause(singles.front().misfit, nominal_misfit_)) return pairs;
+// The best of the smaller sets, each with one cause more; then without each of its former causes in turn, for
+// the first cause may have stood for two others.
+CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& smaller) {
+    Fits sets;
+    if (!worth_a_further_cause(smaller.front())) return sets;
     std::vector<std::string> firsts;
-    for (const ScoredFit& single : singles) {
-        const std::string& first = single.fit.causes.front()->effect;
-        if (first == "none" || firsts.size() == max_first_causes ||
-            std::find(firsts.begin(), firsts.end(), first) != firsts.end())
+    for (const ScoredFit& each : smaller) {
+        const std::string& first = each.fit.causes.front()->effect;
+        if (first == "none" || firsts.size() == max_extended ||
+            (each.fit.causes.size() == 1 && std::find(firsts.begin(), firsts.end(), first) != firsts.end()))
             continue;
+        if (each.fit.causes.size() > 1 && !firsts.empty()) break;
         firsts.push_back(first);
-        add_pairs(single.fit.hypothesis(), pairs);
+        add_sets(level, each, sets);
     }
-    sort_by_evidence(pairs);
-    for (int round = 0; round < max_exchanges && !pairs.empty(); ++round) {
-        if (!worth_a_second_cause(pairs.front().misfit, nominal_misfit_)) break;
-        const CauseFit best = pairs.front().fit;
-        for (const CandidateCause* kept : best.causes) {
-            add_pairs(
-                only_causes(best.hypothesis(), [&](const CandidateCause& cause) { return &cause == kept; }),
-                pairs);
+    sort_by_evidence(sets);
+    if (sets.empty() || sets.front().fit.causes.size() > 2) return sets;
+    const ScoredFit best = sets.front();
+    if (!worth_a_further_cause(best)) return sets;
+    for (const CandidateCause* kept : best.fit.causes) {
+        const auto alone = std::find_if(smaller.begin(), smaller.end(), [&](const ScoredFit& each) {
+            return each.fit.causes.size() == 1 && each.fit.causes.front() == kept;
+        });
+        if (alone != smaller.end()) {
+            add_sets(level, *alone, sets);
+        } else {
+            ScoredFit part = best;
+            const Hypothesis kept_alone = only_causes(
+                best.fit.hypothesis(), [&](const CandidateCause& cause) { return &cause == kept; });
+            part.fit.causes = kept_alone.causes;
+            part.fit.coordinates = kept_alone.coordinates;
+            add_sets(level, part, sets);
         }
-        sort_by_evidence(pairs);
-        if (pairs.front().fit.causes == best.causes) break;
     }
-    return pairs;
+    sort_by_evidence(sets);
+    return sets;
 }
 
-void CauseSearch::add_pairs(const Hypothesis& present, std::vector<ScoredFit>& pairs) {
-    const CandidateCause* first = present.causes.front();
-    std::size_t seconds = 0;
-    for (const Screened& each : screen(screener_, causes_, present)) {
-        if (seconds == max_second_causes) break;
-        if (each.cause->effect == first->effect || is_part_of(*each.cause, *first)) continue;
-        ++seconds;
-        const auto same = [&](const ScoredFit& pair) {
-            return std::is_permutation(pair.fit.causes.begin(), pair.fit.causes.end(),
-                                       std::array{first, each.cause}.begin());
+void CauseSearch::add_sets(const Level& level, const ScoredFit& present, Fits& sets) {
+    if (!worth_a_further_cause(present)) return;
+    const Hypothesis hypothesis = present.fit.hypothesis();
+    std::size_t further = 0;
+    for (const Screened& each : screen(coarse_.fitter, level.causes, hypothesis)) {
+        if (further == max_fitted_further) break;
+        const bool known =
+            std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), [&](const CandidateCause* cause) {
+                return (cause->effect == each.cause->effect && cause->variant == each.cause->variant) ||
+                       is_part_of(*each.cause, *cause);
+            });
+        if (known) continue;
+        ++further;
+        std::vector<const CandidateCause*> set = hypothesis.causes;
+        set.push_back(each.cause);
+        const auto same = [&](const ScoredFit& other) {
+            return other.fit.causes.size() == set.size() &&
+                   std::is_permutation(set.begin(), set.end(), other.fit.causes.begin());
         };
-        if (std::any_of(pairs.begin(), pairs.end(), same)) continue;
-        report("fitting " + in_words(*first) + " with " + in_words(*each.cause),
-               std::min(0.9, 0.6 + 0.03 * static_cast<double>(pairs.size())));
+        if (std::any_of(sets.begin(), sets.end(), same)) continue;
+        report("fitting " + in_words(set));
         CauseFitter::FitOptions options;
-        options.pruned_sum_of_squares = pruned_factor * min_sum(pairs);
-        pairs.push_back(scored(fitter_.fit(with_cause(present, each.cause, each.start), options)));
+        options.pruned_sum_of_squares = pruned_factor * min_sum(sets);
+        sets.push_back(fitted(level, with_cause(hypothesis, each.cause, each.start), options));
     }
 }
 

@@ -22,14 +22,15 @@ struct CauseSearchOptions {
 
 /// All fits, best first.
 struct FoundCauses {
-    std::vector<ScoredFit> singles;
-    std::vector<ScoredFit> pairs;
+    std::vector<ScoredFit> fits;
     double nominal_misfit = 0.0;
     int evaluations = 0;  ///< simulations of the complete recording
 };
 
-/// Searches the causes of a recording's gap: screens every cause, fits the most promising ones, and where
-/// much is left fits the best of them together with a second.
+/// Searches the causes of a recording's gap: screens every cause, fits the most promising ones, and adds
+/// further causes to the best of them for as long as that raises the evidence. A recording that a bench with
+/// measured numbers does not explain is searched again as one of a bench as it is built, whose numbers,
+/// sensors' zeros and bearings are only roughly known.
 class CauseSearch {
   public:
     /// `recording` must outlive it and what it finds.
@@ -37,26 +38,46 @@ class CauseSearch {
 
     FoundCauses run();
 
-    const CauseFitter& fitter() const { return fitter_; }
-    const CauseFitter& coarse_fitter() const { return screener_; }
+    const CauseFitter& fitter() const { return fine_.fitter; }
+    const CauseFitter& coarse_fitter() const { return coarse_.fitter; }
     const Evidence& evidence() const { return evidence_; }
-    const std::vector<CandidateCause>& causes() const { return causes_; }
+    const std::vector<CandidateCause>& causes() const { return described_.causes; }
 
   private:
-    void report(const std::string& activity, double done) { options_.on_progress(activity, done); }
-    ScoredFit scored(CauseFit fit);
-    void fit_best(const std::vector<Screened>& screened, std::vector<ScoredFit>& fits);
-    void fit_confusable(const std::vector<Screened>& screened, std::vector<ScoredFit>& singles);
-    std::vector<ScoredFit> pairs_with(const std::vector<ScoredFit>& singles);
-    void add_pairs(const Hypothesis& present, std::vector<ScoredFit>& pairs);
+    // What is known of the bench, and what could be wrong with it.
+    struct Level {
+        BenchKnowledge bench;
+        std::vector<CandidateCause> causes;
+    };
+    using Fits = std::vector<ScoredFit>;
+    struct Model {
+        Model(const Recording& recording, const EffectsTwinOptions& options, int threads);
+
+        CauseFitter fitter;
+        Discrepancy discrepancy;
+    };
+
+    void report(const std::string& activity);
+    ScoredFit scored(const Model& model, CauseFit fit);
+    ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);
+    Fits finely_fitted(const Fits& coarse);
+    bool is_better_when_built(const ScoredFit& best);
+    Fits search_one(const Level& level);
+    void search_several(const Level& level, Fits& all);
+    void add_single(const Level& level, const Screened& screened, const Hypothesis& nothing, Fits& singles);
+    void add_confusable(const Level& level, const std::vector<Screened>& screened, const Hypothesis& nothing,
+                        Fits& singles);
+    Fits larger_sets(const Level& level, const Fits& smaller);
+    void add_sets(const Level& level, const ScoredFit& present, Fits& sets);
 
     CauseSearchOptions options_;
-    CauseFitter fitter_;
-    CauseFitter screener_;
+    Model fine_;
+    Model coarse_;
     Evidence evidence_;
-    std::vector<CandidateCause> causes_;
-    Hypothesis nominal_;  // nothing fitted: where every search starts
+    Level described_;  // as the recording describes the bench
+    Level built_;
     double nominal_misfit_ = 0.0;
+    int fitted_ = 0;
     int evaluations_ = 0;
 };
 

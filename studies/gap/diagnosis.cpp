@@ -24,64 +24,49 @@ class Diagnoser {
         FoundCauses found = search_.run();
         nominal_misfit_ = found.nominal_misfit;
         evaluations_ = found.evaluations;
-        return verdict(std::move(found.singles), std::move(found.pairs));
+        return verdict(std::move(found.fits));
     }
 
   private:
     void report(const std::string& activity, double done) { options_.on_progress(activity, done); }
 
-    Diagnosis verdict(std::vector<ScoredFit> singles, std::vector<ScoredFit> pairs) {
+    Diagnosis verdict(std::vector<ScoredFit> fits) {
         Diagnosis diagnosis;
-        describe_best(diagnosis, singles, pairs);
+        describe(diagnosis, fits);
         if (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap)) {
-            const auto nothing = std::find_if(singles.begin(), singles.end(), is_nothing);
-            ScoredFit& leading = leading_of(singles, pairs);
+            const auto nothing = std::find_if(fits.begin(), fits.end(), is_nothing);
+            ScoredFit& leading = fits.front();
             if (nothing->misfit < tenable_misfit) {
                 nothing->evidence = leading.evidence + Evidence::overstated;
             } else {
                 leading.evidence -= unproven_penalty;
             }
-            sort_by_evidence(singles);
-            sort_by_evidence(pairs);
+            sort_by_evidence(fits);
             diagnosis = {};
-            describe_best(diagnosis, singles, pairs);
+            describe(diagnosis, fits);
         }
-        std::vector<ScoredFit> fits = singles;
-        fits.insert(fits.end(), pairs.begin(), pairs.end());
-        const std::vector<WeighedHypothesis> weighed = search_.evidence().weigh(fits, nominal_misfit_);
+        const std::vector<WeighedHypothesis> weighed = search_.evidence().weigh(fits);
         diagnosis.ranked = Evidence::rank(search_.causes(), weighed);
         report("comparing possible experiments", 0.9);
         diagnosis.non_identifiable = discriminating_experiments(recording_, search_.coarse_fitter(),
                                                                 non_identifiable(weighed), options_.threads);
         diagnosis.independent_samples = fitter_.independent_samples();
-        for (const auto* group : {&pairs, &singles}) {
-            for (const ScoredFit& each : *group) {
-                CandidateScore score{{},
-                                     {},
-                                     open_numbers(each.fit),
-                                     each.misfit,
-                                     each.nominal_penalty,
-                                     each.visibility,
-                                     each.evidence};
-                for (const CandidateCause* cause : each.fit.causes) {
-                    score.effects.push_back(cause->effect);
-                    score.variants.push_back(cause->variant);
-                }
-                diagnosis.candidates.push_back(score);
+        for (const ScoredFit& each : fits) {
+            CandidateScore score{
+                {},           {}, open_numbers(each.fit), each.misfit, each.nominal_penalty, each.visibility,
+                each.evidence};
+            for (const CandidateCause* cause : each.fit.causes) {
+                score.effects.push_back(cause->effect);
+                score.variants.push_back(cause->variant);
             }
+            diagnosis.candidates.push_back(score);
         }
         diagnosis.evaluations = evaluations_;
         return diagnosis;
     }
 
-    static ScoredFit& leading_of(std::vector<ScoredFit>& singles, std::vector<ScoredFit>& pairs) {
-        const bool two = !pairs.empty() && pairs.front().evidence > singles.front().evidence;
-        return two ? pairs.front() : singles.front();
-    }
-
-    void describe_best(Diagnosis& diagnosis, std::vector<ScoredFit>& singles, std::vector<ScoredFit>& pairs) {
-        const ScoredFit& leading = leading_of(singles, pairs);
-        describe(diagnosis, leading, runner_up_of(leading, singles));
+    void describe(Diagnosis& diagnosis, const std::vector<ScoredFit>& fits) {
+        describe(diagnosis, fits.front(), runner_up_of(fits.front(), fits));
     }
 
     static bool is_nothing(const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; }
@@ -93,8 +78,9 @@ class Diagnoser {
     }
 
     // The best cause that the verdict does not name.
-    static const ScoredFit& runner_up_of(const ScoredFit& leading, const std::vector<ScoredFit>& singles) {
-        for (const ScoredFit& each : singles) {
+    static const ScoredFit& runner_up_of(const ScoredFit& leading, const std::vector<ScoredFit>& fits) {
+        for (const ScoredFit& each : fits) {
+            if (each.fit.causes.size() > 1) continue;
             const auto named = [&](const CandidateCause* cause) {
                 return cause->effect == each.fit.causes.front()->effect;
             };
@@ -105,7 +91,7 @@ class Diagnoser {
 
     void describe(Diagnosis& diagnosis, const ScoredFit& leading, const ScoredFit& runner_up) {
         const CauseFit& fit = leading.fit;
-        const BenchNumbers numbers = bench_numbers(fit.causes, fit.coordinates);
+        const BenchNumbers numbers = bench_numbers(fit.hypothesis());
         diagnosis.friction_ratio = numbers.friction_ratio;
         diagnosis.stiffness_ratio = numbers.stiffness_ratio;
         diagnosis.pretension_ratio = numbers.pretension_ratio;
@@ -114,7 +100,7 @@ class Diagnoser {
         std::vector<HeldOut> models;
         for (const PartFit& part : parts) {
             if (part.left_out.is_complete_run()) without_a_run.push_back(part.fit.coordinates);
-            models.push_back({part.left_out, bench_numbers(part.fit.causes, part.fit.coordinates)});
+            models.push_back({part.left_out, bench_numbers(part.fit.hypothesis())});
         }
         const Eigen::VectorXd widths = fitter_.half_widths(fit, without_a_run);
         evaluations_ += static_cast<int>(2 * widths.size());
@@ -126,7 +112,14 @@ class Diagnoser {
         diagnosis.pretension_interval = ratio_interval(2);
         diagnosis.misfit_before = nominal_misfit_;
         diagnosis.misfit_after = leading.misfit;
-        Eigen::Index next = nominal_coordinates;
+        diagnosis.corrected = numbers;
+        Eigen::Index next = fit.bench->size();
+        for (Eigen::Index k = nominal_coordinates; k < next; ++k) {
+            const FloatingNumber& number = fit.bench->numbers[static_cast<std::size_t>(k)];
+            diagnosis.bench.push_back({number.name, number.unit, number.value(fit.coordinates[k]),
+                                       FittedInterval{number.value(fit.coordinates[k] - widths[k]),
+                                                      number.value(fit.coordinates[k] + widths[k])}});
+        }
         for (const CandidateCause* cause : fit.causes) {
             if (cause->effect == "none") continue;
             FittedCause fitted{cause->effect, cause->variant, cause->component, cause->end, {}, {}};
@@ -142,14 +135,22 @@ class Diagnoser {
                 fitted.numbers.push_back({given.name, given.unit, given.value});
             diagnosis.causes.push_back(fitted);
         }
+        for (const std::size_t k : leading.far_numbers) {
+            const FloatingNumber& number = fit.bench->numbers[k];
+            FittedCause far{number.effect, number.variant, number.component, number.end, {}, {}};
+            if (number.kind != FloatingNumber::Kind::ratio) {
+                far.numbers = {diagnosis.bench[k - nominal_coordinates]};
+                far.numbers.front().name = number.kind == FloatingNumber::Kind::zero ? "size" : "coulomb";
+            }
+            diagnosis.causes.push_back(far);
+        }
         if (!diagnosis.causes.empty()) {
             diagnosis.component = diagnosis.causes.front().component;
             diagnosis.end = diagnosis.causes.front().end;
             diagnosis.position_m = diagnosis.causes.front().position_m;
         }
-        diagnosis.gap = measure_gap(
-            recording_, fitter_,
-            {numbers, bench_numbers(runner_up.fit.causes, runner_up.fit.coordinates), std::move(models)});
+        diagnosis.gap = measure_gap(recording_, fitter_,
+                                    {numbers, bench_numbers(runner_up.fit.hypothesis()), std::move(models)});
     }
 
     // A fit without a part of the recording.

@@ -36,7 +36,7 @@ struct FittedCause {
     std::optional<double> position_m;
 };
 
-/// The fit of one cause, or of two together.
+/// The fit of a set of causes.
 struct CandidateScore {
     std::vector<std::string> effects;
     std::vector<std::string> variants;
@@ -49,10 +49,14 @@ struct CandidateScore {
 
 struct Diagnosis {
     std::vector<RankedEffect> ranked;  ///< best first; sums to 1
-    std::vector<FittedCause> causes;   ///< none, one, or two that act together
+    std::vector<FittedCause> causes;   ///< that act together
     double friction_ratio = 1.0;       ///< nominal numbers as fitted with the causes
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;
+    /// Further numbers of the bench that floated: zeros of sensors, friction of bearings. None where a bench
+    /// with measured numbers explains the recording.
+    std::vector<FittedNumber> bench;
+    BenchNumbers corrected;  ///< the bench with all of that
     FittedInterval
         friction_interval;  ///< of the ratios; no narrower than their priors where nothing is learned
     FittedInterval stiffness_interval;
@@ -72,10 +76,10 @@ struct Diagnosis {
 /// Finds the unmodelled effect, if any, that explains the difference between a recording and its bench's
 /// model.
 ///
-/// Every promising cause is fitted together with the nominal numbers. The fits are compared by their
-/// evidence: the likelihood of the residuals over the independent samples, with a penalty for each fitted
-/// number. `none` leads where only noise and the model's floor are left, `unknown` where the best known cause
-/// leaves much of the gap.
+/// Every promising cause is fitted together with the bench's numbers, and further causes beside the best. The
+/// fits are compared by their evidence: the likelihood of the residuals over the independent samples, with a
+/// penalty for each fitted number. `none` leads where only noise and the model's floor are left; `unknown`
+/// where what is left is a function of the motion that no known cause gives.
 Diagnosis diagnose(const Recording& recording, const DiagnosisOptions& options);
 
 }  // namespace capstan::gap

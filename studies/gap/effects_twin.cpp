@@ -1,6 +1,7 @@
 #include "capstan/gap/effects_twin.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
@@ -12,6 +13,11 @@ namespace {
 
 // Predictions are clamped to this size, so that a simulation that diverges only makes a bad fit.
 constexpr double max_prediction = 1e3;
+
+// A step takes 2 to 10 iterations. A bench that takes far more over a run has numbers that no bench has, and
+// its simulation ends there.
+constexpr int usual_iterations = 20;
+constexpr int spare_iterations = 3000;
 
 BenchDescription description_of(const Recording& recording, const RecordedRun& run,
                                 const BenchNumbers& numbers, int segments) {
@@ -47,6 +53,17 @@ void check_driven(const Recording& recording) {
 
 }  // namespace
 
+BenchNumbers BenchNumbers::in_run(std::size_t run) const {
+    BenchNumbers numbers = *this;
+    if (runs.empty()) return numbers;
+    const RunChanges& changes = runs.at(run);
+    numbers.friction_ratio *= std::exp(changes.friction_log);
+    numbers.pretension_ratio *= std::exp(changes.pretension_log);
+    for (const auto& [channel, zero] : changes.zero) numbers.sensor_faults[channel].offset += zero;
+    numbers.runs.clear();
+    return numbers;
+}
+
 EffectsTwin::EffectsTwin(const Recording& recording, const EffectsTwinOptions& options)
     : recording_(recording), options_(options) {
     check_driven(recording);
@@ -58,7 +75,8 @@ int EffectsTwin::samples(std::size_t run) const {
 }
 
 TwinRun EffectsTwin::run(std::size_t run_index, const BenchNumbers& numbers) const {
-    return with_faults(run_each(run_index, std::span(&numbers, 1)).front(), numbers.sensor_faults);
+    const BenchNumbers of_run = numbers.in_run(run_index);
+    return with_faults(run_each(run_index, std::span(&of_run, 1)).front(), of_run.sensor_faults);
 }
 
 std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
@@ -82,8 +100,16 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
     const bool rings =
         std::any_of(numbers.begin(), numbers.end(), [](const BenchNumbers& each) { return each.rings(); });
     const int step = rings ? 1 : options_.stride;
+    std::array<long, bench_lanes> iterations{};
+    long steps = 0;
     for (int sample = 0; sample < run.samples(); sample += step) {
         const auto reports = benches.advance(inputs_at(run_index, sample, step));
+        ++steps;
+        for (std::size_t bench = 0; bench < twins.size(); ++bench) {
+            iterations[bench] += reports[bench].iterations;
+            if (iterations[bench] > spare_iterations + usual_iterations * steps)
+                benches.stop(static_cast<int>(bench));
+        }
         if (sample % options_.stride != 0) continue;
         for (std::size_t bench = 0; bench < twins.size(); ++bench) {
             if (!reports[bench].converged) ++twins[bench].unsolved_steps;
@@ -98,7 +124,23 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
             }
         }
     }
+    if (recording_.nominal_is_fitted) {
+        for (TwinRun& twin : twins) align_load_angle(run_index, twin);
+    }
     return twins;
+}
+
+// The zero of the load angle is not known, so its mean is set to the measured one.
+void EffectsTwin::align_load_angle(std::size_t run, TwinRun& twin) const {
+    const auto channel = recording_.channel(channel::load_angle);
+    if (!channel || twin.values[static_cast<std::size_t>(*channel)].empty()) return;
+    std::vector<double>& predicted = twin.values[static_cast<std::size_t>(*channel)];
+    const std::vector<double>& measured = recording_.runs[run].values[static_cast<std::size_t>(*channel)];
+    double off = 0.0;
+    for (std::size_t sample = 0; sample < predicted.size(); ++sample)
+        off += measured[sample * static_cast<std::size_t>(options_.stride)] - predicted[sample];
+    off /= static_cast<double>(predicted.size());
+    for (double& value : predicted) value += off;
 }
 
 TwinRun EffectsTwin::with_faults(const TwinRun& run,

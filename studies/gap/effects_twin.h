@@ -23,6 +23,16 @@ struct BenchNumbers {
     double pretension_ratio = 1.0;
     BenchEffects effects;
     std::map<std::string, SensorFaults> sensor_faults;  // by channel
+    /// What differs between runs, by their index; empty: nothing.
+    struct RunChanges {
+        double friction_log = 0.0;
+        double pretension_log = 0.0;
+        std::map<std::string, double> zero;  // by channel
+    };
+    std::vector<RunChanges> runs;
+
+    /// The numbers of one run, without further changes.
+    BenchNumbers in_run(std::size_t run) const;
 
     /// A rotor on its cables oscillates at tens of hertz. It is simulated at every sample whatever the
     /// stride.
@@ -66,6 +76,7 @@ class EffectsTwin {
     };
     std::vector<Reader> readers_of(const RecordedRun& run) const;
     BenchInputs inputs_at(std::size_t run, int sample, int step_samples) const;
+    void align_load_angle(std::size_t run, TwinRun& twin) const;
 
     const Recording& recording_;
     EffectsTwinOptions options_;

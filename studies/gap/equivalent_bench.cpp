@@ -17,9 +17,6 @@ namespace {
 constexpr double motor_radius_m = 0.02;
 // One metre of cable with one radian of wrap: the friction coefficient is the complete exponent.
 constexpr double length_m = 1.0;
-// Numbers that are not stated may be wrong by a factor of a few.
-constexpr double unknown_log_std = 1.0;
-constexpr double run_pretension_log_std = 0.3;
 
 std::vector<double> scaled(const std::vector<double>& values, double factor, double offset = 0.0) {
     std::vector<double> all;
@@ -53,14 +50,9 @@ NominalBench bench_with(double exponent, double axial_stiffness_N, double load_r
 
 // Fits the nominal numbers of a bench whose sidecar does not state them.
 void fit_nominal_numbers(Recording& bench) {
-    CandidateCause anything;
-    anything.effect = "none";
-    anything.apply = [](BenchNumbers&, std::span<const double>) {};
-    anything.friction_std = anything.stiffness_std = unknown_log_std;
-    anything.pretension_std = run_pretension_log_std;
+    const BenchKnowledge unknown = undescribed_bench(bench);
     const CauseFitter fitter(bench, {}, 0);
-    const CauseFit fit = fitter.fit({{&anything}, Eigen::VectorXd::Zero(nominal_coordinates)}, {});
-    const BenchNumbers numbers = bench_numbers(fit.causes, fit.coordinates);
+    const BenchNumbers numbers = bench_numbers(fitter.fit(nominal_hypothesis(unknown), {}).hypothesis());
     bench.nominal->dynamic_friction *= numbers.friction_ratio;
     bench.nominal->static_friction *= numbers.friction_ratio;
     bench.nominal->axial_stiffness_N *= numbers.stiffness_ratio;
@@ -77,6 +69,7 @@ Recording bench_of_drive(const Recording& recording, const Recording& fitted_to)
     const double way = orientation.load_per_motor_angle < 0.0 ? -1.0 : 1.0;
 
     Recording bench = recording;
+    bench.nominal_is_fitted = true;
     bench.mode = BenchMode::pull_pull;
     bench.channels = {scaled_channel(recording, channel::motor_torque, channel::motor_torque, "N m", 1.0),
                       scaled_channel(recording, channel::motor_angle, channel::motor_angle, "rad", 1.0),
@@ -174,6 +167,7 @@ Recording bench_of_band(const Recording& recording, const Recording& fitted_to) 
     Recording bench = as_bench(fitted_to);
     fit_nominal_numbers(bench);
     Recording equivalent = as_bench(recording);
+    equivalent.nominal_is_fitted = true;
     const double pretension_ratio = *bench.runs.front().pretension_N / *fitted_to.runs.front().pretension_N;
     equivalent.nominal = bench.nominal;
     for (RecordedRun& run : equivalent.runs) run.pretension_N = *run.pretension_N * pretension_ratio;

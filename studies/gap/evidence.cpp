@@ -27,20 +27,25 @@ constexpr double invisible_penalty = 8.0;
 constexpr double none_log_prior = 1.0;
 // The model's own error resembles a faulty sensor, so a sensor fault has to explain more than that.
 constexpr double sensor_fault_penalty = 2.0;
-// Two causes at once are rarer than one, and there are hundreds of pairs to choose from.
-constexpr double second_cause_penalty = 8.0;
+// A further cause is one of about fifty, and rarer than a first one.
+constexpr double further_cause_penalty = 8.0;
 // A cause outside the list is rarer than the causes in it.
 constexpr double unknown_penalty = 4.0;
-// Two causes of one gap are about equally visible. A second cause that is much fainter than the first only
-// corrects an error in the first one's model.
-constexpr double faint = 0.25;
+// A model's floor is known to about a quarter, and a cause's law to law_error of what the cause does. A
+// discrepancy of that size belongs to the model of a named cause.
+constexpr double floor_error = 0.25;
+constexpr double law_error = 0.1;
+// A discrepancy that is a cause of its own is visible.
+constexpr double least_unknown = 1.0;
+// A cause's law in the catalogue is an idealisation, good to about a tenth of what the cause does. A further
+// cause that is fainter than that only corrects the law of the clearest one.
+constexpr double faint = law_error;
 constexpr double faint_penalty = 60.0;
-// Nothing can be fitted for a cause outside the list. It is assumed to leave this fraction of the gap and to
-// have this many numbers of its own.
-constexpr double fraction_left_by_unknown = 0.1;
-constexpr std::size_t numbers_of_unknown = 4;
 // The list of hypotheses is never complete: this probability is shared equally by all effects.
 constexpr double anything_fraction = 0.02;
+
+// A number of the bench that is far from what was stated is named, but after the causes.
+constexpr double share_of_the_bench = 0.25;
 
 using Effects = std::vector<std::string>;  // of a hypothesis, sorted
 
@@ -53,6 +58,12 @@ Effects effects_of(const CauseFit& fit) {
 
 }  // namespace
 
+std::vector<std::string> ScoredFit::of_the_bench() const {
+    std::vector<std::string> effects;
+    for (const std::size_t number : far_numbers) effects.push_back(fit.bench->numbers[number].effect);
+    return effects;
+}
+
 // The log-likelihood of Gaussian residuals with a free scale is -n/2 ln(mean square), up to a constant.
 double Evidence::of(double misfit, std::size_t open_numbers) const {
     return -0.5 * samples_ *
@@ -61,7 +72,39 @@ double Evidence::of(double misfit, std::size_t open_numbers) const {
 }
 
 double Evidence::of(const ScoredFit& fit) const {
-    double evidence = of(fit.misfit, open_numbers(fit.fit)) - fit.nominal_penalty - fit.shape_penalty;
+    const double clearest = *std::max_element(fit.visibility.begin(), fit.visibility.end());
+    const double law = std::hypot(floor_error, law_error * clearest);
+    return priors(fit) +
+           marginal(fit, [&](double size) { return std::exp(-0.5 * size * size / (law * law)); });
+}
+
+double Evidence::with_unknown(const ScoredFit& fit) const {
+    const bool named = fit.fit.causes.front()->effect != "none";
+    return priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior) +
+           marginal(fit, [](double size) { return size >= least_unknown ? 1.0 : 0.0; });
+}
+
+// The logarithm of the likelihood's mean over the sizes of the discrepancy.
+double Evidence::marginal(const ScoredFit& fit, const std::function<double(double)>& weight) const {
+    const std::size_t open = open_numbers(fit.fit);
+    double most = -std::numeric_limits<double>::infinity();
+    std::array<double, discrepancy_sizes.size()> each{};
+    for (std::size_t k = 0; k < each.size(); ++k) {
+        each[k] = of(fit.beside[k].misfit, open) - 0.5 * fit.beside[k].log_determinant;
+        if (weight(discrepancy_sizes[k]) > 0.0) most = std::max(most, each[k]);
+    }
+    double sum = 0.0;
+    double weights = 0.0;
+    for (std::size_t k = 0; k < each.size(); ++k) {
+        const double its = weight(discrepancy_sizes[k]);
+        weights += its;
+        if (its > 0.0) sum += its * std::exp(each[k] - most);
+    }
+    return most + std::log(sum / weights);
+}
+
+double Evidence::priors(const ScoredFit& fit) const {
+    double evidence = -fit.nominal_penalty - fit.shape_penalty;
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         const CandidateCause& cause = *fit.fit.causes[k];
         if (cause.effect == "none") {
@@ -74,27 +117,28 @@ double Evidence::of(const ScoredFit& fit) const {
     if (fit.fit.causes.size() < 2) return evidence;
     const auto [least, most] = std::minmax_element(fit.visibility.begin(), fit.visibility.end());
     const double relative = *most > 0.0 ? *least / *most : 0.0;
-    return evidence - second_cause_penalty - faint_penalty * std::max(0.0, 1.0 - relative / faint);
+    return evidence - further_cause_penalty * static_cast<double>(fit.fit.causes.size() - 1) -
+           faint_penalty * std::max(0.0, 1.0 - relative / faint);
 }
 
-double Evidence::of_unknown(double nominal_misfit) const {
-    return of(1.0 + fraction_left_by_unknown * std::max(0.0, nominal_misfit - 1.0), numbers_of_unknown) -
-           unknown_penalty;
-}
-
-std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fits,
-                                               double nominal_misfit) const {
-    std::vector<WeighedHypothesis> weighed = {{{"unknown"}, 0.0, of_unknown(nominal_misfit), nullptr}};
-    for (const ScoredFit& each : fits) {
-        const Effects effects = effects_of(each.fit);
+std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fits) const {
+    std::vector<WeighedHypothesis> weighed;
+    const auto take = [&](WeighedHypothesis hypothesis) {
         const auto same = std::find_if(weighed.begin(), weighed.end(), [&](const WeighedHypothesis& other) {
-            return other.effects == effects;
+            return other.effects == hypothesis.effects;
         });
         if (same == weighed.end()) {
-            weighed.push_back({effects, 0.0, each.evidence, &each});
-        } else if (each.evidence > same->evidence) {
-            *same = {effects, 0.0, each.evidence, &each};
+            weighed.push_back(std::move(hypothesis));
+        } else if (hypothesis.evidence > same->evidence) {
+            *same = std::move(hypothesis);
         }
+    };
+    for (const ScoredFit& each : fits) {
+        Effects effects = effects_of(each.fit);
+        take({effects, each.of_the_bench(), 0.0, each.evidence, &each, false});
+        std::erase(effects, "none");
+        effects.push_back("unknown");
+        take({effects, each.of_the_bench(), 0.0, with_unknown(each), &each, true});
     }
     std::stable_sort(weighed.begin(), weighed.end(),
                      [](const WeighedHypothesis& a, const WeighedHypothesis& b) {
@@ -110,20 +154,32 @@ std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fit
 
 std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& causes,
                                          const std::vector<WeighedHypothesis>& weighed) {
-    std::map<std::string, double> probability = {{"unknown", 0.0}};
-    for (const CandidateCause& cause : causes) probability[cause.effect] = 0.0;
+    std::map<std::string, RankedEffect> ranked_by_name = {{"unknown", {"unknown"}}};
+    for (const CandidateCause& cause : causes) ranked_by_name[cause.effect].effect = cause.effect;
     // Effects with almost no probability are ordered by their best hypothesis.
     std::map<std::string, double> best;
     for (const WeighedHypothesis& each : weighed) {
-        for (const std::string& effect : each.effects) {
-            probability[effect] += each.probability / static_cast<double>(each.effects.size());
+        std::map<std::string, double> shares;
+        for (const std::string& effect : each.effects) shares[effect] = 1.0;
+        if (!each.of_the_bench.empty()) shares.erase("none");
+        for (const std::string& effect : each.of_the_bench) shares.emplace(effect, share_of_the_bench);
+        double sum = 0.0;
+        for (const auto& [effect, share] : shares) sum += share;
+        for (const auto& [effect, share] : shares) {
+            RankedEffect& ranked = ranked_by_name[effect];
+            ranked.effect = effect;
+            ranked.probability += each.probability * share / sum;
+            ranked.present += each.probability;
             best.emplace(effect, each.evidence);
         }
     }
     std::vector<RankedEffect> ranked;
-    const double anything = anything_fraction / static_cast<double>(probability.size());
-    for (const auto& [effect, fraction] : probability)
-        ranked.push_back({effect, (1.0 - anything_fraction) * fraction + anything});
+    const double anything = anything_fraction / static_cast<double>(ranked_by_name.size());
+    for (auto& [effect, each] : ranked_by_name) {
+        each.probability = (1.0 - anything_fraction) * each.probability + anything;
+        each.present = (1.0 - anything_fraction) * each.present + anything;
+        ranked.push_back(each);
+    }
     const auto evidence_of = [&](const RankedEffect& each) {
         const auto known = best.find(each.effect);
         return known == best.end() ? -std::numeric_limits<double>::infinity() : known->second;
@@ -136,19 +192,26 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
     return ranked;
 }
 
-bool worth_a_second_cause(double misfit, double nominal_misfit) {
-    constexpr double close_to_noise = 1.15;
-    constexpr double min_fraction = 0.01;
-    return misfit > close_to_noise && misfit - 1.0 > min_fraction * (nominal_misfit - 1.0);
+bool worth_a_further_cause(const ScoredFit& fit) {
+    constexpr double close_to_noise = 1.1;
+    const double clearest = *std::max_element(fit.visibility.begin(), fit.visibility.end());
+    return fit.misfit > std::max(close_to_noise, 1.0 + std::pow(law_error * clearest, 2));
 }
 
 std::size_t open_numbers(const CauseFit& fit) {
+    // Of a measured bench nothing is chosen freely.
+
+    const auto floats_widely = [&](Eigen::Index number) {
+        return fit.bench->numbers[static_cast<std::size_t>(number)].prior_std > nominal_log_std;
+    };
     std::size_t count = 0;
     for (const CandidateCause* cause : fit.causes) {
         count += cause->numbers.size();
-        for (const double std : {cause->friction_std, cause->stiffness_std, cause->pretension_std})
-            count += std > nominal_log_std ? 1 : 0;
+        for (Eigen::Index number = 0; number < nominal_coordinates; ++number)
+            count += cause->nominal_std(number) > nominal_log_std && !floats_widely(number) ? 1 : 0;
     }
+    for (Eigen::Index number = 0; number < fit.bench->size(); ++number)
+        count += floats_widely(number) ? 1 : 0;
     return count;
 }
 

@@ -1,19 +1,23 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "capstan/gap/cause_fit.h"
+#include "capstan/gap/discrepancy.h"
 
 namespace capstan::gap {
 
 /// An effect, `none` or `unknown`, and how probable it is.
 struct RankedEffect {
     std::string effect;
-    double probability = 0.0;
+    double probability = 0.0;  ///< its share of the hypotheses that hold it; sums to 1 over all effects
+    double present = 0.0;      ///< that it is there at all, whatever else is
+    std::string varies{};      ///< the condition of the runs that its numbers follow; empty: none
 };
 
-/// How well one or two causes explain a recording.
+/// How well a set of causes explains a recording.
 struct ScoredFit {
     CauseFit fit;
     double misfit = 0.0;  ///< mean square residual, in units of noise and floor
@@ -21,40 +25,51 @@ struct ScoredFit {
     double shape_penalty = 0.0;
     std::vector<double> visibility;  ///< of each cause: its rms change of the clearest channel, in units of
                                      ///< noise and floor
-    double evidence = 0.0;           ///< logarithm, up to a constant
+    Marginals beside{};              ///< what the fit leaves beside a discrepancy of each size
+    /// Of the bench's floating numbers those that are visibly far from what was stated.
+    std::vector<std::size_t> far_numbers{};
+
+    /// The effects that they stand for.
+    std::vector<std::string> of_the_bench() const;
+    double evidence = 0.0;  ///< logarithm, up to a constant
 };
 
 /// An explanation and how probable it is; its best fit where several variants were tried.
 struct WeighedHypothesis {
-    std::vector<std::string> effects;  ///< sorted; `unknown` alone stands for a cause outside the list
+    std::vector<std::string> effects;  ///< sorted; `unknown` stands for a cause outside the list
+    std::vector<std::string> of_the_bench;
     double probability = 0.0;
     double evidence = 0.0;
-    const ScoredFit* fit = nullptr;  ///< null for `unknown`
+    const ScoredFit* fit = nullptr;
+    bool with_unknown = false;
 };
 
 /// Compares explanations of a recording by the residuals that they leave.
 ///
-/// A hypothesis has no cause, one cause, two causes, or a cause outside the list. Its evidence is a Bayesian
+/// A hypothesis has any number of causes, of which one may be outside the list. Its evidence is a Bayesian
 /// information criterion (G. Schwarz, Estimating the dimension of a model, Annals of Statistics 6, 1978,
 /// 461-464): the log-likelihood of the mean square residual over the independent samples, minus a penalty for
-/// each fitted number. Residuals are correlated in time, so only independent samples count. Three terms go
-/// beyond the criterion: the distance of the nominal numbers and of a cause's own numbers from their usual
-/// values, in units of their uncertainty, and the prior probability of each kind of hypothesis. The constants
-/// stand in evidence.cpp, each with its reason.
+/// each fitted number. Residuals are correlated in time, so only independent samples count. They are noise
+/// plus a discrepancy (Discrepancy), whose size is integrated over: small beside named causes, whose laws are
+/// good to a tenth; of any visible size for a cause outside the list. Three terms go beyond the criterion:
+/// the distance of the bench's and of a cause's own numbers from their usual values, in units of their
+/// uncertainty, and the prior probability of each kind of hypothesis. The constants stand in evidence.cpp,
+/// each with its reason.
 class Evidence {
   public:
     /// `independent_samples`: the number of instants with independent residuals.
     explicit Evidence(double independent_samples) : samples_(independent_samples) {}
 
     double of(const ScoredFit& fit) const;
-    /// The evidence of a cause outside the list, which is assumed to leave a part of the nominal model's gap.
-    double of_unknown(double nominal_misfit) const;
+    /// The evidence of a fit's causes together with one outside the list.
+    double with_unknown(const ScoredFit& fit) const;
 
-    /// Every explanation that was tried, and `unknown`, best first. `fits` must outlive the result.
-    std::vector<WeighedHypothesis> weigh(const std::vector<ScoredFit>& fits, double nominal_misfit) const;
+    /// Every explanation that was tried, alone and with an unknown cause, best first. `fits` must outlive the
+    /// result.
+    std::vector<WeighedHypothesis> weigh(const std::vector<ScoredFit>& fits) const;
 
-    /// The effects of all hypotheses, most probable first. A pair of causes gives half of its probability to
-    /// each. Probabilities sum to 1.
+    /// The effects of all hypotheses, most probable first. Causes that act together share the probability of
+    /// their hypothesis. Probabilities sum to 1.
     static std::vector<RankedEffect> rank(const std::vector<CandidateCause>& causes,
                                           const std::vector<WeighedHypothesis>& weighed);
 
@@ -63,6 +78,8 @@ class Evidence {
 
   private:
     double of(double misfit, std::size_t open_numbers) const;
+    double priors(const ScoredFit& fit) const;
+    double marginal(const ScoredFit& fit, const std::function<double(double size)>& weight) const;
 
     double samples_;
 };
@@ -70,7 +87,8 @@ class Evidence {
 /// How many numbers a fit chose freely, beyond the nominal numbers within their uncertainty.
 std::size_t open_numbers(const CauseFit& fit);
 
-/// True if a single cause leaves enough to look for a second: beyond noise, and as a fraction of the gap.
-bool worth_a_second_cause(double misfit, double nominal_misfit);
+/// True if a fit leaves enough to look for a further cause: more than noise, and more than the law of its
+/// clearest cause may err.
+bool worth_a_further_cause(const ScoredFit& fit);
 
 }  // namespace capstan::gap

@@ -103,10 +103,11 @@ GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, co
     const int block = bootstrap_block_samples(recording);
     double worst = -1.0;
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
-        std::vector<TwinRun> twins =
-            twin.run_each(run, std::vector<BenchNumbers>{{}, models.leading, models.runner_up});
-        twins[1] = twin.with_faults(twins[1], models.leading.sensor_faults);
-        twins[2] = twin.with_faults(twins[2], models.runner_up.sensor_faults);
+        const BenchNumbers leading = models.leading.in_run(run);
+        const BenchNumbers runner_up = models.runner_up.in_run(run);
+        std::vector<TwinRun> twins = twin.run_each(run, std::vector<BenchNumbers>{{}, leading, runner_up});
+        twins[1] = twin.with_faults(twins[1], leading.sensor_faults);
+        twins[2] = twin.with_faults(twins[2], runner_up.sensor_faults);
         const TwinRun held_out = held_out_run(twin, run, models.held_out);
         RunResiduals residuals{run, {}, twins[0].sliding_fraction, 0};
         residuals.residual.resize(recording.channels.size());

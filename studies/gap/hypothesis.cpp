@@ -1,25 +1,54 @@
 #include "capstan/gap/hypothesis.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace capstan::gap {
 
-BenchNumbers bench_numbers(const std::vector<const CandidateCause*>& causes,
-                           const Eigen::VectorXd& coordinates) {
+namespace {
+
+// What decides how a bench moves in a run.
+struct Mechanics {
+    std::vector<const CandidateCause*> causes;
+    std::vector<double> numbers;
+
+    bool operator==(const Mechanics&) const = default;
+};
+
+Mechanics mechanics_of(const Hypothesis& hypothesis, const BenchNumbers& in_run) {
+    Mechanics mechanics{{}, {in_run.friction_ratio, in_run.stiffness_ratio, in_run.pretension_ratio}};
+    const std::vector<FloatingNumber>& floating = hypothesis.bench->numbers;
+    Eigen::Index next = 0;
+    for (std::size_t k = 0; k < floating.size(); ++k, ++next) {
+        if (k >= nominal_coordinates && !floating[k].of_a_sensor)
+            mechanics.numbers.push_back(hypothesis.coordinates[next]);
+    }
+    for (const CandidateCause* cause : hypothesis.causes) {
+        const auto count = static_cast<Eigen::Index>(cause->numbers.size());
+        if (cause->family != "sensor" && !cause->of_runs && count > 0) {
+            mechanics.causes.push_back(cause);
+            for (Eigen::Index k = 0; k < count; ++k)
+                mechanics.numbers.push_back(hypothesis.coordinates[next + k]);
+        }
+        next += count;
+    }
+    return mechanics;
+}
+
+}  // namespace
+
+Hypothesis nominal_hypothesis(const BenchKnowledge& bench) {
+    return {{}, Eigen::VectorXd::Zero(bench.size()), &bench};
+}
+
+BenchNumbers bench_numbers(const Hypothesis& hypothesis) {
     BenchNumbers bench;
-    // Wherever a search goes, the bench can still be built.
-    const auto ratio = [](double logarithm) {
-        constexpr double max_log = 2.5;
-        return std::exp(std::clamp(logarithm, -max_log, max_log));
-    };
-    bench.friction_ratio = ratio(coordinates[0]);
-    bench.stiffness_ratio = ratio(coordinates[1]);
-    bench.pretension_ratio = ratio(coordinates[2]);
-    Eigen::Index next = nominal_coordinates;
-    for (const CandidateCause* cause : causes) {
+    Eigen::Index next = 0;
+    for (const FloatingNumber& number : hypothesis.bench->numbers)
+        number.apply(bench, number.value(hypothesis.coordinates[next++]));
+    for (const CandidateCause* cause : hypothesis.causes) {
         std::vector<double> values;
-        for (const OpenNumber& number : cause->numbers) values.push_back(number.value(coordinates[next++]));
+        for (const OpenNumber& number : cause->numbers)
+            values.push_back(number.value(hypothesis.coordinates[next++]));
         cause->apply(bench, values);
     }
     return bench;
@@ -34,8 +63,9 @@ Hypothesis with_cause(Hypothesis present, const CandidateCause* cause, const Eig
 }
 
 Hypothesis only_causes(const Hypothesis& hypothesis, const std::function<bool(const CandidateCause&)>& keep) {
-    Hypothesis kept{{}, hypothesis.coordinates.head(nominal_coordinates)};
-    Eigen::Index next = nominal_coordinates;
+    const Eigen::Index floating = hypothesis.bench->size();
+    Hypothesis kept{{}, hypothesis.coordinates.head(floating), hypothesis.bench};
+    Eigen::Index next = floating;
     for (const CandidateCause* cause : hypothesis.causes) {
         const auto count = static_cast<Eigen::Index>(cause->numbers.size());
         if (keep(*cause)) kept = with_cause(kept, cause, hypothesis.coordinates.segment(next, count));
@@ -44,21 +74,19 @@ Hypothesis only_causes(const Hypothesis& hypothesis, const std::function<bool(co
     return kept;
 }
 
-std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses) {
-    const auto moves_the_bench = [](const CandidateCause& cause) {
-        return cause.family != "sensor" && !cause.numbers.empty();
-    };
+std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, std::size_t run) {
     std::vector<SameBench> benches;
+    std::vector<Mechanics> mechanics;
     for (std::size_t k = 0; k < hypotheses.size(); ++k) {
-        const Hypothesis mechanical = only_causes(hypotheses[k], moves_the_bench);
-        const auto same = std::find_if(benches.begin(), benches.end(), [&](const SameBench& bench) {
-            return bench.mechanical.causes == mechanical.causes &&
-                   bench.mechanical.coordinates == mechanical.coordinates;
-        });
-        if (same != benches.end()) {
-            same->hypotheses.push_back(k);
+        BenchNumbers numbers = bench_numbers(hypotheses[k]).in_run(run);
+        numbers.sensor_faults.clear();
+        Mechanics its = mechanics_of(hypotheses[k], numbers);
+        const auto same = std::find(mechanics.begin(), mechanics.end(), its);
+        if (same != mechanics.end()) {
+            benches[static_cast<std::size_t>(same - mechanics.begin())].hypotheses.push_back(k);
         } else {
-            benches.push_back({mechanical, bench_numbers(mechanical.causes, mechanical.coordinates), {k}});
+            mechanics.push_back(std::move(its));
+            benches.push_back({std::move(numbers), {k}});
         }
     }
     return benches;

@@ -9,18 +9,18 @@
 
 namespace capstan::gap {
 
-/// Logarithms of friction, stiffness and pretension over their nominal values.
-inline constexpr int nominal_coordinates = 3;
-
 /// Causes with their numbers, to be simulated together.
 struct Hypothesis {
     std::vector<const CandidateCause*> causes;
-    Eigen::VectorXd coordinates;  // the nominal coordinates, then each cause's numbers
+    Eigen::VectorXd coordinates;  // the bench's floating numbers, then each cause's numbers
+    const BenchKnowledge* bench = &measured_bench();
 };
 
+/// A bench without a cause, all of its numbers as they are stated.
+Hypothesis nominal_hypothesis(const BenchKnowledge& bench);
+
 /// The bench under a hypothesis.
-BenchNumbers bench_numbers(const std::vector<const CandidateCause*>& causes,
-                           const Eigen::VectorXd& coordinates);
+BenchNumbers bench_numbers(const Hypothesis& hypothesis);
 
 /// The hypothesis with one more cause.
 Hypothesis with_cause(Hypothesis present, const CandidateCause* cause, const Eigen::VectorXd& numbers);
@@ -28,14 +28,13 @@ Hypothesis with_cause(Hypothesis present, const CandidateCause* cause, const Eig
 /// The hypothesis with only those of its causes that `keep` accepts, at the same numbers.
 Hypothesis only_causes(const Hypothesis& hypothesis, const std::function<bool(const CandidateCause&)>& keep);
 
-/// Hypotheses that differ in sensor faults only: one bench is simulated for all of them.
+/// Hypotheses that differ in one run in what sensors read: one bench is simulated for all of them.
 struct SameBench {
-    Hypothesis mechanical;
-    BenchNumbers numbers;
+    BenchNumbers numbers;  // of the run, without faults of sensors
     std::vector<std::size_t> hypotheses;
 };
 
-std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses);
+std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, std::size_t run);
 
 /// At most bench_lanes benches. Those that ring are kept apart from those that do not.
 using BenchGroup = std::vector<SameBench>;

@@ -36,7 +36,7 @@ constexpr double step = 1e-2;  // of a coordinate
 Known known_of(const CauseFitter& fitter, const CauseFit& fit) {
     const double weight = std::sqrt(fitter.independent_samples() / static_cast<double>(fitter.data_rows()));
     const Eigen::MatrixXd residuals =
-        weight * fitter.residuals(fit.causes, moved_a_little(fit.coordinates, step));
+        weight * fitter.residuals(fit.hypothesis(), moved_a_little(fit.coordinates, step));
     return {fit.hypothesis(), residuals.col(0), differences(residuals, step)};
 }
 
@@ -51,7 +51,7 @@ double unexplained_by(const Known& rival, const CauseFitter& planned, const Hypo
     const Eigen::MatrixXd moved = moved_a_little(rival.hypothesis.coordinates, step);
     std::vector<Hypothesis> all = {truth};
     for (Eigen::Index column = 0; column < moved.cols(); ++column)
-        all.push_back({rival.hypothesis.causes, moved.col(column)});
+        all.push_back({rival.hypothesis.causes, moved.col(column), rival.hypothesis.bench});
     const Eigen::MatrixXd residuals = weight * planned.data_residuals(all);
     const Eigen::MatrixXd rival_change = residuals.rightCols(moved.cols());
 
@@ -80,7 +80,7 @@ std::vector<WeighedHypothesis> non_identifiable(std::span<const WeighedHypothesi
     if (weighed.empty() || weighed.front().probability >= decided) return {};
     std::vector<WeighedHypothesis> group;
     for (const WeighedHypothesis& each : weighed) {
-        if (each.fit != nullptr && each.probability >= min_probability && group.size() < largest_group)
+        if (!each.with_unknown && each.probability >= min_probability && group.size() < largest_group)
             group.push_back(each);
     }
     if (group.size() < 2) group.clear();
@@ -99,8 +99,7 @@ NonIdentifiable discriminating_experiments(const Recording& recording, const Cau
     const Hypothesis& leader = known.front().hypothesis;
     for (const Experiment& experiment : possible_experiments(recording)) {
         const EffectsTwinOptions options = fitter.twin().options();
-        const Recording planned =
-            answered(experiment.recording, options, bench_numbers(leader.causes, leader.coordinates));
+        const Recording planned = answered(experiment.recording, options, bench_numbers(leader));
         const CauseFitter planned_fitter(planned, options, threads);
         double min_chi_square = std::numeric_limits<double>::infinity();
         for (std::size_t truth = 0; truth < known.size(); ++truth) {

@@ -132,7 +132,7 @@ std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<Candid
     const auto with_priors = [&](std::size_t hypothesis) {
         Eigen::VectorXd all(rows);
         all << data.col(static_cast<Eigen::Index>(hypothesis)),
-            fitter.prior_residuals(present.causes, hypotheses[hypothesis].coordinates.head(known));
+            fitter.prior_residuals(present, hypotheses[hypothesis].coordinates.head(known));
         return all;
     };
     const Eigen::VectorXd here = with_priors(0);

@@ -78,14 +78,14 @@ std::optional<std::vector<ChannelRms>> reference_fit(const Recording& recording,
                      [&](const CandidateCause& candidate) { return matches_label(candidate, truth); });
     }
     const gap::CauseFitter fitter(recording, searching, 1);
-    gap::Hypothesis found{{}, Eigen::VectorXd::Zero(gap::nominal_coordinates)};
+    gap::Hypothesis found = gap::nominal_hypothesis(gap::measured_bench());
     for (const std::vector<CandidateCause>& list : meant) {
         if (list.empty()) return std::nullopt;
         const auto fit = with_one_more(fitter, found, list);
         if (!fit) return std::nullopt;
         found = fit->hypothesis();
     }
-    return measured_gap(recording, gap::bench_numbers(found.causes, found.coordinates));
+    return measured_gap(recording, gap::bench_numbers(found));
 }
 
 }  // namespace capstan::gap_trial

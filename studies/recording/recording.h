@@ -84,6 +84,9 @@ struct Recording {
     std::vector<TensionSensor> tension_sensors;
     std::optional<NominalBench> nominal;  ///< none where the geometry is not known
     std::vector<RecordedRun> runs;        ///< in the order they were made
+    /// The nominal numbers are not stated but fitted to the recording, and so is each run's zero of the load
+    /// angle.
+    bool nominal_is_fitted = false;
     /// What the sidecar does not state and was taken instead, and keys that look misspelled; sentences.
     std::vector<std::string> assumptions;
 

@@ -50,7 +50,7 @@ TEST(Hypothesis, ThoseThatDifferInSensorFaultsOnlyShareABench) {
     Hypothesis other_bend = known.together();
     other_bend.coordinates[3] = 4.0;
     const std::vector<SameBench> benches =
-        by_bench(std::vector<Hypothesis>{known.together(), other_bend, other_lag});
+        by_bench(std::vector<Hypothesis>{known.together(), other_bend, other_lag}, 0);
     ASSERT_EQ(benches.size(), 2u);
     EXPECT_EQ(benches[0].hypotheses, (std::vector<std::size_t>{0, 2}));
     EXPECT_EQ(benches[1].hypotheses, (std::vector<std::size_t>{1}));
@@ -80,10 +80,17 @@ TEST(CauseSearch, SortsByEvidenceAndKeepsTheOrderOfEqualFits) {
     EXPECT_EQ(fits[2].misfit, 7.0);
 }
 
-TEST(CauseSearch, LooksForASecondCauseOnlyWhereTheFirstLeavesMuch) {
-    EXPECT_FALSE(worth_a_second_cause(1.1, 5.0));    // little beyond noise
-    EXPECT_FALSE(worth_a_second_cause(3.0, 500.0));  // little of the gap
-    EXPECT_TRUE(worth_a_second_cause(3.0, 20.0));
+ScoredFit leaving(double misfit, double visibility) {
+    ScoredFit fit;
+    fit.misfit = misfit;
+    fit.visibility = {visibility};
+    return fit;
+}
+
+TEST(CauseSearch, LooksForAFurtherCauseOnlyWhereMoreThanNoiseAndLawsErrorIsLeft) {
+    EXPECT_FALSE(worth_a_further_cause(leaving(1.05, 2.0)));  // little beyond noise
+    EXPECT_FALSE(worth_a_further_cause(leaving(3.0, 30.0)));  // what a law that is good to a tenth may leave
+    EXPECT_TRUE(worth_a_further_cause(leaving(3.0, 4.0)));
 }
 
 TEST(CauseSearch, StartsWithTheNominalModelAndReportsGrowingProgress) {
@@ -101,10 +108,13 @@ TEST(CauseSearch, StartsWithTheNominalModelAndReportsGrowingProgress) {
     EXPECT_EQ(fractions.front(), 0.0);
     EXPECT_LT(found.nominal_misfit, 1.0);
     EXPECT_GT(found.evaluations, 0);
-    EXPECT_TRUE(found.pairs.empty()) << "nothing is left for a second cause";
+    EXPECT_TRUE(std::all_of(found.fits.begin(), found.fits.end(), [](const ScoredFit& each) {
+        return each.fit.causes.size() == 1;
+    })) << "nothing is left for a second cause";
     EXPECT_TRUE(
-        std::is_sorted(found.singles.begin(), found.singles.end(),
+        std::is_sorted(found.fits.begin(), found.fits.end(),
                        [](const ScoredFit& a, const ScoredFit& b) { return a.evidence > b.evidence; }));
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
 }
 
 }  // namespace

@@ -21,19 +21,28 @@ struct Known {
     }
 };
 
+// Residuals in which no discrepancy finds anything: its freedom only costs.
+Marginals only_noise(double misfit) {
+    Marginals beside;
+    for (std::size_t k = 0; k < beside.size(); ++k)
+        beside[k] = {misfit, 20.0 * std::log1p(std::pow(discrepancy_sizes[k], 2))};
+    return beside;
+}
+
 ScoredFit fitted(const Evidence& evidence, std::vector<const CandidateCause*> causes, double misfit,
                  std::vector<double> visibility) {
     ScoredFit fit;
     fit.fit.causes = std::move(causes);
     fit.misfit = misfit;
+    fit.beside = only_noise(misfit);
     fit.visibility = std::move(visibility);
     fit.evidence = evidence.of(fit);
     return fit;
 }
 
 std::vector<RankedEffect> ranked_by(const Evidence& evidence, const std::vector<CandidateCause>& causes,
-                                    const std::vector<ScoredFit>& fits, double nominal_misfit) {
-    return Evidence::rank(causes, evidence.weigh(fits, nominal_misfit));
+                                    const std::vector<ScoredFit>& fits) {
+    return Evidence::rank(causes, evidence.weigh(fits));
 }
 
 double probability(const std::vector<RankedEffect>& ranked, const std::string& effect) {
@@ -49,7 +58,7 @@ TEST(Evidence, FavoursNoneWhereNothingIsLeftToExplain) {
     const Known known;
     const auto ranked = ranked_by(
         evidence, {known.none, known.drag, known.gain},
-        {fitted(evidence, {&known.none}, 0.9, {0.0}), fitted(evidence, {&known.drag}, 0.88, {0.3})}, 0.95);
+        {fitted(evidence, {&known.none}, 0.9, {0.0}), fitted(evidence, {&known.drag}, 0.88, {0.3})});
     EXPECT_EQ(ranked.front().effect, "none");
     EXPECT_GT(ranked.front().probability, 0.9);
 }
@@ -59,8 +68,7 @@ TEST(Evidence, FavoursTheCauseThatLeavesOnlyNoise) {
     const auto ranked =
         ranked_by(evidence, {known.none, known.drag, known.gain},
                   {fitted(evidence, {&known.none}, 5.0, {0.0}), fitted(evidence, {&known.drag}, 1.0, {4.0}),
-                   fitted(evidence, {&known.gain}, 3.0, {3.0})},
-                  6.0);
+                   fitted(evidence, {&known.gain}, 3.0, {3.0})});
     EXPECT_EQ(ranked.front().effect, "viscous_friction");
     EXPECT_EQ(ranked[1].effect, "unknown");
 }
@@ -71,17 +79,40 @@ TEST(Evidence, UnusualNumbersLowerTheEvidenceByTheirPenalty) {
     ScoredFit odd;
     odd.fit.causes = {&known.drag};
     odd.misfit = 1.0;
+    odd.beside = usual.beside;
     odd.visibility = {4.0};
     odd.shape_penalty = 10.0;  // a number e^4.5 times what is usual
     EXPECT_NEAR(usual.evidence - evidence.of(odd), odd.shape_penalty, 1e-12);
 }
 
+// Residuals that are a function of the motion, as those of a cause outside the list are.
+ScoredFit with_structure(ScoredFit fit) {
+    for (std::size_t k = 0; k < fit.beside.size(); ++k) {
+        const double variance = std::pow(discrepancy_sizes[k], 2);
+        fit.beside[k].misfit = 1.0 + (fit.misfit - 1.0) / (1.0 + 10.0 * variance);
+    }
+    fit.evidence = evidence.of(fit);
+    return fit;
+}
+
 TEST(Evidence, UnexplainedStructureIsReportedAsUnknown) {
     const Known known;
-    const auto ranked = ranked_by(
-        evidence, {known.none, known.drag},
-        {fitted(evidence, {&known.none}, 9.0, {0.0}), fitted(evidence, {&known.drag}, 7.0, {3.0})}, 10.0);
+    const auto ranked = ranked_by(evidence, {known.none, known.drag},
+                                  {with_structure(fitted(evidence, {&known.none}, 9.0, {0.0})),
+                                   with_structure(fitted(evidence, {&known.drag}, 8.5, {3.0}))});
     EXPECT_EQ(ranked.front().effect, "unknown");
+    EXPECT_GT(ranked.front().present, 0.9);
+}
+
+TEST(Evidence, ACauseThatLeavesStructureIsNamedBesideTheUnknown) {
+    const Known known;
+    ScoredFit drag = with_structure(fitted(evidence, {&known.drag}, 60.0, {8.0}));
+    ScoredFit nothing = with_structure(fitted(evidence, {&known.none}, 120.0, {0.0}));
+    for (Marginal& each : nothing.beside) each.misfit += 1.0;  // more than a function of the motion
+    const auto ranked = ranked_by(evidence, {known.none, known.drag}, {nothing, drag});
+    EXPECT_GT(ranked[0].present, 0.8);
+    EXPECT_GT(ranked[1].present, 0.8);
+    EXPECT_NEAR(ranked[0].probability, ranked[1].probability, 0.01);
 }
 
 TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
@@ -91,7 +122,7 @@ TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
     const ScoredFit faint = fitted(evidence, {&known.drag, &known.gain}, 1.0, {6.0, 0.2});
     EXPECT_GT(both.evidence, single.evidence);
     EXPECT_LT(faint.evidence, both.evidence - 40.0);
-    const auto ranked = ranked_by(evidence, {known.none, known.drag, known.gain}, {single, both}, 40.0);
+    const auto ranked = ranked_by(evidence, {known.none, known.drag, known.gain}, {single, both});
     EXPECT_NEAR(probability(ranked, "viscous_friction"), probability(ranked, "sensor_gain"), 0.01);
 }
 
@@ -99,7 +130,7 @@ TEST(Evidence, ProbabilitiesSumToOneAndNoneIsZero) {
     const Known known;
     const auto ranked = ranked_by(
         evidence, {known.none, known.drag, known.gain},
-        {fitted(evidence, {&known.none}, 50.0, {0.0}), fitted(evidence, {&known.drag}, 0.9, {9.0})}, 60.0);
+        {fitted(evidence, {&known.none}, 50.0, {0.0}), fitted(evidence, {&known.drag}, 0.9, {9.0})});
     double sum = 0.0;
     for (const RankedEffect& each : ranked) {
         EXPECT_GT(each.probability, 0.0);

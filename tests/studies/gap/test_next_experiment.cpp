@@ -64,8 +64,8 @@ class BendOrFriction : public testing::Test {
 TEST_F(BendOrFriction, IsDistinguishedBetterByASensorBeyondTheBendThanByOneBeforeIt) {
     const ScoredFit bend = fitted("local_bend", "both cables", {0.2, 0.2, 0.0});
     const ScoredFit friction = fitted("param_mu", "", {});
-    const std::vector<WeighedHypothesis> group = {{{"local_bend"}, 0.5, 0.0, &bend},
-                                                  {{"param_mu"}, 0.5, 0.0, &friction}};
+    const std::vector<WeighedHypothesis> group = {{{"local_bend"}, {}, 0.5, 0.0, &bend},
+                                                  {{"param_mu"}, {}, 0.5, 0.0, &friction}};
     const NonIdentifiable result = discriminating_experiments(recording, fitter, group, 2);
     ASSERT_FALSE(result.experiments.empty());
     EXPECT_GT(discrimination_probability(result, "tension sensor on cable A at 1.00 m"),
@@ -76,8 +76,8 @@ TEST_F(BendOrFriction, IsDistinguishedBetterByASensorBeyondTheBendThanByOneBefor
 
 TEST_F(BendOrFriction, NoExperimentDistinguishesAnExplanationFromItself) {
     const ScoredFit friction = fitted("param_mu", "", {});
-    const std::vector<WeighedHypothesis> group = {{{"param_mu"}, 0.5, 0.0, &friction},
-                                                  {{"param_mu"}, 0.5, 0.0, &friction}};
+    const std::vector<WeighedHypothesis> group = {{{"param_mu"}, {}, 0.5, 0.0, &friction},
+                                                  {{"param_mu"}, {}, 0.5, 0.0, &friction}};
     for (const ExperimentScore& each : discriminating_experiments(recording, fitter, group, 1).experiments)
         EXPECT_NEAR(each.discrimination_probability, 0.5, 0.01) << each.name;
 }
@@ -85,8 +85,8 @@ TEST_F(BendOrFriction, NoExperimentDistinguishesAnExplanationFromItself) {
 TEST_F(BendOrFriction, GivesTheSameAnswerForAnyNumberOfThreads) {
     const ScoredFit bend = fitted("local_bend", "both cables", {0.2, 0.2, 0.0});
     const ScoredFit friction = fitted("param_mu", "", {});
-    const std::vector<WeighedHypothesis> group = {{{"local_bend"}, 0.5, 0.0, &bend},
-                                                  {{"param_mu"}, 0.5, 0.0, &friction}};
+    const std::vector<WeighedHypothesis> group = {{{"local_bend"}, {}, 0.5, 0.0, &bend},
+                                                  {{"param_mu"}, {}, 0.5, 0.0, &friction}};
     const NonIdentifiable one = discriminating_experiments(recording, fitter, group, 1);
     const NonIdentifiable seven = discriminating_experiments(recording, fitter, group, 7);
     ASSERT_EQ(one.experiments.size(), seven.experiments.size());
@@ -99,17 +99,17 @@ TEST_F(BendOrFriction, GivesTheSameAnswerForAnyNumberOfThreads) {
 
 TEST(NonIdentifiable, IsEmptyWhereTheFirstIsCertain) {
     const ScoredFit any;
-    EXPECT_TRUE(non_identifiable(std::vector<WeighedHypothesis>{{{"creep"}, 0.96, 0.0, &any},
-                                                                {{"backlash"}, 0.04, -3.0, &any}})
+    EXPECT_TRUE(non_identifiable(std::vector<WeighedHypothesis>{{{"creep"}, {}, 0.96, 0.0, &any},
+                                                                {{"backlash"}, {}, 0.04, -3.0, &any}})
                     .empty());
 }
 
 TEST(NonIdentifiable, LeavesOutExplanationsThatCannotBeSimulated) {
     const ScoredFit any;
-    const std::vector<WeighedHypothesis> weighed = {{{"unknown"}, 0.4, 0.0, nullptr},
-                                                    {{"creep"}, 0.3, -0.3, &any},
-                                                    {{"backlash"}, 0.26, -0.4, &any},
-                                                    {{"inertia"}, 0.04, -3.0, &any}};
+    const std::vector<WeighedHypothesis> weighed = {{{"unknown"}, {}, 0.4, 0.0, nullptr, true},
+                                                    {{"creep"}, {}, 0.3, -0.3, &any},
+                                                    {{"backlash"}, {}, 0.26, -0.4, &any},
+                                                    {{"inertia"}, {}, 0.04, -3.0, &any}};
     const auto group = non_identifiable(weighed);
     ASSERT_EQ(group.size(), 2u);
     EXPECT_EQ(group[0].effects.front(), "creep");

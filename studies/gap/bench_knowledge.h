@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "capstan/gap/effects_twin.h"
+#include "capstan/recording/recording.h"
+
+namespace capstan::gap {
+
+/// A number of the bench that floats in every fit, within what a laboratory knows of it.
+struct FloatingNumber {
+    enum class Kind {
+        ratio,  ///< the coordinate is the logarithm of the number over its nominal value
+        size,   ///< the coordinate is the number in units of `scale`, and not negative
+        zero,   ///< the same with either sign
+    };
+    std::string name;
+    std::string unit{};
+    Kind kind = Kind::ratio;
+    double scale = 1.0;
+    double prior_std = 1.0;  ///< of the coordinate; its prior mean is 0
+    bool of_a_sensor = false;
+    /// The cause that it stands for where it is far from what was stated; no effect: none.
+    std::string effect{};
+    std::string variant{};
+    std::string component{};
+    std::string end{};
+    std::function<void(BenchNumbers&, double value)> apply;
+
+    double value(double coordinate) const;
+};
+
+/// What is known of a bench before a cause is sought. The first three numbers are always the friction, the
+/// stiffness and the pretension over their nominal values.
+struct BenchKnowledge {
+    std::vector<FloatingNumber> numbers;
+
+    Eigen::Index size() const { return static_cast<Eigen::Index>(numbers.size()); }
+};
+
+/// Logarithms of friction, stiffness and pretension over their nominal values.
+inline constexpr int nominal_coordinates = 3;
+
+/// The uncertainty of the nominal numbers of a bench whose numbers were measured (standard deviation of the
+/// logarithm): a calliper's, a load cell's and a tensile test's error of one to two per cent.
+inline constexpr double nominal_log_std = 0.015;
+
+/// A bench whose stated numbers were measured, with sensors that were zeroed and bearings without friction.
+const BenchKnowledge& measured_bench();
+
+/// A bench as it is built: friction and wrap from tables (20%), stiffness from a data sheet (10%), a tension
+/// set by hand (15%), torque and tension sensors with a zero error of a few per cent of their span, and
+/// bearings with Coulomb friction.
+BenchKnowledge built_bench(const Recording& recording);
+
+/// A drive or band whose numbers nobody stated: `recording` is its equivalent bench, whose numbers were
+/// fitted. All of them float by factors.
+BenchKnowledge undescribed_bench(const Recording& recording);
+
+}  // namespace capstan::gap

@@ -1,0 +1,167 @@
+#include "capstan/gap/discrepancy.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace capstan::gap {
+
+namespace {
+
+constexpr double stop_widths[] = {0.02, 0.05, 0.1, 0.2, 0.4};  // of a channel's span
+
+// A channel that drives some run, with what is needed to make it dimensionless.
+struct Driving {
+    std::size_t channel = 0;
+    double middle = 0.0;
+    double span = 1.0;
+};
+
+std::vector<Driving> driving_channels(const Recording& recording) {
+    std::vector<Driving> all;
+    for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+        const std::string& name = recording.channels[channel].name;
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        for (const RecordedRun& run : recording.runs) {
+            if (!run.drives(name)) continue;
+            const auto [least, most] =
+                std::minmax_element(run.values[channel].begin(), run.values[channel].end());
+            low = std::min(low, *least);
+            high = std::max(high, *most);
+        }
+        if (high > low) all.push_back({channel, 0.5 * (low + high), high - low});
+    }
+    constexpr std::size_t most_channels = 2;
+    if (all.size() > most_channels) all.resize(most_channels);
+    return all;
+}
+
+// An elastic-perfectly-plastic element that follows a signal, in units of its width.
+std::vector<double> stop_of(const std::vector<double>& signal, double width) {
+    std::vector<double> all;
+    double bend = 0.0;
+    for (std::size_t k = 0; k < signal.size(); ++k) {
+        if (k > 0) bend = std::clamp(bend + signal[k] - signal[k - 1], -width, width);
+        all.push_back(bend / width);
+    }
+    return all;
+}
+
+using Features = std::vector<std::vector<double>>;  // features x rows
+
+Features features_of(const Recording& recording, const RecordedRun& run, const std::vector<Driving>& driving,
+                     int stride) {
+    const std::size_t rows =
+        (run.time_s.size() + static_cast<std::size_t>(stride) - 1) / static_cast<std::size_t>(stride);
+    const double step_s = stride / recording.sample_rate_Hz;
+    Features signals;
+    for (const Driving& each : driving) {
+        std::vector<double> signal(rows, 0.0);
+        if (run.drives(recording.channels[each.channel].name)) {
+            for (std::size_t row = 0; row < rows; ++row)
+                signal[row] =
+                    (run.values[each.channel][row * static_cast<std::size_t>(stride)] - each.middle) /
+                    each.span;
+        }
+        signals.push_back(signal);
+    }
+    Features features = {std::vector<double>(rows, 1.0)};
+    const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
+        std::vector<double> all(a.size());
+        std::transform(a.begin(), a.end(), b.begin(), all.begin(), std::multiplies<>());
+        return all;
+    };
+    for (std::size_t k = 0; k < signals.size(); ++k) {
+        const std::vector<double>& signal = signals[k];
+        features.push_back(signal);
+        features.push_back(product(signal, signal));
+        std::vector<double> speed(rows, 0.0);
+        for (std::size_t row = 1; row < rows; ++row) speed[row] = (signal[row] - signal[row - 1]) / step_s;
+        features.push_back(speed);
+        for (const double width : stop_widths) {
+            features.push_back(stop_of(signal, width));
+            if (k == 0 && signals.size() > 1) features.push_back(product(features.back(), signals[1]));
+        }
+    }
+    if (signals.size() > 1) features.push_back(product(signals[0], signals[1]));
+    return features;
+}
+
+}  // namespace
+
+Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualSeries>& series, int stride,
+                         double independent_samples)
+    : series_(series) {
+    const std::vector<Driving> driving = driving_channels(recording);
+    std::vector<Features> features;
+    for (const RecordedRun& run : recording.runs)
+        features.push_back(features_of(recording, run, driving, stride));
+    std::size_t all_rows = 0;
+    for (const ResidualSeries& each : series_) all_rows += each.rows;
+    for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+        Eigen::Index rows = 0;
+        for (const ResidualSeries& each : series_)
+            rows += each.channel == channel ? static_cast<Eigen::Index>(each.rows) : 0;
+        if (rows == 0) continue;
+        const auto count = static_cast<Eigen::Index>(features.front().size());
+        Eigen::MatrixXd all(rows, count);
+        Eigen::Index next = 0;
+        for (const ResidualSeries& each : series_) {
+            if (each.channel != channel) continue;
+            for (Eigen::Index k = 0; k < count; ++k) {
+                const std::vector<double>& feature = features[each.run][static_cast<std::size_t>(k)];
+                for (std::size_t row = 0; row < each.rows; ++row)
+                    all(next + static_cast<Eigen::Index>(row), k) =
+                        feature[static_cast<std::size_t>(each.first_sample) + row];
+            }
+            next += static_cast<Eigen::Index>(each.rows);
+        }
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const double mean_square = all.col(k).squaredNorm() / static_cast<double>(rows);
+            if (mean_square > 0.0) all.col(k) /= std::sqrt(mean_square * static_cast<double>(count));
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(all.transpose() * all /
+                                                                   static_cast<double>(rows));
+        std::vector<Eigen::Index> kept;
+        constexpr double negligible = 1e-9;
+        for (Eigen::Index k = 0; k < count; ++k) {
+            if (parts.eigenvalues()[k] > negligible) kept.push_back(k);
+        }
+        ChannelFeatures of_channel;
+        of_channel.channel = channel;
+        of_channel.part = static_cast<double>(rows) / static_cast<double>(all_rows);
+        of_channel.samples = independent_samples * of_channel.part;
+        of_channel.variances = parts.eigenvalues()(kept);
+        of_channel.directions = all * parts.eigenvectors()(Eigen::all, kept) *
+                                of_channel.variances.cwiseSqrt().cwiseInverse().asDiagonal();
+        channels_.push_back(std::move(of_channel));
+    }
+}
+
+Marginals Discrepancy::of(const Eigen::VectorXd& residuals) const {
+    Marginals marginals;
+    for (const ChannelFeatures& channel : channels_) {
+        Eigen::VectorXd own(channel.directions.rows());
+        Eigen::Index next = 0;
+        for (const ResidualSeries& each : series_) {
+            if (each.channel != channel.channel) continue;
+            const auto rows = static_cast<Eigen::Index>(each.rows);
+            own.segment(next, rows) = residuals.segment(static_cast<Eigen::Index>(each.first_row), rows);
+            next += rows;
+        }
+        const auto rows = static_cast<double>(own.size());
+        const double mean_square = own.squaredNorm() / rows;
+        const Eigen::ArrayXd along = (channel.directions.transpose() * own / rows).array().square();
+        for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
+            // Samples of a direction add up; its prior variance is that of one sample.
+            const Eigen::ArrayXd gained =
+                channel.samples * std::pow(discrepancy_sizes[k], 2) * channel.variances.array();
+            marginals[k].misfit += channel.part * (mean_square - (along * gained / (1.0 + gained)).sum());
+            marginals[k].log_determinant += (1.0 + gained).log().sum();
+        }
+    }
+    return marginals;
+}
+
+}  // namespace capstan::gap

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "capstan/gap/cause_fit.h"
+#include "capstan/recording/recording.h"
+
+namespace capstan::gap {
+
+/// Standard deviations that a discrepancy may have, in units of noise and floor; the first is none.
+inline constexpr std::array<double, 9> discrepancy_sizes = {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+
+/// What residuals leave beside a discrepancy of each size.
+struct Marginal {
+    double misfit = 0.0;           ///< mean square, each part weighed as the discrepancy leaves it
+    double log_determinant = 0.0;  ///< what the discrepancy's freedom costs, as in a Gaussian likelihood
+};
+using Marginals = std::array<Marginal, discrepancy_sizes.size()>;
+
+/// A Gaussian process for what a model lacks: a function of what drives the bench, so that it comes again
+/// when the motion does (M. Kennedy and A. O'Hagan, Bayesian calibration of computer models, J. R. Stat. Soc.
+/// B 63, 2001). Each predicted channel has one. Its kernel is a sum over features of equal prior variance:
+/// the driven channels, their squares, product and speeds, stop operators of five widths on each, and the
+/// first one's stops times the second.
+class Discrepancy {
+  public:
+    /// `series`: of the recording; `stride`: samples per row. `independent_samples`: of all rows together.
+    Discrepancy(const Recording& recording, const std::vector<ResidualSeries>& series, int stride,
+                double independent_samples);
+
+    /// `residuals`: all series one after the other, in units of noise and floor.
+    Marginals of(const Eigen::VectorXd& residuals) const;
+
+  private:
+    struct ChannelFeatures {
+        std::size_t channel = 0;
+        double samples = 0.0;        // independent ones
+        double part = 0.0;           // of all rows
+        Eigen::MatrixXd directions;  // rows of the channel x features: orthogonal, mean square of the rows 1
+        Eigen::VectorXd variances;   // of each direction under a discrepancy of size 1
+    };
+
+    std::vector<ResidualSeries> series_;
+    std::vector<ChannelFeatures> channels_;
+};
+
+}  // namespace capstan::gap
