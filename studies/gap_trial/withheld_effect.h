@@ -26,6 +26,7 @@ struct WithheldEffect {
     double largest_size = 1.0;            ///< the bench cannot have more
     std::function<void(TrueEffects&, double size)> apply;
     bool only_sensors = false;  ///< the motion stays as it is
+    std::string varies;         ///< the run condition that the number follows; empty: none
 };
 
 /// The bench and session that an effect is drawn for.

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "capstan/blind_trial/trial_score.h"
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/screening.h"
-#include "capstan/gap_trial/trial_score.h"
 
 namespace capstan::gap_trial {
 

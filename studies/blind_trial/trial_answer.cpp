@@ -1,4 +1,4 @@
-#include "capstan/gap_trial/trial_answer.h"
+#include "capstan/blind_trial/trial_answer.h"
 
 #include <fmt/format.h>
 

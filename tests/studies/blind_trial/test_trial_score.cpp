@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "capstan/gap_trial/trial_score.h"
+#include "capstan/blind_trial/trial_score.h"
 
 namespace capstan::gap_trial {
 namespace {

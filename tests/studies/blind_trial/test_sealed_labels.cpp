@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/sealed_labels.h"
-#include "capstan/gap_trial/trial_answer.h"
+#include "capstan/blind_trial/sealed_labels.h"
+#include "capstan/blind_trial/trial_answer.h"
 #include "capstan/platform/files.h"
 #include "scratch_folder.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/blind_trial.h"
+#include "capstan/blind_trial/blind_trial.h"
 #include "capstan/recording/recording_reader.h"
 #include "scratch_folder.h"
 

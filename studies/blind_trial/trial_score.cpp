@@ -1,4 +1,4 @@
-#include "capstan/gap_trial/trial_score.h"
+#include "capstan/blind_trial/trial_score.h"
 
 #include <algorithm>
 #include <array>
@@ -245,6 +245,7 @@ TrialScore score_trial(const TrialLabels& labels, const std::vector<CaseAnswer>&
                 score.missed_gaps.count(first == "none");
                 break;
             case TruthGroup::mixture:
+            case TruthGroup::three:
                 score.both_of_mixtures.count(first_two_are_the_two(scored));
                 [[fallthrough]];
             case TruthGroup::catalogue:

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "capstan/gap_trial/sealed_labels.h"
-#include "capstan/gap_trial/trial_answer.h"
+#include "capstan/blind_trial/sealed_labels.h"
+#include "capstan/blind_trial/trial_answer.h"
 #include "capstan/recording/recording.h"
 
 namespace capstan::gap_trial {

@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "capstan/gap/effects_twin.h"
+#include "capstan/gap_trial/rig_motion.h"
+#include "capstan/gap_trial/trial_case.h"
+#include "capstan/recording/recording_reader.h"
+#include "capstan/rig/channel_names.h"
+#include "scratch_folder.h"
+
+namespace capstan::gap_trial {
+namespace {
+
+// A rig's recording without any effect, read back, with the nominal numbers also of a drive.
+Recording effect_free_recording(const Rig& rig, const std::vector<TrialRun>& runs) {
+    TrialBench bench = rig.bench;
+    bench.load_angle_sign = bench.load_torque_sign = 1.0;
+    bench.load_angle_zero_rad = 0.0;
+    TrialStream noise(3, 1, DrawTopic::noise);
+    std::vector<SensedRun> logged;
+    const SensedSession sensed = sense_session(bench, run_session(bench, runs, {}, rig_simulation(48)), {});
+    for (const SensedRun& run : sensed) logged.push_back(with_noise(bench, run, {}, noise));
+    const ScratchFolder folder;
+    write_recording(folder.path(), "none", bench, runs, logged);
+    Recording recording = read_recording(folder.path() / "none.csv");
+    if (!bench.is_drive()) return recording;
+    recording.mode = BenchMode::pull_pull;
+    recording.nominal = bench.nominal;
+    for (RecordedRun& run : recording.runs) run.pretension_N = rig.pretension_N;
+    return recording;
+}
+
+// RMS of recorded minus the engine's model over the floor that the trial assumes, by channel.
+std::map<std::string, double> missed_in_floors(BenchKind kind, int number) {
+    TrialStream draws(4, number, DrawTopic::bench);
+    TrialStream motion(4, number, DrawTopic::motion);
+    const Rig rig = draw_rig(kind, 0.02, draws);
+    const std::vector<TrialRun> runs = draw_rig_session(rig, 2, motion);
+    const Recording recording = effect_free_recording(rig, runs);
+    const gap::EffectsTwin twin(recording, {100, 1});
+    std::map<std::string, double> squares;
+    std::map<std::string, double> samples;
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        const gap::TwinRun model = twin.run(run, {});
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            const std::string& name = recording.channels[channel].name;
+            for (std::size_t k = 0; k < model.values[channel].size(); ++k) {
+                const double missed = recording.runs[run].values[channel][k] - model.values[channel][k];
+                squares[name] += missed * missed;
+                samples[name] += 1.0;
+            }
+        }
+    }
+    std::map<std::string, double> missed;
+    for (const auto& [name, sum] : squares)
+        missed[name] = std::sqrt(sum / samples[name]) / rig.bench.floor.at(name);
+    return missed;
+}
+
+// Where a driven angle rests within a step of its encoder, the model knows its torque only roughly.
+TEST(Rigs, WithoutAnEffectTheEnginesTwinMissesAboutTheStatedFloor) {
+    for (const BenchKind kind : {BenchKind::rig_pair, BenchKind::rig_single, BenchKind::rig_drive}) {
+        double sum = 0.0;
+        double channels = 0.0;
+        for (int number = 1; number <= 4; ++number) {
+            for (const auto& [channel, missed] : missed_in_floors(kind, number)) {
+                EXPECT_LT(missed, 2.5) << bench_kind_name(kind) << " " << number << " " << channel;
+                sum += missed;
+                channels += 1.0;
+            }
+        }
+        EXPECT_LT(sum / channels, 1.0) << bench_kind_name(kind);
+    }
+}
+
+PlannedCase planned_rig(BenchKind bench, int causes) {
+    PlannedCase planned;
+    planned.index = 1;
+    planned.name = "case001";
+    planned.group = causes == 0   ? TruthGroup::none
+                    : causes == 1 ? TruthGroup::catalogue
+                    : causes == 2 ? TruthGroup::mixture
+                                  : TruthGroup::three;
+    planned.bench = bench;
+    planned.causes = causes;
+    return planned;
+}
+
+TEST(Rigs, ADriveIsRecordedAsALaboratoryWithoutNumbersWould) {
+    const ScratchFolder folder;
+    const CaseLabel label = make_rig_case(planned_rig(BenchKind::rig_drive, 1), {.seed = 3}, folder.path());
+    const Recording recording = read_recording(folder.path() / "case001.csv");
+    EXPECT_EQ(recording.mode, BenchMode::lumped_drive);
+    EXPECT_FALSE(recording.nominal);
+    EXPECT_EQ(recording.runs.front().driven, (std::vector<std::string>{"motor_angle", "load_torque"}));
+    EXPECT_EQ(label.causes.size(), 1U);
+    EXPECT_EQ(label.bench, "rig_drive");
+}
+
+TEST(Rigs, CausesAreDrawnBetweenHalfAndTenTimesNoiseAndFloorTheClearestFirst) {
+    const ScratchFolder folder;
+    const CaseLabel label = make_rig_case(planned_rig(BenchKind::rig_single, 3), {.seed = 3}, folder.path());
+    ASSERT_EQ(label.causes.size(), 3U);
+    for (const TrueCause& cause : label.causes) {
+        EXPECT_GE(cause.visibility, 0.5 / 1.2);
+        EXPECT_LE(cause.visibility, 10.0 * 1.2);
+        EXPECT_LE(cause.visibility, label.causes.front().visibility);
+        for (const Nuisance& nuisance : label.nuisances)
+            EXPECT_TRUE(nuisance.effect != cause.effect) << cause.effect;
+    }
+    EXPECT_GT(std::abs(std::log(label.friction_ratio)), std::log(1.069));
+    EXPECT_LT(std::abs(std::log(label.friction_ratio)), std::log(1.201));
+}
+
+TEST(Rigs, AConditionReachesTheSidecarAndANumberFollowsIt) {
+    PlannedCase planned = planned_rig(BenchKind::rig_drive, 1);
+    planned.has_conditions = planned.varies = true;
+    const ScratchFolder folder;
+    const CaseLabel label = make_rig_case(planned, {.seed = 5}, folder.path());
+    ASSERT_EQ(label.conditions.size(), 1U);
+    EXPECT_EQ(label.causes.front().varies, label.conditions.front());
+    const std::string sidecar = bytes_of(folder.path() / "case001.json");
+    EXPECT_NE(sidecar.find("\"condition\": {"), std::string::npos);
+    EXPECT_NE(sidecar.find(label.conditions.front()), std::string::npos);
+}
+
+TEST(Rigs, AConditionedNumberChangesOnlyRunsUnderTheCondition) {
+    TrueEffects effects;
+    effects.conditioned = {
+        {ConditionedNumber::Which::friction, "", "roll_deg", 0.2, 90.0, false},
+        {ConditionedNumber::Which::zero, channel::load_torque, "roll_deg", 0.3, 90.0, true}};
+    const TrueEffects rolled = effects.under({{"roll_deg", -45.0}});
+    EXPECT_DOUBLE_EQ(rolled.friction_ratio, std::exp(-0.1));
+    EXPECT_DOUBLE_EQ(rolled.sensors.at(channel::load_torque).offset, 0.075);
+    EXPECT_DOUBLE_EQ(effects.under({{"roll_deg", 0.0}}).friction_ratio, 1.0);
+    EXPECT_DOUBLE_EQ(effects.under({}).friction_ratio, 1.0);
+}
+
+TEST(Rigs, ThePlanDealsCausesKindsAndConditionsInTheirProportions) {
+    const std::vector<PlannedCase> plan = plan_rigs({.cases = 120, .seed = 8});
+    std::map<int, int> causes;
+    std::map<BenchKind, int> kinds;
+    int conditions = 0;
+    int varying = 0;
+    for (const PlannedCase& each : plan) {
+        ++causes[each.causes];
+        ++kinds[each.bench];
+        conditions += each.has_conditions ? 1 : 0;
+        varying += each.varies ? 1 : 0;
+    }
+    EXPECT_EQ(causes[0], 12);
+    EXPECT_EQ(causes[1], 42);
+    EXPECT_EQ(causes[2], 36);
+    EXPECT_EQ(causes[3], 30);
+    EXPECT_EQ(kinds[BenchKind::rig_drive], 40);
+    EXPECT_EQ(kinds[BenchKind::rig_single], 20);
+    EXPECT_EQ(conditions, 48);
+    EXPECT_GT(varying, 15);
+    EXPECT_LE(varying, 24);
+}
+
+}  // namespace
+}  // namespace capstan::gap_trial
