@@ -59,7 +59,12 @@ RigSetup draw_rig_setup(const PlannedCase& planned, const TrialOptions& options,
         planned.has_conditions ? 2 + draws.motion.integer_below(4) : 1 + draws.motion.integer_below(4);
     setup.runs = draw_rig_session(setup.rig, runs, draws.motion);
     if (planned.has_conditions) setup.condition = set_condition(setup.runs, draws.motion);
-    if (!setup.rig.bench.is_drive()) setup.nuisances = add_wrong_nominals(setup.effects, draws.nominal);
+    if (setup.rig.bench.is_drive()) {
+        // Nothing is stated that could be wrong, so a wrong number explains nothing.
+        setup.nuisances = {{"param_mu", "", 0.0}, {"param_K", "", 0.0}, {"param_T0", "", 0.0}};
+    } else {
+        setup.nuisances = add_wrong_nominals(setup.effects, draws.nominal);
+    }
     for (const Nuisance& nuisance : add_nuisances(setup.rig, setup.effects, draws.nuisance))
         setup.nuisances.push_back(nuisance);
     return setup;

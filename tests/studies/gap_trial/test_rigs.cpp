@@ -126,6 +126,50 @@ TEST(Rigs, AConditionReachesTheSidecarAndANumberFollowsIt) {
     EXPECT_NE(sidecar.find(label.conditions.front()), std::string::npos);
 }
 
+TEST(Nuisances, TheLabelsStateWhatTheRigHas) {
+    for (const BenchKind kind : {BenchKind::rig_pair, BenchKind::rig_single, BenchKind::rig_drive}) {
+        TrialStream draws(6, 1, DrawTopic::bench);
+        const Rig rig = draw_rig(kind, 1.0, draws);
+        TrueEffects effects;
+        std::size_t zeros = 0;
+        for (const Nuisance& nuisance : add_nuisances(rig, effects, draws)) {
+            if (nuisance.effect == "sensor_offset") {
+                ++zeros;
+                EXPECT_DOUBLE_EQ(effects.sensors.at(nuisance.where).offset, nuisance.size);
+                EXPECT_NE(nuisance.size, 0.0);
+            } else {
+                EXPECT_EQ(nuisance.effect, "pulley_friction");
+                const TrueBearing& bearing =
+                    nuisance.where == "motor" ? effects.motor_bearing : effects.load_bearing;
+                EXPECT_DOUBLE_EQ(bearing.coulomb_Nm, nuisance.size);
+            }
+        }
+        EXPECT_EQ(zeros, 2 + rig.bench.tension_sensors.size());
+        for (const Nuisance& nuisance : add_wrong_nominals(effects, draws)) {
+            const double ratio = nuisance.effect == "param_mu"  ? effects.friction_ratio
+                                 : nuisance.effect == "param_K" ? effects.stiffness_ratio
+                                                                : effects.pretension_ratio;
+            EXPECT_NEAR(std::log(ratio), nuisance.size, 1e-12);
+        }
+    }
+}
+
+// A zero is in the reading and changes nothing else.
+TEST(Nuisances, ASensorReadsItsZero) {
+    TrialStream draws(6, 1, DrawTopic::bench);
+    const Rig rig = draw_rig(BenchKind::rig_drive, 1.0, draws);
+    const std::vector<TrialRun> runs = draw_rig_session(rig, 1, draws);
+    const std::vector<TrueRun> truth = run_session(rig.bench, runs, {}, rig_simulation(24));
+    TrueEffects effects;
+    effects.sensors[channel::motor_torque].offset = 0.25;
+    const SensedRun without = sense_session(rig.bench, truth, {}).front();
+    const SensedRun with = sense_session(rig.bench, truth, effects).front();
+    for (std::size_t k = 0; k < with[0].size(); ++k) {
+        EXPECT_NEAR(with[0][k] - without[0][k], 0.25, 1e-9);
+        EXPECT_EQ(with[2][k], without[2][k]);
+    }
+}
+
 TEST(Rigs, AConditionedNumberChangesOnlyRunsUnderTheCondition) {
     TrueEffects effects;
     effects.conditioned = {
