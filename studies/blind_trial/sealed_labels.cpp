@@ -134,6 +134,7 @@ std::string labels_text(const TrialLabels& labels) {
     if (options.kind != TrialKind::benches) json["kind"] = trial_kind_name(options.kind);
     if (options.visibility) json["visibility"] = {options.visibility->low, options.visibility->high};
     if (options.nuisances) json["nuisances"] = true;
+    if (options.mixtures != TrialOptions().mixtures) json["mixtures"] = options.mixtures;
     json["cases"] = ordered_json::object();
     for (const CaseLabel& label : labels.cases) json["cases"][label.name] = case_json(label);
     return json.dump(1) + "\n";
@@ -158,6 +159,7 @@ TrialLabels read_labels(const std::string& text, const std::string& place) {
         if (json.contains("visibility"))
             labels.options.visibility = {json.at("visibility").at(0), json.at("visibility").at(1)};
         labels.options.nuisances = json.value("nuisances", false);
+        labels.options.mixtures = json.value("mixtures", TrialOptions().mixtures);
         for (const auto& [name, label] : json.at("cases").items())
             labels.cases.push_back(case_of(name, label));
         labels.options.cases = static_cast<int>(labels.cases.size());

@@ -50,6 +50,7 @@ TrialOptions trial_options_of(const Invocation& invocation) {
     options.nominal_error = invocation.has("nominal-error") ? nominal_error : 0.0;
     if (invocation.text("kind") == "rigs") options.kind = gap_trial::TrialKind::rigs;
     options.nuisances = invocation.has("nuisances");
+    options.mixtures = invocation.number("mixtures");
     if (invocation.has("visibility")) options.visibility = visibility_of(invocation.text("visibility"));
     if (invocation.has("only")) options.only = gap_trial::truth_group_named(invocation.text("only"));
     const bool needs_rigs = options.only == gap_trial::TruthGroup::three;
@@ -176,6 +177,13 @@ Command gap_trial_command() {
                  .meaning =
                      "Draw how far each effect exceeds noise and model floor from this range (log-uniform, "
                      "each effect of a mixture on its own), in place of --severity. Default for rigs: 0.5:10."},
+             Option{.name = "mixtures",
+                    .kind = OptionKind::number,
+                    .value = "F",
+                    .meaning = "Fraction of the benches that have two effects.",
+                    .default_value = "0.1",
+                    .low = 0,
+                    .high = 0.69},
              Option{.name = "nuisances",
                     .kind = OptionKind::flag,
                     .meaning = "Add sensor zeros and pulley friction to every bench, as rigs have them."},
@@ -218,12 +226,13 @@ Command gap_trial_command() {
                      "Check FILE (a kept labels.json) against its hash and score the stored answers beside it "
                      "again."},
              jobs_option, output_option, json_option, progress_option, help_option},
-        .examples = {"capstan gap-trial --cases 200",
-                     "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
-                     "capstan gap-trial --cases 400 --only none --length short",
-                     "capstan gap-trial --kind rigs --cases 40 --keep rigs --generate-only",
-                     "capstan gap-trial --cases 100 --visibility 0.5:10 --nuisances --nominal-error",
-                     "capstan gap-trial --unseal trial/labels.json"},
+        .examples =
+            {"capstan gap-trial --cases 200",
+             "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
+             "capstan gap-trial --cases 400 --only none --length short",
+             "capstan gap-trial --kind rigs --cases 40 --keep rigs --generate-only",
+             "capstan gap-trial --cases 100 --visibility 0.5:10 --mixtures 0.4 --nuisances --nominal-error",
+             "capstan gap-trial --unseal trial/labels.json"},
         .run = run_gap_trial};
 }
 

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double none_fraction = 0.10;
 constexpr double foreign_fraction = 0.12;
-constexpr double mixture_fraction = 0.10;
 constexpr double parameter_fraction = 0.09;
 // The address of draws for the trial itself; no case has it.
 constexpr int trial_address = 0x7fffffff;
@@ -113,6 +112,7 @@ std::string options_text(const TrialOptions& options) {
     if (options.kind != TrialKind::benches) json["kind"] = trial_kind_name(options.kind);
     if (options.visibility) json["visibility"] = {options.visibility->low, options.visibility->high};
     if (options.nuisances) json["nuisances"] = true;
+    if (options.mixtures != TrialOptions().mixtures) json["mixtures"] = options.mixtures;
     if (options.only) json["only"] = truth_group_name(*options.only);
     return json.dump(1) + "\n";
 }
@@ -182,7 +182,7 @@ std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
         add(TruthGroup::foreign, severity_of(options.severity, plan.size()), {foreign.next()});
     for (int k = number_of(TruthGroup::parameter, parameter_fraction); k > 0; --k)
         add(TruthGroup::parameter, severity_of(options.severity, plan.size()), {parameters.next()});
-    for (int k = number_of(TruthGroup::mixture, mixture_fraction); k > 0; --k) {
+    for (int k = number_of(TruthGroup::mixture, options.mixtures); k > 0; --k) {
         const EffectMaker& first = firsts.next();
         const EffectMaker* second = &seconds.next();
         while (effect_family(second->effect) == effect_family(first.effect)) second = &seconds.next();

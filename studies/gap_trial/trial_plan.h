@@ -40,6 +40,7 @@ struct TrialOptions {
     TrialKind kind = TrialKind::benches;
     /// Of each effect, drawn for each on its own (log-uniform), in place of `severity`. Rigs: 0.5 to 10.
     std::optional<VisibilityRange> visibility = std::nullopt;
+    double mixtures = 0.10;  ///< fraction of the cases with two effects, of benches
     bool nuisances = false;  ///< sensor zeros and pulley friction on benches; rigs always have them
     /// All cases of this kind, in place of the mix of plan_trial.
     std::optional<TruthGroup> only = std::nullopt;
@@ -74,7 +75,7 @@ struct PlannedCase {
     bool varies = false;  ///< one of the causes is a number that follows the condition
 };
 
-/// The mix: 10% without a gap, 12% outside the catalogue, 10% of two effects together, 9% wrong parameters,
+/// The mix: 10% without a gap, 12% outside the catalogue, 10% (or as stated) of two effects together, 9% wrong parameters,
 /// the rest spread evenly over the catalogue and the severities, in random order. Mixtures are
 /// strong where both severities are asked for. Or one group alone (TrialOptions::only).
 std::vector<PlannedCase> plan_trial(const TrialOptions& options);

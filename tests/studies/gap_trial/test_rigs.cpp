@@ -13,11 +13,23 @@
 namespace capstan::gap_trial {
 namespace {
 
+// A drive as if its laboratory knew it, and had mounted its sensors the engine's way.
+void as_known_bench(const Rig& rig, Recording& recording) {
+    recording.mode = BenchMode::pull_pull;
+    recording.nominal = rig.bench.nominal;
+    const auto load_angle = static_cast<std::size_t>(*recording.channel(channel::load_angle));
+    const auto load_torque = static_cast<std::size_t>(*recording.channel(channel::load_torque));
+    for (RecordedRun& run : recording.runs) {
+        run.pretension_N = rig.pretension_N;
+        for (double& angle_rad : run.values[load_angle])
+            angle_rad = rig.bench.load_angle_sign * (angle_rad - rig.bench.load_angle_zero_rad);
+        for (double& torque_Nm : run.values[load_torque]) torque_Nm *= rig.bench.load_torque_sign;
+    }
+}
+
 // A rig's recording without any effect, read back, with the nominal numbers also of a drive.
 Recording effect_free_recording(const Rig& rig, const std::vector<TrialRun>& runs) {
-    TrialBench bench = rig.bench;
-    bench.load_angle_sign = bench.load_torque_sign = 1.0;
-    bench.load_angle_zero_rad = 0.0;
+    const TrialBench& bench = rig.bench;
     TrialStream noise(3, 1, DrawTopic::noise);
     std::vector<SensedRun> logged;
     const SensedSession sensed = sense_session(bench, run_session(bench, runs, {}, rig_simulation(48)), {});
@@ -25,11 +37,28 @@ Recording effect_free_recording(const Rig& rig, const std::vector<TrialRun>& run
     const ScratchFolder folder;
     write_recording(folder.path(), "none", bench, runs, logged);
     Recording recording = read_recording(folder.path() / "none.csv");
-    if (!bench.is_drive()) return recording;
-    recording.mode = BenchMode::pull_pull;
-    recording.nominal = bench.nominal;
-    for (RecordedRun& run : recording.runs) run.pretension_N = rig.pretension_N;
+    if (bench.is_drive()) as_known_bench(rig, recording);
     return recording;
+}
+
+// RMS of recorded minus the engine's model, by channel.
+std::map<std::string, double> missed_rms(const Recording& recording, const gap::EffectsTwin& twin,
+                                         const gap::BenchNumbers& numbers) {
+    std::map<std::string, double> missed;
+    std::map<std::string, double> samples;
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        const gap::TwinRun model = twin.run(run, numbers);
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            const std::string& name = recording.channels[channel].name;
+            for (std::size_t k = 0; k < model.values[channel].size(); ++k) {
+                missed[name] +=
+                    std::pow(recording.runs[run].values[channel][k] - model.values[channel][k], 2);
+                samples[name] += 1.0;
+            }
+        }
+    }
+    for (auto& [name, sum] : missed) sum = std::sqrt(sum / samples[name]);
+    return missed;
 }
 
 // RMS of recorded minus the engine's model over the floor that the trial assumes, by channel.
@@ -40,22 +69,8 @@ std::map<std::string, double> missed_in_floors(BenchKind kind, int number) {
     const std::vector<TrialRun> runs = draw_rig_session(rig, 2, motion);
     const Recording recording = effect_free_recording(rig, runs);
     const gap::EffectsTwin twin(recording, {100, 1});
-    std::map<std::string, double> squares;
-    std::map<std::string, double> samples;
-    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
-        const gap::TwinRun model = twin.run(run, {});
-        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
-            const std::string& name = recording.channels[channel].name;
-            for (std::size_t k = 0; k < model.values[channel].size(); ++k) {
-                const double missed = recording.runs[run].values[channel][k] - model.values[channel][k];
-                squares[name] += missed * missed;
-                samples[name] += 1.0;
-            }
-        }
-    }
-    std::map<std::string, double> missed;
-    for (const auto& [name, sum] : squares)
-        missed[name] = std::sqrt(sum / samples[name]) / rig.bench.floor.at(name);
+    std::map<std::string, double> missed = missed_rms(recording, twin, {});
+    for (auto& [name, rms] : missed) rms /= rig.bench.floor.at(name);
     return missed;
 }
 
@@ -72,6 +87,52 @@ TEST(Rigs, WithoutAnEffectTheEnginesTwinMissesAboutTheStatedFloor) {
             }
         }
         EXPECT_LT(sum / channels, 1.0) << bench_kind_name(kind);
+    }
+}
+
+// Labels, sidecar and simulation agree: with the label's ratios and friction, and its zeros taken off, the
+// engine predicts a rig that has no cause.
+void expect_rig_without_cause_is_predicted(BenchKind kind, int number) {
+    PlannedCase planned;
+    planned.index = number;
+    planned.name = "case001";
+    planned.bench = kind;
+    const TrialOptions options{.seed = 12};
+    const ScratchFolder folder;
+    const CaseLabel label = make_rig_case(planned, options, folder.path());
+    Recording recording = read_recording(folder.path() / "case001.csv");
+    CaseStreams draws(options.seed, number);
+    const Rig rig = draw_rig(kind, 1.0, draws.bench);
+    if (rig.bench.is_drive()) as_known_bench(rig, recording);
+    gap::BenchNumbers numbers;
+    numbers.friction_ratio = label.friction_ratio;
+    numbers.stiffness_ratio = label.stiffness_ratio;
+    numbers.pretension_ratio = label.pretension_ratio;
+    PulleyFriction& friction = numbers.effects.of<PulleyFriction>();
+    friction.motor.presliding_rad = friction.load.presliding_rad = 3e-4;
+    for (const Nuisance& nuisance : label.nuisances) {
+        if (nuisance.where == "motor") friction.motor.coulomb_Nm = nuisance.size;
+        if (nuisance.where == "load") friction.load.coulomb_Nm = nuisance.size;
+        if (nuisance.effect != "sensor_offset") continue;
+        const double sign =
+            rig.bench.is_drive() && nuisance.where == channel::load_torque ? rig.bench.load_torque_sign : 1.0;
+        for (RecordedRun& run : recording.runs)
+            for (double& value : run.values[static_cast<std::size_t>(*recording.channel(nuisance.where))])
+                value -= sign * nuisance.size;
+    }
+    const gap::EffectsTwin twin(recording, {100, 1});
+    for (const auto& [name, missed] : missed_rms(recording, twin, numbers)) {
+        const double noise = rig.bench.noise_std.count(name) > 0 ? rig.bench.noise_std.at(name) : 0.0;
+        EXPECT_LT(missed, 2.5 * std::hypot(noise, rig.bench.floor.at(name)))
+            << bench_kind_name(kind) << " " << number << " " << name;
+    }
+}
+
+TEST(Rigs, WithTheLabelsNumbersTheEngineExplainsARigWithoutACause) {
+    for (int number = 1; number <= 3; ++number) {
+        expect_rig_without_cause_is_predicted(BenchKind::rig_pair, number);
+        expect_rig_without_cause_is_predicted(BenchKind::rig_single, number);
+        expect_rig_without_cause_is_predicted(BenchKind::rig_drive, number);
     }
 }
 
