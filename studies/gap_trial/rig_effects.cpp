@@ -178,17 +178,23 @@ bool is_in(const Names& names, const std::string& effect) {
 
 }  // namespace
 
+std::vector<EffectMaker> with_own_forms(std::vector<EffectMaker> makers) {
+    for (EffectMaker& maker : makers) {
+        for (const EffectMaker& form : own_forms()) {
+            if (form.effect == maker.effect) maker = form;
+        }
+    }
+    return makers;
+}
+
 std::vector<EffectMaker> rig_effects(BenchKind kind) {
-    std::vector<EffectMaker> makers;
-    for (const EffectMaker& each : catalogue_effects()) {
-        if (is_in(nuisance_effects, each.effect)) continue;
-        if (kind == BenchKind::rig_drive && !is_in(shown_by_a_drive, each.effect)) continue;
-        const auto own = std::find_if(own_forms().begin(), own_forms().end(),
-                                      [&](const EffectMaker& form) { return form.effect == each.effect; });
-        makers.push_back(own != own_forms().end() ? *own : each);
-        if (kind == BenchKind::rig_drive && each.effect == "backlash") makers.back().draw = motor_backlash;
-        // Every run of a drive moves its load.
-        if (kind == BenchKind::rig_drive) makers.back().needs_motion = false;
+    std::vector<EffectMaker> makers = with_own_forms(catalogue_effects());
+    std::erase_if(makers, [](const EffectMaker& maker) { return is_in(nuisance_effects, maker.effect); });
+    if (kind != BenchKind::rig_drive) return makers;
+    std::erase_if(makers, [](const EffectMaker& maker) { return !is_in(shown_by_a_drive, maker.effect); });
+    for (EffectMaker& maker : makers) {
+        maker.needs_motion = false;  // every run of a drive moves its load
+        if (maker.effect == "backlash") maker.draw = motor_backlash;
     }
     return makers;
 }

@@ -64,9 +64,11 @@ class Round {
     std::size_t turn_ = 0;
 };
 
-// What a bench with nuisances has anyway cannot be its cause.
+// What a bench with nuisances has anyway cannot be its cause. Where --severity holds, the first forms of the
+// effects stay, so that the seeds of such trials keep their bits.
 std::vector<EffectMaker> named_effects(const TrialOptions& options) {
-    std::vector<EffectMaker> makers = catalogue_effects();
+    if (!options.visibility && !options.nuisances) return catalogue_effects();
+    std::vector<EffectMaker> makers = with_own_forms(catalogue_effects());
     if (options.nuisances)
         std::erase_if(makers, [](const EffectMaker& maker) {
             return maker.effect == "sensor_offset" || maker.effect == "pulley_friction";

@@ -75,9 +75,9 @@ struct PlannedCase {
     bool varies = false;  ///< one of the causes is a number that follows the condition
 };
 
-/// The mix: 10% without a gap, 12% outside the catalogue, 10% (or as stated) of two effects together, 9% wrong parameters,
-/// the rest spread evenly over the catalogue and the severities, in random order. Mixtures are
-/// strong where both severities are asked for. Or one group alone (TrialOptions::only).
+/// The mix: 10% without a gap, 12% outside the catalogue, 10% (or as stated) of two effects together, 9%
+/// wrong parameters, the rest spread evenly over the catalogue and the severities, in random order. Mixtures
+/// are strong where both severities are asked for. Or one group alone (TrialOptions::only).
 std::vector<PlannedCase> plan_trial(const TrialOptions& options);
 
 /// The mix of rigs: a tenth without a cause, 35% with one, 30% with two, 25% with three; a third are drives,
