@@ -108,7 +108,9 @@ CaseTruth truth_of(const CaseLabel& label) {
 std::vector<AnsweredEffect> judged(const CaseAnswer& answer, const CaseTruth& truth) {
     std::vector<AnsweredEffect> ranked;
     std::copy_if(answer.ranked.begin(), answer.ranked.end(), std::back_inserter(ranked),
-                 [&](const AnsweredEffect& each) { return truth.nuisances.count(each.effect) == 0; });
+                 [&](const AnsweredEffect& each) {
+                     return truth.nuisances.count(each.effect) == 0 || !each.varies.empty();
+                 });
     return ranked;
 }
 

@@ -23,7 +23,8 @@ struct CaseTruth {
 };
 CaseTruth truth_of(const CaseLabel& label);
 
-/// The ranked effects without those that are neither right nor wrong.
+/// The ranked effects without those that are neither right nor wrong. A nuisance that is said to follow a
+/// condition is a statement, and stays.
 std::vector<AnsweredEffect> judged(const CaseAnswer& answer, const CaseTruth& truth);
 
 /// Stated probabilities of one bin against how often they were right, with Wilson's interval.

@@ -69,6 +69,13 @@ TEST(CausesScore, NuisancesAreNeitherRightNorWrong) {
     EXPECT_EQ(score_of(varying, said({{"sensor_offset", 0.9}})).varies.hits, 0);
 }
 
+TEST(CausesScore, ANuisanceThatIsSaidToFollowAConditionIsAFalseName) {
+    const CausesScore score =
+        score_of(rig({{"creep", 6.0}}), said({{"creep", 0.5, 0.9}, {"param_mu", 0.5, 0.8, "roll_deg"}}));
+    EXPECT_EQ(score.groups.front().false_names.hits, 1);
+    EXPECT_EQ(score.false_varies.hits, 1);
+}
+
 TEST(CausesScore, SomethingThatIsNotThereIsAFalseName) {
     const CausesScore score =
         score_of(rig({{"creep", 6.0}}), said({{"creep", 0.6, 0.9}, {"inertia", 0.4, 0.35, "roll_deg"}}));
