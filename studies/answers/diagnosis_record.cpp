@@ -3,7 +3,7 @@
 
 #include "capstan/answers/recording_answers.h"
 #include "capstan/gap/gap_map.h"
-#include "capstan/gap_trial/sealed_labels.h"
+#include "capstan/blind_trial/sealed_labels.h"
 #include "capstan/platform/files.h"
 #include "capstan/reports/page_frame.h"
 

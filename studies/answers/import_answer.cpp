@@ -48,6 +48,14 @@ reports::Table drawn_channels(const Recording& recording) {
     return table;
 }
 
+// "roll_deg -45, load 2"
+std::string condition_words(const RecordedRun& run) {
+    std::string words;
+    for (const auto& [name, value] : run.conditions)
+        words += fmt::format("{}{} {:g}", words.empty() ? "" : ", ", name, value);
+    return words;
+}
+
 }  // namespace
 
 reports::Answer import_answer(const imports::ImportReport& report) {
@@ -153,11 +161,16 @@ reports::Answer recording_check_answer(const Recording& recording, const std::ve
     for (const std::string& assumption : recording.assumptions)
         assumed.push_back({{"assumption", assumption}});
     Data runs = Data::list();
-    for (const RecordedRun& run : recording.runs)
-        runs.push_back({{"run", run.number},
-                        {"protocol", run.protocol},
-                        {"samples", run.samples()},
-                        {"pretension_N", run.pretension_N}});
+    bool any_condition = false;
+    for (const RecordedRun& run : recording.runs) {
+        any_condition |= !run.conditions.empty();
+        Data row = {{"run", run.number},
+                    {"protocol", run.protocol},
+                    {"samples", run.samples()},
+                    {"pretension_N", run.pretension_N}};
+        if (!run.conditions.empty()) row["conditions"] = condition_words(run);
+        runs.push_back(row);
+    }
     Data channels = Data::list();
     for (const Channel& channel : recording.channels)
         channels.push_back({{"channel", channel.name},
@@ -194,15 +207,15 @@ reports::Answer recording_check_answer(const Recording& recording, const std::ve
                                                 {"noise_std", "noise of a reading", "channel's"},
                                                 {"step", "step", "channel's"}},
                                                channels}}});
-        answer.sections.push_back({.id = "runs",
-                                   .heading = "Runs",
-                                   .tables = {{"runs",
-                                               "",
-                                               {{"run", "run"},
-                                                {"protocol", "protocol"},
-                                                {"samples", "samples"},
-                                                {"pretension_N", "pretension", "N"}},
-                                               runs}}});
+        reports::AnswerTable table = {"runs",
+                                      "",
+                                      {{"run", "run"},
+                                       {"protocol", "protocol"},
+                                       {"samples", "samples"},
+                                       {"pretension_N", "pretension", "N"}},
+                                      runs};
+        if (any_condition) table.columns.push_back({"conditions", "conditions"});
+        answer.sections.push_back({.id = "runs", .heading = "Runs", .tables = {std::move(table)}});
     }
     return answer;
 }

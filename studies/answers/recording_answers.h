@@ -10,7 +10,7 @@
 #include "capstan/gap/calibration.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/twin.h"
-#include "capstan/gap_trial/trial_score.h"
+#include "capstan/blind_trial/trial_score.h"
 #include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"
 #include "capstan/recording/recording.h"

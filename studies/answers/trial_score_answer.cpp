@@ -24,6 +24,35 @@ Data shrinkage_data(const gap_trial::Shrinkage& shrinkage) {
             {"at_most_10_percent_more", fraction_data(shrinkage.as_good_as_truth)}};
 }
 
+Data reliability_data(const std::vector<gap_trial::ReliabilityBin>& bins) {
+    Data rows = Data::list();
+    for (const gap_trial::ReliabilityBin& bin : bins)
+        rows.push_back({{"from", bin.from},
+                        {"to", bin.to},
+                        {"cases", bin.right.of},
+                        {"mean_probability", bin.mean_probability},
+                        {"fraction_right", bin.right.value()},
+                        {"interval_95", Data::list({bin.right.low(), bin.right.high()})}});
+    return rows;
+}
+
+Data causes_data(const gap_trial::CausesScore& causes) {
+    Data data = {{"named_from", gap_trial::named_from}, {"groups", Data::list()}};
+    for (const gap_trial::CauseGroup& group : causes.groups)
+        data["groups"].push_back({{"by", group.by},
+                                  {"name", group.name},
+                                  {"recall", fraction_data(group.recall)},
+                                  {"all_named", fraction_data(group.all_named)},
+                                  {"first", fraction_data(group.first)},
+                                  {"false_names", fraction_data(group.false_names)}});
+    data["unknown"] = fraction_data(causes.unknown);
+    data["varies"] = fraction_data(causes.varies);
+    data["false_varies"] = fraction_data(causes.false_varies);
+    data["calibration_error"] = causes.calibration_error;
+    data["reliability"] = reliability_data(causes.reliability);
+    return data;
+}
+
 Data named(const char* what, Data row) {
     Data data = {{"what", what}};
     data.update(row);
@@ -51,13 +80,8 @@ Data values_of(const gap_trial::TrialOptions& options, const std::string& seal, 
     data["median_place_error_m"] = score.median_place_error_m;
     data["brier"] = score.calibration.brier;
     data["ece"] = score.calibration.ece;
-    data["reliability"] = Data::list();
-    for (const gap_trial::ReliabilityBin& bin : score.calibration.bins)
-        data["reliability"].push_back({{"from", bin.from},
-                                       {"to", bin.to},
-                                       {"cases", bin.cases},
-                                       {"mean_probability", bin.mean_probability},
-                                       {"fraction_right", bin.fraction_right}});
+    data["reliability"] = reliability_data(score.calibration.bins);
+    data["causes"] = causes_data(score.causes);
     data["shrinkage"] = {{"load_torque", shrinkage_data(score.load_torque)},
                          {"clearest_channel", shrinkage_data(score.clearest_channel)}};
     data["unanswered"] = score.unanswered;
@@ -72,6 +96,18 @@ reports::AnswerTable fractions_table(const char* id, Data rows) {
              {"of", "of"},
              {"fraction", "fraction", "", ".1%"},
              {"interval_95", "95% interval", "", ".1%"}},
+            std::move(rows)};
+}
+
+reports::AnswerTable reliability_table(const char* id, Data rows) {
+    return {id,
+            "",
+            {{"from", "from", "", ".1f"},
+             {"to", "to", "", ".1f"},
+             {"cases", "statements"},
+             {"mean_probability", "mean stated", "", ".3f"},
+             {"fraction_right", "right", "", ".3f"},
+             {"interval_95", "95% interval", "", ".2f"}},
             std::move(rows)};
 }
 
@@ -99,6 +135,13 @@ reports::Answer trial_score_answer(const gap_trial::TrialOptions& options, const
     places.push_back(named("component", fraction_data(score.component)));
     places.push_back(named("end", fraction_data(score.end)));
     places.push_back(named("place within 0.15 m", fraction_data(score.place)));
+    Data conditions = Data::list();
+    conditions.push_back(
+        named("`unknown` is named where all causes are known", fraction_data(score.causes.unknown)));
+    conditions.push_back(named("the condition of a named number that follows one is stated",
+                               fraction_data(score.causes.varies)));
+    conditions.push_back(named("a condition is stated for an effect that follows none",
+                               fraction_data(score.causes.false_varies)));
     left.push_back(named("load torque", shrinkage_data(score.load_torque)));
     left.push_back(named("clearest channel", shrinkage_data(score.clearest_channel)));
     answer.sections = {
@@ -125,19 +168,38 @@ reports::Answer trial_score_answer(const gap_trial::TrialOptions& options, const
                      : ""},
         {.id = "reliability",
          .heading = "Stated probabilities",
-         .prose = fmt::format("Brier score {:.3f}, expected calibration error {:.3f}.",
-                              score.calibration.brier, score.calibration.ece),
-         .tables = {{"reliability",
+         .prose = fmt::format(
+             "Brier score {:.3f}, expected calibration error {:.3f}. A verdict of several effects is right if "
+             "all of them are there.",
+             score.calibration.brier, score.calibration.ece),
+         .tables = {reliability_table("reliability", answer.values["reliability"])}},
+        {.id = "causes",
+         .heading = "Causes by name",
+         .prose = fmt::format(
+             "An effect is named where the probability that it is present is at least {}. Nuisances that every "
+             "rig has count neither way. A false name is an effect that is not there; `unknown` is counted apart.",
+             gap_trial::named_from),
+         .tables = {{"causes",
                      "",
-                     {{"from", "from", "", ".1f"},
-                      {"to", "to", "", ".1f"},
-                      {"cases", "cases"},
-                      {"mean_probability", "mean stated", "", ".3f"},
-                      {"fraction_right", "right", "", ".3f"}},
-                     answer.values["reliability"]}}},
+                     {{"by", "by"},
+                      {"name", "group"},
+                      {"recall.of", "causes"},
+                      {"recall.fraction", "named", "", ".1%"},
+                      {"recall.interval_95", "95% interval", "", ".0%"},
+                      {"first.of", "cases"},
+                      {"all_named.fraction", "all named", "", ".1%"},
+                      {"first.fraction", "a cause first", "", ".1%"},
+                      {"false_names.fraction", "a false name", "", ".1%"}},
+                     answer.values["causes"]["groups"]},
+                    fractions_table("conditions", conditions)}},
+        {.id = "presence",
+         .heading = "Stated probabilities that an effect is present",
+         .prose = fmt::format("Of every effect stated with at least {}; expected calibration error {:.3f}.",
+                              gap_trial::stated_from, score.causes.calibration_error),
+         .tables = {reliability_table("presence", answer.values["causes"]["reliability"])}},
         {.id = "shrinkage",
          .heading =
-             "What the named cause leaves of the gap, relative to the true cause (median of the RMS ratio)",
+             "What the named cause leaves of the gap on runs held out, relative to the true cause (median of the RMS ratio)",
          .tables = {{"shrinkage",
                      "",
                      {{"what", "channel"},

@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
+#include "capstan/blind_trial/blind_trial.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/gap_trial/blind_trial.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
 
@@ -22,6 +23,19 @@ using gap_trial::TrialOptions;
 // Relative error of nominal friction, stiffness and pretension with --nominal-error.
 constexpr double nominal_error = 0.01;
 
+gap_trial::VisibilityRange visibility_of(const std::string& text) {
+    gap_trial::VisibilityRange range;
+    const char* const end = text.data() + text.size();
+    const auto low = std::from_chars(text.data(), end, range.low);
+    const bool has_colon = low.ec == std::errc() && low.ptr != end && *low.ptr == ':';
+    const auto high = std::from_chars(has_colon ? low.ptr + 1 : end, end, range.high);
+    if (!has_colon || high.ec != std::errc() || high.ptr != end || range.low < 0.1 || range.high > 100.0 ||
+        range.low >= range.high)
+        throw UsageError(fmt::format(
+            "--visibility '{}' is not a range; write LOW:HIGH between 0.1 and 100, such as 0.5:10", text));
+    return range;
+}
+
 TrialOptions trial_options_of(const Invocation& invocation) {
     TrialOptions options;
     options.cases = static_cast<int>(invocation.integer("cases"));
@@ -34,7 +48,18 @@ TrialOptions trial_options_of(const Invocation& invocation) {
     options.length = invocation.text("length") == "short" ? gap_trial::RecordingLength::brief
                                                           : gap_trial::RecordingLength::standard;
     options.nominal_error = invocation.has("nominal-error") ? nominal_error : 0.0;
+    if (invocation.text("kind") == "rigs") options.kind = gap_trial::TrialKind::rigs;
+    options.nuisances = invocation.has("nuisances");
+    options.mixtures = invocation.number("mixtures");
+    if (invocation.has("visibility")) options.visibility = visibility_of(invocation.text("visibility"));
     if (invocation.has("only")) options.only = gap_trial::truth_group_named(invocation.text("only"));
+    const bool needs_rigs = options.only == gap_trial::TruthGroup::three;
+    const bool needs_benches =
+        options.only == gap_trial::TruthGroup::parameter || options.only == gap_trial::TruthGroup::foreign;
+    const bool is_rigs = options.kind == gap_trial::TrialKind::rigs;
+    if ((needs_rigs && !is_rigs) || (needs_benches && is_rigs))
+        throw UsageError(fmt::format("--only '{}' needs --kind {}", invocation.text("only"),
+                                     needs_rigs ? "rigs" : "benches"));
     return options;
 }
 
@@ -129,6 +154,16 @@ Command gap_trial_command() {
                     .low = 0,
                     .high = 9e15},
              Option{
+                 .name = "kind",
+                 .value = "benches|rigs",
+                 .meaning =
+                     "benches: four benches, one cause as a rule, correct nominal numbers. rigs: benches and "
+                     "drives of drawn geometry with sensor zeros, pulley friction and nominal numbers 7 to "
+                     "20% off; none to three causes, of which a third shows at 0.5 to 1.4 times noise and "
+                     "floor; irregular motion; conditions of runs that a number may follow.",
+                 .default_value = "benches",
+                 .choices = {"benches", "rigs"}},
+             Option{
                  .name = "severity",
                  .value = "mild|strong|both",
                  .meaning =
@@ -136,6 +171,22 @@ Command gap_trial_command() {
                      "times.",
                  .default_value = "both",
                  .choices = {"mild", "strong", "both"}},
+             Option{
+                 .name = "visibility",
+                 .value = "LOW:HIGH",
+                 .meaning =
+                     "Draw how far each effect exceeds noise and model floor from this range (log-uniform, "
+                     "each effect of a mixture on its own), in place of --severity. Default for rigs: 0.5:10."},
+             Option{.name = "mixtures",
+                    .kind = OptionKind::number,
+                    .value = "F",
+                    .meaning = "Fraction of the benches that have two effects.",
+                    .default_value = "0.1",
+                    .low = 0,
+                    .high = 0.69},
+             Option{.name = "nuisances",
+                    .kind = OptionKind::flag,
+                    .meaning = "Add sensor zeros and pulley friction to every bench, as rigs have them."},
              Option{.name = "noise",
                     .kind = OptionKind::number,
                     .value = "F",
@@ -153,9 +204,9 @@ Command gap_trial_command() {
                  .value = "GROUP",
                  .meaning =
                      "Generate recordings of one kind only: 'none' (no gap, to measure the false-alarm rate), "
-                     "'one effect', 'two effects', 'wrong parameter', 'outside the catalogue'. Default: a mix of "
-                     "all.",
-                 .choices = {"none", "one effect", "two effects", "wrong parameter",
+                     "'one effect', 'two effects', 'wrong parameter', 'outside the catalogue', or of rigs 'three "
+                     "effects'. Default: a mix of all.",
+                 .choices = {"none", "one effect", "two effects", "three effects", "wrong parameter",
                              "outside the catalogue"}},
              Option{.name = "nominal-error",
                     .kind = OptionKind::flag,
@@ -175,10 +226,13 @@ Command gap_trial_command() {
                      "Check FILE (a kept labels.json) against its hash and score the stored answers beside it "
                      "again."},
              jobs_option, output_option, json_option, progress_option, help_option},
-        .examples = {"capstan gap-trial --cases 200",
-                     "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
-                     "capstan gap-trial --cases 400 --only none --length short",
-                     "capstan gap-trial --unseal trial/labels.json"},
+        .examples =
+            {"capstan gap-trial --cases 200",
+             "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",
+             "capstan gap-trial --cases 400 --only none --length short",
+             "capstan gap-trial --kind rigs --cases 40 --keep rigs --generate-only",
+             "capstan gap-trial --cases 100 --visibility 0.5:10 --mixtures 0.4 --nuisances --nominal-error",
+             "capstan gap-trial --unseal trial/labels.json"},
         .run = run_gap_trial};
 }
 

@@ -20,7 +20,10 @@ LumpedCableNumbers cable_numbers(const TrialBench& bench, const TrialRun& run, c
         effects.friction_ratio *
         std::lerp(bench.nominal.dynamic_friction, bench.nominal.static_friction, options.static_fraction);
     numbers.pretension_N = effects.pretension_ratio * run.pretension_N;
-    numbers.damping_s = options.damping_s;
+    numbers.damping_s =
+        options.damping_fraction > 0.0
+            ? options.damping_fraction * LumpedCable::stable_time_step_s(numbers, options.masses)
+            : options.damping_s;
     numbers.loss_stiffness_ratio = options.loss_stiffness_ratio;
     numbers.loss_time_s = options.loss_time_s;
     numbers.session_start_s = run.session_start_s;
@@ -125,6 +128,51 @@ TrueRun run_pair(const TrialBench& bench, const TrialRun& run, const TrueEffects
     return result;
 }
 
+// A servo turns the motor, a load motor resists: a drive between two shafts.
+TrueRun run_drive(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
+                  const LumpedBenchOptions& options) {
+    LumpedCableNumbers numbers = cable_numbers(bench, run, effects, options);
+    const int steps = steps_per_fine_sample(numbers, options.masses);
+    const double dt = 1.0 / (fine_rate_Hz * steps);
+    LumpedCable a(numbers, effects, options.masses, dt);
+    numbers.is_cable_b = true;
+    LumpedCable b(numbers, effects, options.masses, dt);
+    MotorSide motor(bench.nominal.rotor_inertia_kg_m2, effects, dt);
+    LoadSide load(bench.nominal.load_pulley_inertia_kg_m2, effects, dt);
+    const Rim rim{bench.nominal.load_radius_m, effects.lobed_pulley};
+    const double motor_radius_m = bench.nominal.motor_radius_m;
+    const MotionBetweenSamples input(run.motor_angle_rad, fine_rate_Hz);
+    const MotionBetweenSamples resisting(run.load_torque_Nm, fine_rate_Hz);
+
+    TrueRun result;
+    result.values.resize(bench.channels().size());
+    FineSample sample(bench, result);
+    sample.add(0.0, 0.0, 0.0, run.load_torque_Nm.front(), a, &b);
+    sample.finish(1);
+    for (std::size_t fine = 0; fine + 1 < run.motor_angle_rad.size(); ++fine) {
+        for (int step = 1; step <= steps; ++step) {
+            const double fraction = static_cast<double>(step) / steps;
+            const MotionBetweenSamples::Point rotor = input.at(fine, fraction);
+            const double load_Nm = resisting.at(fine, fraction).value;
+            const double arm_m = rim.arm_m(load.pulley_rad());
+            const CableEnds ends{-motor_radius_m * motor.pulley_rad(),
+                                 -motor_radius_m * motor.pulley_rad_per_s(),
+                                 -rim.taken_up_m(load.pulley_rad()), -arm_m * load.pulley_rad_per_s()};
+            a.step(ends);
+            b.step({-ends.motor_m, -ends.motor_m_per_s, -ends.load_m, -ends.load_m_per_s});
+            const double motor_Nm =
+                motor.step_prescribed(rotor, motor_radius_m * (a.motor_tension_N() - b.motor_tension_N()));
+            load.step_against(load_Nm, arm_m * (a.load_tension_N() - b.load_tension_N()));
+            sample.add(motor_Nm, motor.rotor_rad(), load.pulley_rad(), load_Nm, a, &b);
+        }
+        sample.finish(steps);
+        const double session_s = run.session_start_s + static_cast<double>(fine + 1) / fine_rate_Hz;
+        a.follow(load.pulley_rad(), session_s, 1.0 / fine_rate_Hz);
+        b.follow(load.pulley_rad(), session_s, 1.0 / fine_rate_Hz);
+    }
+    return result;
+}
+
 TrueRun run_single(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
                    const LumpedBenchOptions& options) {
     const LumpedCableNumbers numbers = cable_numbers(bench, run, effects, options);
@@ -133,6 +181,7 @@ TrueRun run_single(const TrialBench& bench, const TrialRun& run, const TrueEffec
     const MotionBetweenSamples input(run.motor_angle_rad, fine_rate_Hz);
     const double motor_radius_m = bench.nominal.motor_radius_m;
     const double load_radius_m = bench.nominal.load_radius_m;
+    MotorSide motor(0.0, effects, 1.0 / (fine_rate_Hz * steps));
 
     TrueRun result;
     result.values.resize(bench.channels().size());
@@ -144,7 +193,7 @@ TrueRun run_single(const TrialBench& bench, const TrialRun& run, const TrueEffec
         for (int step = 1; step <= steps; ++step) {
             const MotionBetweenSamples::Point now = input.at(fine, static_cast<double>(step) / steps);
             cable.step({-motor_radius_m * now.value, -motor_radius_m * now.speed, 0.0, 0.0});
-            sample.add(motor_radius_m * cable.motor_tension_N(), now.value, 0.0,
+            sample.add(motor.step_prescribed(now, motor_radius_m * cable.motor_tension_N()), now.value, 0.0,
                        load_radius_m * cable.load_tension_N(), cable, nullptr);
         }
         sample.finish(steps);
@@ -158,8 +207,12 @@ TrueRun run_single(const TrialBench& bench, const TrialRun& run, const TrueEffec
 
 TrueRun run_lumped_bench(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
                          const LumpedBenchOptions& options) {
-    return bench.is_pair() ? run_pair(bench, run, effects, options)
-                           : run_single(bench, run, effects, options);
+    const TrueEffects now = effects.under(run.conditions);
+    TrueRun result = bench.is_drive()  ? run_drive(bench, run, now, options)
+                     : bench.is_pair() ? run_pair(bench, run, now, options)
+                                       : run_single(bench, run, now, options);
+    result.conditions = run.conditions;
+    return result;
 }
 
 }  // namespace capstan::gap_trial

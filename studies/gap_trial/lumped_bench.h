@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "capstan/gap_trial/trial_bench.h"
@@ -11,6 +13,9 @@ namespace capstan::gap_trial {
 struct LumpedBenchOptions {
     int masses = 60;  ///< of a cable
     double damping_s = 1e-5;
+    /// In place of it, as a fraction of the longest stable time step, for cables of any length and stiffness:
+    /// above about 1 the chain is unstable. 0: not used.
+    double damping_fraction = 0.0;
     /// Losses of a wire rope at the frequencies of the rotor on its cables (20 to 60 Hz); the oscillation
     /// decays in 0.1 s.
     double loss_stiffness_ratio = 0.3;
@@ -25,9 +30,10 @@ struct LumpedBenchOptions {
 /// steps of a sample.
 struct TrueRun {
     std::vector<std::vector<double>> values;  // channels (as of the bench) x fine samples
+    std::map<std::string, double> conditions;
 };
 
-/// Simulates a run on the true bench, from rest at its pretension.
+/// Simulates a run on the true bench, from rest at its pretension, under the run's conditions.
 TrueRun run_lumped_bench(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
                          const LumpedBenchOptions& options = {});
 

@@ -38,6 +38,8 @@ struct CableEnds {
 /// Written apart from the engine's quasi-static step and with none of its code.
 class LumpedCable {
   public:
+    static constexpr std::size_t slip_element_count = 4;
+
     /// `time_step_s` must be stable: see `stable_time_step_s`.
     LumpedCable(const LumpedCableNumbers& numbers, const TrueEffects& effects, int masses,
                 double time_step_s);
@@ -63,6 +65,7 @@ class LumpedCable {
     void move_masses();
     void move_masses_one_way();
     void move_masses_on_bristles();
+    void move_masses_on_slip_elements();
     void update_friction(double load_angle_rad, double elapsed_s);
     void update_creep(double elapsed_s);
     void update_pretension(double session_time_s);
@@ -88,6 +91,7 @@ class LumpedCable {
     std::vector<double> hold_sliding_;     // speed that friction takes in a step, per newton of tension
     std::vector<double> hold_static_;
     std::vector<double> bristle_;  // parts of full friction
+    std::vector<double> slip_;     // masses x elements, parts of each one's friction
     std::vector<double> slow_speed_m_per_s_;
     std::vector<double> warmth_;
     // springs: one more than masses

@@ -41,9 +41,7 @@ MotorSide::MotorSide(double nominal_inertia_kg_m2, const TrueEffects& effects, d
 
 void MotorSide::step(double motor_torque_Nm, double cable_torque_Nm) {
     double drive_Nm = motor_torque_Nm;
-    if (cogging_.amplitude_Nm != 0.0)
-        drive_Nm -=
-            cogging_.amplitude_Nm * std::sin(cogging_.periods_per_turn * rotor_rad_ + cogging_.phase_rad);
+    if (cogging_.amplitude_Nm != 0.0) drive_Nm -= cogging_.torque_Nm(rotor_rad_);
     if (half_gap_rad_ > 0.0) {
         step_with_lost_motion(drive_Nm, cable_torque_Nm);
         return;
@@ -58,18 +56,42 @@ void MotorSide::step(double motor_torque_Nm, double cable_torque_Nm) {
 }
 
 void MotorSide::step_with_lost_motion(double drive_Nm, double cable_torque_Nm) {
+    const double flank_Nm = flank_torque_Nm();
+    rotor_rad_per_s_ += time_step_s_ / rotor_kg_m2_ * (drive_Nm - flank_Nm);
+    rotor_rad_ += time_step_s_ * rotor_rad_per_s_;
+    move_pulley(flank_Nm, cable_torque_Nm);
+}
+
+double MotorSide::flank_torque_Nm() const {
     const double pressed_rad = beyond_gap(rotor_rad_ - pulley_rad_, half_gap_rad_);
     double flank_Nm = motor_flank_Nm_per_rad * pressed_rad;
     if (pressed_rad != 0.0) flank_Nm += motor_flank_Nms * (rotor_rad_per_s_ - pulley_rad_per_s_);
-    if (flank_Nm * pressed_rad < 0.0) flank_Nm = 0.0;  // flanks push, they do not pull
-    const double rotor_per_Nm = time_step_s_ / rotor_kg_m2_;
+    return flank_Nm * pressed_rad < 0.0 ? 0.0 : flank_Nm;  // flanks push, they do not pull
+}
+
+void MotorSide::move_pulley(double flank_Nm, double cable_torque_Nm) {
     const double pulley_per_Nm = time_step_s_ / pulley_kg_m2_;
-    rotor_rad_per_s_ += rotor_per_Nm * (drive_Nm - flank_Nm);
     const double free = (pulley_rad_per_s_ + pulley_per_Nm * (flank_Nm - cable_torque_Nm)) /
                         (1.0 + pulley_per_Nm * bearing_.viscous_Nms);
     pulley_rad_per_s_ = slowed(free, pulley_per_Nm * bearing_.coulomb_Nm);
-    rotor_rad_ += time_step_s_ * rotor_rad_per_s_;
     pulley_rad_ += time_step_s_ * pulley_rad_per_s_;
+}
+
+double MotorSide::step_prescribed(const MotionBetweenSamples::Point& rotor, double cable_torque_Nm) {
+    rotor_rad_ = rotor.value;
+    rotor_rad_per_s_ = rotor.speed;
+    double torque_Nm = rotor_kg_m2_ * rotor.acceleration;
+    if (cogging_.amplitude_Nm != 0.0) torque_Nm += cogging_.torque_Nm(rotor_rad_);
+    if (half_gap_rad_ > 0.0) {
+        const double flank_Nm = flank_torque_Nm();
+        move_pulley(flank_Nm, cable_torque_Nm);
+        return torque_Nm + flank_Nm;
+    }
+    pulley_rad_ = rotor_rad_;
+    pulley_rad_per_s_ = rotor_rad_per_s_;
+    bristle_ = std::clamp(bristle_ + time_step_s_ * rotor_rad_per_s_ / bearing_bristle_rad, -1.0, 1.0);
+    return torque_Nm + cable_torque_Nm + bearing_.coulomb_Nm * bristle_ +
+           bearing_.viscous_Nms * rotor_rad_per_s_;
 }
 
 LoadSide::LoadSide(double nominal_inertia_kg_m2, const TrueEffects& effects, double time_step_s)
@@ -88,6 +110,15 @@ double LoadSide::bearing_torque_Nm() {
     if (bearing_.coulomb_Nm == 0.0 && bearing_.viscous_Nms == 0.0) return 0.0;
     bristle_ = std::clamp(bristle_ + time_step_s_ * pulley_rad_per_s_ / bearing_bristle_rad, -1.0, 1.0);
     return bearing_.coulomb_Nm * bristle_ + bearing_.viscous_Nms * pulley_rad_per_s_;
+}
+
+void LoadSide::step_against(double resisting_Nm, double cable_torque_Nm) {
+    torque_Nm_ = resisting_Nm;
+    const double per_Nm = time_step_s_ / inertia_kg_m2_;
+    const double free = (pulley_rad_per_s_ + per_Nm * (cable_torque_Nm - resisting_Nm)) /
+                        (1.0 + per_Nm * bearing_.viscous_Nms);
+    pulley_rad_per_s_ = slowed(free, per_Nm * bearing_.coulomb_Nm);
+    pulley_rad_ += time_step_s_ * pulley_rad_per_s_;
 }
 
 void LoadSide::step(const MotionBetweenSamples::Point& hand, double cable_torque_Nm) {

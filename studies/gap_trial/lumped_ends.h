@@ -53,6 +53,8 @@ class MotorSide {
     MotorSide(double nominal_inertia_kg_m2, const TrueEffects& effects, double time_step_s);
 
     void step(double motor_torque_Nm, double cable_torque_Nm);
+    /// The same where a stiff servo prescribes the rotor's motion; returns the torque that this takes.
+    double step_prescribed(const MotionBetweenSamples::Point& rotor, double cable_torque_Nm);
     double pulley_rad() const { return pulley_rad_; }
     double pulley_rad_per_s() const { return pulley_rad_per_s_; }
     /// What the encoder on the rotor sees.
@@ -60,6 +62,8 @@ class MotorSide {
 
   private:
     void step_with_lost_motion(double drive_Nm, double cable_torque_Nm);
+    double flank_torque_Nm() const;
+    void move_pulley(double flank_Nm, double cable_torque_Nm);
 
     TrueBearing bearing_;
     TrueCogging cogging_;
@@ -69,6 +73,7 @@ class MotorSide {
     double time_step_s_;
     double rotor_rad_ = 0.0;
     double rotor_rad_per_s_ = 0.0;
+    double bristle_ = 0.0;  // of the bearing of a prescribed rotor, in parts of its Coulomb friction
     double pulley_rad_ = 0.0;
     double pulley_rad_per_s_ = 0.0;
 };
@@ -79,6 +84,8 @@ class LoadSide {
     LoadSide(double nominal_inertia_kg_m2, const TrueEffects& effects, double time_step_s);
 
     void step(const MotionBetweenSamples::Point& hand, double cable_torque_Nm);
+    /// The same where a load motor resists with a torque, and the pulley finds its own angle.
+    void step_against(double resisting_Nm, double cable_torque_Nm);
     double pulley_rad() const { return pulley_rad_; }
     double pulley_rad_per_s() const { return pulley_rad_per_s_; }
     /// What the load cell between pulley and hand feels.

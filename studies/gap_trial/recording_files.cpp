@@ -43,31 +43,49 @@ ordered_json nominal_json(const TrialBench& bench) {
     return json;
 }
 
-ordered_json sidecar(const std::string& name, const TrialBench& bench, const std::vector<TrialRun>& runs) {
+std::string_view mode_of(const TrialBench& bench) {
+    const BenchMode mode = bench.is_drive()  ? BenchMode::lumped_drive
+                           : bench.is_pair() ? BenchMode::pull_pull
+                                             : BenchMode::single_cable;
+    return mode_name(mode);
+}
+
+ordered_json bench_json(const std::string& name, const TrialBench& bench) {
     ordered_json units = {{"t", "s"}};
     for (const std::string& channel : bench.channels()) units[channel] = channel_unit(channel);
     ordered_json json = {{"case", name},
                          {"schema", 1},
-                         {"mode", bench.is_pair() ? "pull_pull" : "single_cable"},
-                         {"sample_rate_hz", logged_rate_Hz},
-                         {"units", units},
-                         {"nominal", nominal_json(bench)},
-                         {"noise_std", bench.noise_std},
-                         {"encoder_step", bench.encoder_step}};
+                         {"mode", mode_of(bench)},
+                         {"sample_rate_hz", bench.logged_rate_Hz},
+                         {"units", units}};
+    if (bench.is_drive()) {
+        json["nominal"] = ordered_json::object();
+        json["unknown"] = {"L", "R_profile", "r_input", "r_load", "K", "mu_d", "mu_s", "T0"};
+        json["encoder_step"] = bench.encoder_step;
+        return json;
+    }
+    json["nominal"] = nominal_json(bench);
+    json["noise_std"] = bench.noise_std;
+    json["encoder_step"] = bench.encoder_step;
     json["tension_sensors"] = ordered_json::array();
     for (const TensionSensor& sensor : bench.tension_sensors)
         json["tension_sensors"].push_back({{"channel", sensor.channel},
                                            {"cable", sensor.cable == CableName::b ? "B" : "A"},
                                            {"s", sensor.position_m}});
-    json["runs"] = ordered_json::array();
-    for (const TrialRun& run : runs)
-        json["runs"].push_back({{"run", run.number},
-                                {"protocol", run.protocol},
-                                {"t_session_start", run.session_start_s},
-                                {"duration", run.duration_s()},
-                                {"T0", run.pretension_N},
-                                {"output", run.output == OutputKind::locked ? "locked" : "handle"},
-                                {"driven", run.driven}});
+    return json;
+}
+
+ordered_json run_json(const TrialBench& bench, const TrialRun& run) {
+    ordered_json json = {{"run", run.number},
+                         {"protocol", run.protocol},
+                         {"t_session_start", run.session_start_s},
+                         {"duration", run.duration_s()}};
+    if (!bench.is_drive()) {
+        json["T0"] = run.pretension_N;
+        json["output"] = run.output == OutputKind::locked ? "locked" : "handle";
+    }
+    if (!run.conditions.empty()) json["condition"] = run.conditions;
+    json["driven"] = run.driven;
     return json;
 }
 
@@ -80,7 +98,7 @@ std::string samples_csv(const TrialBench& bench, const std::vector<TrialRun>& ru
     auto out = std::back_inserter(text);
     for (std::size_t run = 0; run < runs.size(); ++run) {
         for (std::size_t k = 0; k < logged[run].front().size(); ++k) {
-            fmt::format_to(out, "{},{:.3f}", runs[run].number, static_cast<double>(k) / logged_rate_Hz);
+            fmt::format_to(out, "{},{:.3f}", runs[run].number, static_cast<double>(k) / bench.logged_rate_Hz);
             for (std::size_t channel = 0; channel < channels.size(); ++channel)
                 fmt::format_to(out, ",{:.{}f}", logged[run][channel][k], digits_of(channels[channel]));
             text += "\n";
@@ -94,7 +112,10 @@ std::string samples_csv(const TrialBench& bench, const std::vector<TrialRun>& ru
 void write_recording(const std::filesystem::path& folder, const std::string& name, const TrialBench& bench,
                      const std::vector<TrialRun>& runs, const std::vector<SensedRun>& logged) {
     write_file(folder / (name + ".csv"), samples_csv(bench, runs, logged));
-    write_file(folder / (name + ".json"), sidecar(name, bench, runs).dump(2) + "\n");
+    ordered_json sidecar = bench_json(name, bench);
+    sidecar["runs"] = ordered_json::array();
+    for (const TrialRun& run : runs) sidecar["runs"].push_back(run_json(bench, run));
+    write_file(folder / (name + ".json"), sidecar.dump(2) + "\n");
 }
 
 }  // namespace capstan::gap_trial

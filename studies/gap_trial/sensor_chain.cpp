@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "capstan/rig/channel_names.h"
+
 namespace capstan::gap_trial {
 
 namespace {
@@ -29,12 +31,23 @@ void butterworth(std::vector<double>& signal, double corner_Hz, double rate_Hz) 
     }
 }
 
-void apply_hysteresis(std::vector<double>& signal, double half_width) {
+void apply_play(std::vector<double>& signal, double half_width) {
     double reading = signal.front();
     for (double& value : signal) {
         reading = std::clamp(reading, value - half_width, value + half_width);
         value = reading;
     }
+}
+
+void apply_hysteresis(std::vector<double>& signal, double half_width, double spread) {
+    if (spread == 0.0) {
+        apply_play(signal, half_width);
+        return;
+    }
+    std::vector<double> wide = signal;
+    apply_play(signal, (1.0 - spread) * half_width);
+    apply_play(wide, (1.0 + spread) * half_width);
+    for (std::size_t k = 0; k < signal.size(); ++k) signal[k] = 0.5 * (signal[k] + wide[k]);
 }
 
 void apply_lag(std::vector<double>& signal, double lag_s) {
@@ -57,9 +70,24 @@ void apply_delay(std::vector<double>& signal, double delay_s) {
     }
 }
 
+// The signs and the zero with which a drive's laboratory mounted its load sensors.
+void mount(const TrialBench& bench, const std::string& channel, std::vector<double>& signal) {
+    if (!bench.is_drive()) return;
+    const bool is_angle = channel == channel::load_angle;
+    if (!is_angle && channel != channel::load_torque) return;
+    const double sign = is_angle ? bench.load_angle_sign : bench.load_torque_sign;
+    const double zero = is_angle ? bench.load_angle_zero_rad : 0.0;
+    for (double& value : signal) value = zero + sign * value;
+}
+
 void apply(const TrueSensorFault& fault, std::vector<double>& signal) {
-    if (fault.hysteresis > 0.0) apply_hysteresis(signal, fault.hysteresis);
-    if (fault.lag_s > 0.0) apply_lag(signal, fault.lag_s);
+    if (fault.hysteresis > 0.0) apply_hysteresis(signal, fault.hysteresis, fault.hysteresis_spread);
+    if (fault.lag_s > 0.0 && fault.lag_in_two_stages) {
+        apply_lag(signal, 0.5 * fault.lag_s);
+        apply_lag(signal, 0.5 * fault.lag_s);
+    } else if (fault.lag_s > 0.0) {
+        apply_lag(signal, fault.lag_s);
+    }
     if (fault.delay_s != 0.0) apply_delay(signal, fault.delay_s);
     for (std::size_t k = 0; k < signal.size(); ++k) {
         double& value = signal[k];
@@ -88,13 +116,15 @@ SensedRun sense(const TrialBench& bench, const TrueRun& run,
                 const std::map<std::string, TrueSensorFault>& faults) {
     const std::vector<std::string> channels = bench.channels();
     SensedRun sensed(channels.size());
-    constexpr int stride = fine_rate_Hz / logged_rate_Hz;
+    const int stride = fine_rate_Hz / bench.logged_rate_Hz;
     for (std::size_t channel = 0; channel < channels.size(); ++channel) {
         std::vector<double> signal = run.values[channel];
+        mount(bench, channels[channel], signal);
         const auto fault = faults.find(channels[channel]);
         if (fault != faults.end()) apply(fault->second, signal);
         if (!channels[channel].ends_with("_angle")) zero_phase_low_pass(signal, cutoff_Hz, fine_rate_Hz);
-        for (std::size_t k = 0; k < signal.size(); k += stride) sensed[channel].push_back(signal[k]);
+        for (std::size_t k = 0; k < signal.size(); k += static_cast<std::size_t>(stride))
+            sensed[channel].push_back(signal[k]);
     }
     return sensed;
 }

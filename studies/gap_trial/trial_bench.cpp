@@ -25,6 +25,10 @@ std::vector<CurvaturePiece> routing(BenchKind kind) {
             return {{0.6, nearly_straight_radius_m}, {0.8, tight_radius_m}, {0.6, nearly_straight_radius_m}};
         case BenchKind::single_cable:
             return {{length_m, 0.80}};
+        case BenchKind::rig_pair:
+        case BenchKind::rig_single:
+        case BenchKind::rig_drive:
+            break;  // drawn with the rig
     }
     return {};
 }
@@ -53,6 +57,12 @@ std::string bench_kind_name(BenchKind kind) {
             return "one_bend";
         case BenchKind::single_cable:
             return "single_cable";
+        case BenchKind::rig_pair:
+            return "rig_pair";
+        case BenchKind::rig_single:
+            return "rig_single";
+        case BenchKind::rig_drive:
+            return "rig_drive";
     }
     return "";
 }

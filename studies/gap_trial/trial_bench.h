@@ -10,7 +10,9 @@
 namespace capstan::gap_trial {
 
 /// The benches of a trial, of very different friction: 7.1, 2.9, 2.9 and 2.5 rad of wrap.
-enum class BenchKind { uniform_tight, uniform_wide, one_bend, single_cable };
+/// `rig_` kinds have a geometry of their own in each case: a pair, a single cable, a drive of unknown
+/// geometry.
+enum class BenchKind { uniform_tight, uniform_wide, one_bend, single_cable, rig_pair, rig_single, rig_drive };
 
 inline constexpr BenchKind all_bench_kinds[] = {BenchKind::uniform_tight, BenchKind::uniform_wide,
                                                 BenchKind::one_bend, BenchKind::single_cable};
@@ -26,8 +28,16 @@ struct TrialBench {
     std::map<std::string, double> noise_std;     // by channel, as the lab states it
     std::map<std::string, double> encoder_step;  // by channel
     std::vector<TensionSensor> tension_sensors;
+    /// The engine's error without any effect, by channel; empty for the benches whose floor was measured.
+    std::map<std::string, double> floor;
+    int logged_rate_Hz = 200;
+    // Of a drive: the signs of its sensors, as its laboratory mounted them.
+    double load_angle_sign = 1.0;
+    double load_torque_sign = 1.0;
+    double load_angle_zero_rad = 0.0;
 
-    bool is_pair() const { return kind != BenchKind::single_cable; }
+    bool is_pair() const { return kind != BenchKind::single_cable && kind != BenchKind::rig_single; }
+    bool is_drive() const { return kind == BenchKind::rig_drive; }
     double length_m() const;
     /// Columns of a recording: motor_torque, motor_angle, load_angle, load_torque, tensions.
     std::vector<std::string> channels() const;

@@ -12,20 +12,69 @@ namespace {
 
 constexpr int max_attempts = 40;
 
-struct Streams {
-    TrialStream bench;
-    TrialStream motion;
-    TrialStream effect;
-    TrialStream noise;
-    TrialStream nominal;
-
-    Streams(std::uint64_t seed, int index)
-        : bench(seed, index, DrawTopic::bench),
-          motion(seed, index, DrawTopic::motion),
-          effect(seed, index, DrawTopic::effect),
-          noise(seed, index, DrawTopic::noise),
-          nominal(seed, index, DrawTopic::nominal_error) {}
+// A bench and its session before any effect.
+struct Setup {
+    TrialBench bench;
+    std::vector<TrialRun> runs;
+    TrueEffects effects;
+    std::vector<TrueRun> truth;
+    SensedSession sensed;
+    std::vector<Nuisance> nuisances;
 };
+
+bool all_fit(const PlannedCase& planned, const Setup& setup) {
+    return std::all_of(planned.makers.begin(), planned.makers.end(),
+                       [&](const EffectMaker& maker) { return fits(maker, setup.bench, setup.runs); });
+}
+
+Setup draw_setup(const TrialOptions& options, CaseStreams& draws) {
+    Setup setup;
+    const BenchKind kind =
+        all_bench_kinds[draws.bench.integer_below(static_cast<int>(std::size(all_bench_kinds)))];
+    setup.bench = make_trial_bench(kind, options.noise_factor, draws.bench);
+    setup.runs = draw_session(setup.bench, options.length, draws.motion);
+    setup.effects.friction_ratio = std::exp(options.nominal_error * draws.nominal.normal());
+    setup.effects.stiffness_ratio = std::exp(options.nominal_error * draws.nominal.normal());
+    setup.effects.pretension_ratio = std::exp(options.nominal_error * draws.nominal.normal());
+    if (options.nuisances)
+        setup.nuisances =
+            add_nuisances({setup.bench, setup.runs.front().pretension_N}, setup.effects, draws.nuisance);
+    return setup;
+}
+
+// Adds each effect at its severity, measured alone; none if one of them cannot reach it on this bench.
+std::optional<std::vector<TrueCause>> add_effects(const PlannedCase& planned, const TrialOptions& options,
+                                                  const Setup& setup, CaseStreams& draws, TrueEffects& all) {
+    const std::map<std::string, double> spans = spans_of(setup.bench, setup.sensed);
+    const EffectSetting setting{setup.bench, setup.runs, spans};
+    if (planned.makers.empty()) return std::vector<TrueCause>{};
+    const Baseline baseline = make_baseline(setup.bench, setup.runs, setup.effects, setup.sensed);
+    const EffectTrial trial{setup.bench, setup.runs, setup.effects,
+                            setup.truth, baseline,   {.zeros_float = options.nuisances}};
+    const VisibilityRange range = range_of(planned.severity);
+    std::vector<TrueCause> causes;
+    for (const EffectMaker& maker : planned.makers) {
+        const WithheldEffect effect = maker.draw(setting, draws.effect);
+        const double wanted =
+            options.visibility ? draws.effect.log_uniform(options.visibility->low, options.visibility->high)
+                               : draws.effect.log_uniform(1.1 * range.low, range.high / 1.1);
+        const auto sized = find_size(trial, effect, options.visibility ? around(wanted) : range, wanted);
+        if (!sized) return std::nullopt;
+        effect.apply(all, sized->size);
+        causes.push_back(as_cause(effect, *sized));
+    }
+    return causes;
+}
+
+}  // namespace
+
+CaseStreams::CaseStreams(std::uint64_t seed, int index)
+    : bench(seed, index, DrawTopic::bench),
+      motion(seed, index, DrawTopic::motion),
+      effect(seed, index, DrawTopic::effect),
+      noise(seed, index, DrawTopic::noise),
+      nominal(seed, index, DrawTopic::nominal_error),
+      nuisance(seed, index, DrawTopic::nuisance) {}
 
 std::map<std::string, double> spans_of(const TrialBench& bench, const SensedSession& session) {
     std::map<std::string, double> spans;
@@ -50,54 +99,8 @@ TrueCause as_cause(const WithheldEffect& effect, const SizedEffect& sized) {
             sized.size,
             effect.shape,
             sized.visibility.ratio,
-            sized.visibility.channel};
-}
-
-// A bench and its session before any effect.
-struct Setup {
-    TrialBench bench;
-    std::vector<TrialRun> runs;
-    TrueEffects effects;
-    std::vector<TrueRun> truth;
-    SensedSession sensed;
-};
-
-bool all_fit(const PlannedCase& planned, const Setup& setup) {
-    return std::all_of(planned.makers.begin(), planned.makers.end(),
-                       [&](const EffectMaker& maker) { return fits(maker, setup.bench, setup.runs); });
-}
-
-Setup draw_setup(const TrialOptions& options, Streams& draws) {
-    Setup setup;
-    const BenchKind kind =
-        all_bench_kinds[draws.bench.integer_below(static_cast<int>(std::size(all_bench_kinds)))];
-    setup.bench = make_trial_bench(kind, options.noise_factor, draws.bench);
-    setup.runs = draw_session(setup.bench, options.length, draws.motion);
-    setup.effects.friction_ratio = std::exp(options.nominal_error * draws.nominal.normal());
-    setup.effects.stiffness_ratio = std::exp(options.nominal_error * draws.nominal.normal());
-    setup.effects.pretension_ratio = std::exp(options.nominal_error * draws.nominal.normal());
-    return setup;
-}
-
-// Adds each effect at its severity, measured alone; none if one of them cannot reach it on this bench.
-std::optional<std::vector<TrueCause>> add_effects(const PlannedCase& planned, const Setup& setup,
-                                                  Streams& draws, TrueEffects& all) {
-    const std::map<std::string, double> spans = spans_of(setup.bench, setup.sensed);
-    const EffectSetting setting{setup.bench, setup.runs, spans};
-    if (planned.makers.empty()) return std::vector<TrueCause>{};
-    const Baseline baseline = make_baseline(setup.bench, setup.runs, setup.effects, setup.sensed);
-    const EffectTrial trial{setup.bench, setup.runs, setup.effects, setup.truth, baseline};
-    const VisibilityRange range = range_of(planned.severity);
-    std::vector<TrueCause> causes;
-    for (const EffectMaker& maker : planned.makers) {
-        const WithheldEffect effect = maker.draw(setting, draws.effect);
-        const double wanted = draws.effect.log_uniform(1.1 * range.low, range.high / 1.1);
-        const auto sized = find_size(trial, effect, range, wanted);
-        if (!sized) return std::nullopt;
-        effect.apply(all, sized->size);
-        causes.push_back(as_cause(effect, *sized));
-    }
-    return causes;
+            sized.visibility.channel,
+            effect.varies};
 }
 
 bool is_finite(const SensedSession& session) {
@@ -111,18 +114,21 @@ bool is_finite(const SensedSession& session) {
     return true;
 }
 
-}  // namespace
+VisibilityRange around(double visibility) {
+    constexpr double close = 1.2;
+    return {visibility / close, visibility * close};
+}
 
 CaseLabel make_case(const PlannedCase& planned, const TrialOptions& options,
                     const std::filesystem::path& folder) {
-    Streams draws(options.seed, planned.index);
+    CaseStreams draws(options.seed, planned.index);
     for (int attempt = 0; attempt < max_attempts; ++attempt) {
         Setup setup = draw_setup(options, draws);
         if (!all_fit(planned, setup)) continue;
         setup.truth = run_session(setup.bench, setup.runs, setup.effects);
         setup.sensed = sense_session(setup.bench, setup.truth, setup.effects);
         TrueEffects effects = setup.effects;
-        const auto causes = add_effects(planned, setup, draws, effects);
+        const auto causes = add_effects(planned, options, setup, draws, effects);
         if (!causes) continue;
         const SensedSession sensed =
             causes->empty()
@@ -138,12 +144,14 @@ CaseLabel make_case(const PlannedCase& planned, const TrialOptions& options,
         label.name = planned.name;
         label.group = planned.group;
         if (planned.group != TruthGroup::none) label.severity = planned.severity;
+        if (options.visibility) label.severity.reset();
         label.bench = bench_kind_name(setup.bench.kind);
         for (const TrialRun& run : setup.runs) label.protocols.push_back(run.protocol);
         label.causes = *causes;
         label.friction_ratio = effects.friction_ratio;
         label.stiffness_ratio = effects.stiffness_ratio;
         label.pretension_ratio = effects.pretension_ratio;
+        label.nuisances = setup.nuisances;
         return label;
     }
     throw std::runtime_error(fmt::format(

@@ -193,6 +193,10 @@ Pretensions pretensions_of(BenchKind kind) {
             return {3.2, 6.5, 2.8};
         case BenchKind::single_cable:
             return {25.0, 25.0, 25.0};
+        case BenchKind::rig_pair:
+        case BenchKind::rig_single:
+        case BenchKind::rig_drive:
+            break;  // drawn with the rig
     }
     return {};
 }
@@ -241,13 +245,17 @@ std::vector<TrialRun> draw_session(const TrialBench& bench, RecordingLength leng
                                        runs.front().output == OutputKind::locked;
         if (only_locked_tight) runs = {tunnel_run(16.0, runs.front().pretension_N, draws)};
     }
+    number_runs(runs, pause_between_runs_s);
+    return runs;
+}
+
+void number_runs(std::vector<TrialRun>& runs, double pause_s) {
     double start_s = 0.0;
     for (std::size_t k = 0; k < runs.size(); ++k) {
         runs[k].number = static_cast<int>(k) + 1;
         runs[k].session_start_s = start_s;
-        start_s += runs[k].duration_s() + pause_between_runs_s;
+        start_s += runs[k].duration_s() + pause_s;
     }
-    return runs;
 }
 
 }  // namespace capstan::gap_trial

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double none_fraction = 0.10;
 constexpr double foreign_fraction = 0.12;
-constexpr double mixture_fraction = 0.10;
 constexpr double parameter_fraction = 0.09;
 // The address of draws for the trial itself; no case has it.
 constexpr int trial_address = 0x7fffffff;
@@ -24,6 +23,30 @@ template <typename Item>
 void shuffle(std::vector<Item>& items, TrialStream& draws) {
     for (std::size_t k = items.size(); k > 1; --k)
         std::swap(items[k - 1], items[static_cast<std::size_t>(draws.integer_below(static_cast<int>(k)))]);
+}
+
+void number_cases(std::vector<PlannedCase>& plan, TrialStream& draws) {
+    shuffle(plan, draws);
+    for (std::size_t k = 0; k < plan.size(); ++k) {
+        plan[k].index = static_cast<int>(k) + 1;
+        plan[k].name = case_name(plan[k].index);
+    }
+}
+
+int causes_of(TruthGroup group) {
+    switch (group) {
+        case TruthGroup::none:
+            return 0;
+        case TruthGroup::catalogue:
+        case TruthGroup::parameter:
+        case TruthGroup::foreign:
+            return 1;
+        case TruthGroup::mixture:
+            return 2;
+        case TruthGroup::three:
+            return 3;
+    }
+    return 0;
 }
 
 // Deals items one after the other in a random order, and then again.
@@ -40,6 +63,18 @@ class Round {
     std::vector<EffectMaker> makers_;
     std::size_t turn_ = 0;
 };
+
+// What a bench with nuisances has anyway cannot be its cause. Where --severity holds, the first forms of the
+// effects stay, so that the seeds of such trials keep their bits.
+std::vector<EffectMaker> named_effects(const TrialOptions& options) {
+    if (!options.visibility && !options.nuisances) return catalogue_effects();
+    std::vector<EffectMaker> makers = with_own_forms(catalogue_effects());
+    if (options.nuisances)
+        std::erase_if(makers, [](const EffectMaker& maker) {
+            return maker.effect == "sensor_offset" || maker.effect == "pulley_friction";
+        });
+    return makers;
+}
 
 Severity severity_of(SeverityChoice choice, std::size_t turn) {
     if (choice == SeverityChoice::mild) return Severity::mild;
@@ -65,6 +100,10 @@ std::string length_name(RecordingLength length) {
     return length == RecordingLength::standard ? "standard" : "short";
 }
 
+std::string trial_kind_name(TrialKind kind) {
+    return kind == TrialKind::benches ? "benches" : "rigs";
+}
+
 std::string options_text(const TrialOptions& options) {
     nlohmann::ordered_json json = {{"cases", options.cases},
                                    {"seed", options.seed},
@@ -72,6 +111,10 @@ std::string options_text(const TrialOptions& options) {
                                    {"noise_factor", options.noise_factor},
                                    {"length", length_name(options.length)},
                                    {"nominal_error", options.nominal_error}};
+    if (options.kind != TrialKind::benches) json["kind"] = trial_kind_name(options.kind);
+    if (options.visibility) json["visibility"] = {options.visibility->low, options.visibility->high};
+    if (options.nuisances) json["nuisances"] = true;
+    if (options.mixtures != TrialOptions().mixtures) json["mixtures"] = options.mixtures;
     if (options.only) json["only"] = truth_group_name(*options.only);
     return json.dump(1) + "\n";
 }
@@ -92,13 +135,15 @@ std::string truth_group_name(TruthGroup group) {
             return "outside the catalogue";
         case TruthGroup::mixture:
             return "two effects";
+        case TruthGroup::three:
+            return "three effects";
     }
     return "";
 }
 
 std::optional<TruthGroup> truth_group_named(std::string_view name) {
     for (const TruthGroup group : {TruthGroup::none, TruthGroup::catalogue, TruthGroup::parameter,
-                                   TruthGroup::foreign, TruthGroup::mixture}) {
+                                   TruthGroup::foreign, TruthGroup::mixture, TruthGroup::three}) {
         if (truth_group_name(group) == name) return group;
     }
     return std::nullopt;
@@ -118,11 +163,12 @@ std::string effect_family(const std::string& effect) {
 
 std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
     TrialStream draws(options.seed, trial_address, DrawTopic::plan);
-    Round catalogue(catalogue_effects(), draws);
+    const std::vector<EffectMaker> effects = named_effects(options);
+    Round catalogue(effects, draws);
     Round parameters(wrong_parameters(), draws);
     Round foreign(foreign_causes(), draws);
-    Round firsts(catalogue_effects(), draws);
-    Round seconds(catalogue_effects(), draws);
+    Round firsts(effects, draws);
+    Round seconds(effects, draws);
     const auto number_of = [&](TruthGroup group, double fraction) {
         if (options.only) return *options.only == group ? options.cases : 0;
         return static_cast<int>(std::lround(fraction * options.cases));
@@ -138,7 +184,7 @@ std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
         add(TruthGroup::foreign, severity_of(options.severity, plan.size()), {foreign.next()});
     for (int k = number_of(TruthGroup::parameter, parameter_fraction); k > 0; --k)
         add(TruthGroup::parameter, severity_of(options.severity, plan.size()), {parameters.next()});
-    for (int k = number_of(TruthGroup::mixture, mixture_fraction); k > 0; --k) {
+    for (int k = number_of(TruthGroup::mixture, options.mixtures); k > 0; --k) {
         const EffectMaker& first = firsts.next();
         const EffectMaker* second = &seconds.next();
         while (effect_family(second->effect) == effect_family(first.effect)) second = &seconds.next();
@@ -150,11 +196,37 @@ std::vector<PlannedCase> plan_trial(const TrialOptions& options) {
         const std::size_t turn = catalogue.rounds() + plan.size();
         add(TruthGroup::catalogue, severity_of(options.severity, turn), {catalogue.next()});
     }
-    shuffle(plan, draws);
-    for (std::size_t k = 0; k < plan.size(); ++k) {
-        plan[k].index = static_cast<int>(k) + 1;
-        plan[k].name = case_name(plan[k].index);
-    }
+    number_cases(plan, draws);
+    return plan;
+}
+
+std::vector<PlannedCase> plan_rigs(const TrialOptions& options) {
+    TrialStream draws(options.seed, trial_address, DrawTopic::plan);
+    std::vector<PlannedCase> plan(static_cast<std::size_t>(options.cases));
+    // Each property is dealt in its proportion, and then shuffled on its own.
+    const auto deal = [&](const auto& set) {
+        shuffle(plan, draws);
+        for (std::size_t k = 0; k < plan.size(); ++k)
+            set(plan[k], (static_cast<double>(k) + 0.5) / static_cast<double>(plan.size()));
+    };
+    deal([&](PlannedCase& each, double at) {
+        each.group = at < 0.10   ? TruthGroup::none
+                     : at < 0.45 ? TruthGroup::catalogue
+                     : at < 0.75 ? TruthGroup::mixture
+                                 : TruthGroup::three;
+        if (options.only) each.group = *options.only;
+        each.causes = causes_of(each.group);
+    });
+    deal([](PlannedCase& each, double at) {
+        each.bench = at < 1.0 / 3.0   ? BenchKind::rig_drive
+                     : at < 5.0 / 6.0 ? BenchKind::rig_pair
+                                      : BenchKind::rig_single;
+    });
+    deal([](PlannedCase& each, double at) {
+        each.has_conditions = at < 0.4;
+        each.varies = at < 0.2 && each.causes > 0;
+    });
+    number_cases(plan, draws);
     return plan;
 }
 

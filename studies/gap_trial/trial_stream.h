@@ -8,7 +8,7 @@ namespace capstan::gap_trial {
 
 /// The purpose of a random number. Each purpose has its own stream, so that one more draw for one purpose
 /// changes nothing for the others.
-enum class DrawTopic : std::uint32_t { plan = 101, bench, motion, effect, noise, nominal_error };
+enum class DrawTopic : std::uint32_t { plan = 101, bench, motion, effect, noise, nominal_error, nuisance };
 
 /// Numbers of one case for one topic, in order. The same seed, case and topic give the same numbers on every
 /// machine and thread.

@@ -1,18 +1,22 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "capstan/effects/bends.h"
 
 namespace capstan::gap_trial {
 
-/// mu(v) = mu_d + extra exp(-|v| / speed), v low-passed with the memory.
+/// mu(v) = mu_d + extra exp(-|v| / speed), v low-passed with the memory; with a `power` (Hess and Soom 1990)
+/// mu_d + extra / (1 + (|v| / speed)^power).
 struct TrueStribeck {
     double extra_friction = 0.0;
     double speed_m_per_s = 0.05;
     double memory_s = 0.04;
+    double power = 0.0;  ///< 0: exponential
 };
 
 /// Bristles of LuGre's kind: dz/du = (1 - y (1 - softness + softness y)) / length with y = z sign(v);
@@ -22,9 +26,21 @@ struct TrueBristles {
     double softness = 0.0;
 };
 
+/// Elastic-plastic elements in parallel (Iwan 1966), each with a quarter of full friction: the first yields
+/// after 0.3 lengths, the last after 2.
+struct TrueSlipElements {
+    double length_m = 0.0;  ///< 0: none
+};
+
 /// mu = mu_d (N' / reference)^(exponent - 1), N' = T / R.
 struct TrueLoadDependence {
     double exponent = 1.0;
+    double reference_N_per_m = 10.0;
+};
+
+/// A contact whose real area saturates: mu = mu_d (1 + weight (1 - n) / (1 + n)), n = N' / reference.
+struct TrueSaturatingContact {
+    double weight = 0.0;
     double reference_N_per_m = 10.0;
 };
 
@@ -50,6 +66,15 @@ struct TrueCogging {
     double amplitude_Nm = 0.0;
     double periods_per_turn = 7.0;
     double phase_rad = 0.0;
+    double second_harmonic = 0.0;  ///< as a fraction of the first
+
+    double torque_Nm(double angle_rad) const {
+        const double phase = periods_per_turn * angle_rad + phase_rad;
+        const double first_Nm = amplitude_Nm * std::sin(phase);
+        return second_harmonic == 0.0
+                   ? first_Nm
+                   : first_Nm + second_harmonic * amplitude_Nm * std::sin(2.0 * phase + 1.0);
+    }
 };
 
 /// strain = T / EA + toe T / (T + tension): the toe is used up as the tension grows.
@@ -58,11 +83,12 @@ struct TrueToe {
     double tension_N = 10.0;
 };
 
-/// Two Kelvin-Voigt elements in series with the cable, the second three times as slow, sharing the
-/// compliance 7 to 3.
+/// Two Kelvin-Voigt elements in series with the cable.
 struct TrueCreep {
-    double ratio = 0.0;  ///< compliance of both, in parts of the cable's
-    double time_constant_s = 2.0;
+    double ratio = 0.0;            ///< compliance of both, in parts of the cable's
+    double time_constant_s = 2.0;  ///< of the first
+    double fast_fraction = 0.7;    ///< of the compliance, that the first has
+    double slow_factor = 3.0;      ///< time constant of the second over that of the first
 };
 
 /// T0 (1 - lost (1 - exp(-t / time))) over the session.
@@ -81,9 +107,11 @@ struct TrueSensorFault {
     double gain = 1.0;
     double offset = 0.0;
     double lag_s = 0.0;
+    bool lag_in_two_stages = false;  ///< of half the lag each
     double delay_s = 0.0;
     double step = 0.0;
     double hysteresis = 0.0;
+    double hysteresis_spread = 0.0;  ///< two plays of (1 - it) and (1 + it) times the half width
     // Outside the catalogue:
     double hum = 0.0;  ///< amplitude of a sine that has nothing to do with the motion
     double hum_Hz = 1.0;
@@ -120,6 +148,19 @@ struct PretensionDip {
     double width_s = 2.0;
 };
 
+/// A number that follows a condition x of the runs: by `amount` times x / scale, or times its square.
+struct ConditionedNumber {
+    enum class Which { friction, pretension, zero };
+    Which which = Which::friction;
+    std::string channel;    ///< of a zero
+    std::string condition;  ///< such as "roll_deg"
+    double amount = 0.0;    ///< of a logarithm; in the channel's unit for a zero
+    double scale = 1.0;
+    bool squared = false;
+
+    double change(const std::map<std::string, double>& conditions) const;
+};
+
 /// Everything that a bench has and its nominal model has not. By default there is no effect.
 struct TrueEffects {
     // Relative to the nominal numbers.
@@ -131,7 +172,9 @@ struct TrueEffects {
     double constant_drag_N_per_m = 0.0;
     TrueStribeck stribeck;
     TrueBristles bristles;
+    TrueSlipElements slip_elements;
     TrueLoadDependence load_dependence;
+    TrueSaturatingContact saturating_contact;
     TrueLocalBend local_bend;
     TrueMovingBend moving_bend;
     TrueBearing motor_bearing;
@@ -148,6 +191,10 @@ struct TrueEffects {
     TrueDrift drift;
     TrueCoupling coupling;
     std::map<std::string, TrueSensorFault> sensors;  // by channel
+    std::vector<ConditionedNumber> conditioned;
+
+    /// The effects in a run under these conditions: the conditioned numbers have become ratios and zeros.
+    TrueEffects under(const std::map<std::string, double>& conditions) const;
 
     double one_way_friction = 0.0;  ///< mu (1 + it) towards the load, (1 - it) towards the motor
     LobedPulley lobed_pulley;

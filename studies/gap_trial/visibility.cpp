@@ -14,6 +14,7 @@ namespace capstan::gap_trial {
 namespace {
 
 double floor_of(const TrialBench& bench, const TrialRun& run, const std::string& channel) {
+    if (!bench.floor.empty()) return bench.floor.at(channel);
     const bool locked = run.output == OutputKind::locked;
     if (channel == channel::motor_angle) return locked ? 3e-4 : 1.5e-3;
     if (channel == channel::motor_torque) return 1e-3;
@@ -54,11 +55,26 @@ struct ScaledChanges {
     std::map<std::string, double> samples_of_channel;
 };
 
-// How far off a lab's friction, stiffness or pretension may be without anybody calling it wrong.
-constexpr double max_move_log = 0.03;
+// What a zero of each channel leaves of every change.
+void remove_means(ScaledChanges& changes) {
+    for (const auto& [channel, rows] : changes.rows_of_channel) {
+        const double samples = changes.samples_of_channel.at(channel);
+        double effect = 0.0;
+        Eigen::RowVectorXd nominal = Eigen::RowVectorXd::Zero(changes.nominal.cols());
+        for (const auto& [first, count] : rows) {
+            effect += changes.effect.segment(first, count).sum() / samples;
+            nominal += changes.nominal.middleRows(first, count).colwise().sum() / samples;
+        }
+        for (const auto& [first, count] : rows) {
+            changes.effect.segment(first, count).array() -= effect;
+            changes.nominal.middleRows(first, count).rowwise() -= nominal;
+        }
+    }
+}
 
 ScaledChanges scaled_changes(const TrialBench& bench, const std::vector<TrialRun>& runs,
-                             const Baseline& baseline, const SensedSession& with) {
+                             const Baseline& baseline, const SensedSession& with,
+                             const NominalFreedom& freedom) {
     const std::vector<std::string> channels = bench.channels();
     ScaledChanges changes;
     Eigen::Index rows = 0;
@@ -88,9 +104,10 @@ ScaledChanges scaled_changes(const TrialBench& bench, const std::vector<TrialRun
             for (std::size_t n = 0; n < baseline.with_more.size(); ++n)
                 changes.nominal(row, static_cast<Eigen::Index>(n)) =
                     (baseline.with_more[n][run][channel][k] - without[k]) / scale *
-                    (max_move_log / Baseline::more_log);
+                    (freedom.max_move_log / Baseline::more_log);
         }
     });
+    if (freedom.zeros_float) remove_means(changes);
     return changes;
 }
 
@@ -125,8 +142,8 @@ Eigen::Vector3d bounded_moves(const Eigen::MatrixXd& columns, const Eigen::Vecto
 }  // namespace
 
 Visibility visibility(const TrialBench& bench, const std::vector<TrialRun>& runs, const Baseline& baseline,
-                      const SensedSession& with) {
-    const ScaledChanges changes = scaled_changes(bench, runs, baseline, with);
+                      const SensedSession& with, const NominalFreedom& freedom) {
+    const ScaledChanges changes = scaled_changes(bench, runs, baseline, with, freedom);
     const Eigen::Vector3d moves = bounded_moves(changes.nominal, changes.effect);
     const Eigen::VectorXd left = changes.effect - changes.nominal * moves;
     Visibility best;
@@ -140,13 +157,13 @@ Visibility visibility(const TrialBench& bench, const std::vector<TrialRun>& runs
 }
 
 Baseline make_baseline(const TrialBench& bench, const std::vector<TrialRun>& runs, const TrueEffects& before,
-                       const SensedSession& sensed) {
+                       const SensedSession& sensed, const LumpedBenchOptions& options) {
     Baseline baseline{sensed, {}};
     for (double TrueEffects::*ratio :
          {&TrueEffects::friction_ratio, &TrueEffects::stiffness_ratio, &TrueEffects::pretension_ratio}) {
         TrueEffects more = before;
         more.*ratio *= std::exp(Baseline::more_log);
-        baseline.with_more.push_back(sense_session(bench, run_session(bench, runs, more), more));
+        baseline.with_more.push_back(sense_session(bench, run_session(bench, runs, more, options), more));
     }
     return baseline;
 }
@@ -160,16 +177,17 @@ VisibilityRange range_of(Severity severity) {
 }
 
 std::vector<TrueRun> run_session(const TrialBench& bench, const std::vector<TrialRun>& runs,
-                                 const TrueEffects& effects) {
+                                 const TrueEffects& effects, const LumpedBenchOptions& options) {
     std::vector<TrueRun> truth;
-    for (const TrialRun& run : runs) truth.push_back(run_lumped_bench(bench, run, effects));
+    for (const TrialRun& run : runs) truth.push_back(run_lumped_bench(bench, run, effects, options));
     return truth;
 }
 
 SensedSession sense_session(const TrialBench& bench, const std::vector<TrueRun>& truth,
                             const TrueEffects& effects) {
     SensedSession session;
-    for (const TrueRun& run : truth) session.push_back(sense(bench, run, effects.sensors));
+    for (const TrueRun& run : truth)
+        session.push_back(sense(bench, run, effects.under(run.conditions).sensors));
     return session;
 }
 
@@ -185,10 +203,12 @@ std::optional<SizedEffect> find_size(const EffectTrial& trial, const WithheldEff
         TrueEffects effects = trial.before;
         effect.apply(effects, size);
         SensedSession with = sense_session(
-            trial.bench, effect.only_sensors ? trial.truth : run_session(trial.bench, trial.runs, effects),
+            trial.bench,
+            effect.only_sensors ? trial.truth
+                                : run_session(trial.bench, trial.runs, effects, trial.simulated),
             effects);
         round_to_steps(trial.bench, effects, with);
-        const Visibility seen = visibility(trial.bench, trial.runs, trial.baseline, with);
+        const Visibility seen = visibility(trial.bench, trial.runs, trial.baseline, with, trial.freedom);
         if (!std::isfinite(seen.ratio)) return std::nullopt;
         if (seen.ratio >= range.low && seen.ratio <= range.high) return SizedEffect{size, seen};
         if (seen.ratio < wanted) {

@@ -26,12 +26,18 @@ struct Baseline {
     static constexpr double more_log = 0.02;
 };
 
-/// The part of a change that remains when friction, stiffness and pretension each vary by up to 3% to
-/// reproduce it. A change that they reproduce cannot be attributed to an effect. In units of noise and of the
-/// model's floor, which is the error of a converged quasi-static model of this bench without any effect
-/// (oscillation and inertia; measured with the engine's twin and rounded).
+/// How far the nominal numbers are free to reproduce a change.
+struct NominalFreedom {
+    double max_move_log = 0.03;  ///< friction, stiffness, pretension, each
+    bool zeros_float = false;    ///< of all channels
+};
+
+/// The part of a change that remains when friction, stiffness and pretension each vary by up to 3% (or as
+/// stated) to reproduce it. A change that they reproduce cannot be attributed to an effect. In units of noise
+/// and of the model's floor, which is the error of a converged quasi-static model of this bench without any
+/// effect (oscillation and inertia; measured with the engine's twin and rounded).
 Visibility visibility(const TrialBench& bench, const std::vector<TrialRun>& runs, const Baseline& baseline,
-                      const SensedSession& with);
+                      const SensedSession& with, const NominalFreedom& freedom = {});
 
 enum class Severity { mild, strong };
 
@@ -51,6 +57,8 @@ struct EffectTrial {
     const TrueEffects& before;          ///< without the effect; nominal numbers may be a percent off
     const std::vector<TrueRun>& truth;  ///< with that
     const Baseline& baseline;           ///< of the same
+    NominalFreedom freedom{};
+    LumpedBenchOptions simulated{};
 };
 
 struct SizedEffect {
@@ -64,9 +72,9 @@ std::optional<SizedEffect> find_size(const EffectTrial& trial, const WithheldEff
 
 /// All runs with these effects; each on its own, in the order of the session.
 std::vector<TrueRun> run_session(const TrialBench& bench, const std::vector<TrialRun>& runs,
-                                 const TrueEffects& effects);
+                                 const TrueEffects& effects, const LumpedBenchOptions& options = {});
 Baseline make_baseline(const TrialBench& bench, const std::vector<TrialRun>& runs, const TrueEffects& before,
-                       const SensedSession& sensed);
+                       const SensedSession& sensed, const LumpedBenchOptions& options = {});
 SensedSession sense_session(const TrialBench& bench, const std::vector<TrueRun>& truth,
                             const TrueEffects& effects);
 

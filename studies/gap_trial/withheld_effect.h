@@ -26,6 +26,7 @@ struct WithheldEffect {
     double largest_size = 1.0;            ///< the bench cannot have more
     std::function<void(TrueEffects&, double size)> apply;
     bool only_sensors = false;  ///< the motion stays as it is
+    std::string varies;         ///< the run condition that the number follows; empty: none
 };
 
 /// The bench and session that an effect is drawn for.
@@ -46,6 +47,9 @@ struct EffectMaker {
 
 /// Effects that a diagnosis's catalogue has, wrong parameters, and causes outside of it.
 const std::vector<EffectMaker>& catalogue_effects();
+/// The same, where an effect has a form that neither the engine nor the first recordings of benches had: with
+/// that.
+std::vector<EffectMaker> with_own_forms(std::vector<EffectMaker> makers);
 const std::vector<EffectMaker>& wrong_parameters();
 const std::vector<EffectMaker>& foreign_causes();
 

@@ -36,6 +36,16 @@ bool JsonObject::has(const char* key) const {
     return find(key) != nullptr;
 }
 
+bool JsonObject::is_number(const char* key) const {
+    const nlohmann::json* value = find(key);
+    return value != nullptr && value->is_number();
+}
+
+bool JsonObject::is_object(const char* key) const {
+    const nlohmann::json* value = find(key);
+    return value != nullptr && value->is_object();
+}
+
 double JsonObject::number(const char* key) const {
     const nlohmann::json* value = find(key);
     if (value != nullptr && value->is_number()) return value->get<double>();

@@ -18,6 +18,8 @@ class JsonObject {
     JsonObject(const nlohmann::json& json, std::string place, ProblemList& problems);
 
     bool has(const char* key) const;
+    bool is_number(const char* key) const;
+    bool is_object(const char* key) const;
     double number(const char* key) const;
     double positive(const char* key) const;
     std::optional<double> optional_number(const char* key) const;

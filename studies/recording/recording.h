@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,6 +47,8 @@ struct RecordedRun {
     std::vector<std::string> driven;          ///< channels that a model takes as inputs
     std::vector<double> time_s;               // samples
     std::vector<std::vector<double>> values;  // channels x samples
+    /// What was set for the run and stays during it, as the sidecar names it, such as roll_deg.
+    std::map<std::string, double> conditions{};
 
     int samples() const { return static_cast<int>(time_s.size()); }
     bool drives(std::string_view channel) const;

@@ -90,6 +90,10 @@ const std::vector<RecordingKey> keys = {
      "\"handle\"", every},
     {"runs", "driven", "array of strings", "", "The channels that a model takes as inputs.",
      "those of the mode (see the channels)", "[\"motor_torque\", \"load_angle\"]", every},
+    {"runs", "condition", "object", "",
+     "What was set for the run and stays during it: a number for each condition, its unit in the name. A "
+     "diagnosis tells whether a number of the bench follows it.",
+     "none", "{\"roll_deg\": -45}", every},
     {"runs", "torque_zero_before_Nm", "number", "N m",
      "Reading of the unloaded motor torque sensor before the run.", "not known", "", every},
 };
@@ -146,6 +150,7 @@ ordered_json type_schema(const RecordingKey& key) {
     } else {
         schema = schema_of(inner_section(key));
         if (key.name == "units") schema["additionalProperties"]["type"] = "string";
+        if (key.name == "condition") schema["additionalProperties"]["type"] = "number";
         if (key.name == "noise_std" || key.name == "encoder_step")
             schema["additionalProperties"]["exclusiveMinimum"] = 0;
     }

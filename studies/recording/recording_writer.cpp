@@ -45,6 +45,7 @@ ordered_json run_json(const RecordedRun& run) {
     if (run.pretension_N) entry["T0"] = *run.pretension_N;
     if (run.output != OutputKind::unknown)
         entry["output"] = run.output == OutputKind::locked ? "locked" : "handle";
+    if (!run.conditions.empty()) entry["condition"] = run.conditions;
     entry["driven"] = run.driven;
     return entry;
 }

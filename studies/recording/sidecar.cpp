@@ -149,6 +149,25 @@ OutputKind output_of(const JsonObject& run) {
     return OutputKind::unknown;
 }
 
+std::map<std::string, double> conditions_of(const JsonObject& run) {
+    std::map<std::string, double> conditions;
+    if (!run.has("condition")) return conditions;
+    if (!run.is_object("condition")) {
+        run.add_problem("condition", "should be an object of numbers, such as {\"roll_deg\": -45}");
+        return conditions;
+    }
+    const JsonObject stated = run.object("condition");
+    for (const std::string& name : stated.keys()) {
+        // Words and lists of values have no order that a number could follow.
+        if (stated.is_number(name.c_str())) {
+            conditions[name] = stated.number(name.c_str());
+        } else {
+            stated.add_problem(name, "should be one number; give each state a number, such as 0 and 1");
+        }
+    }
+    return conditions;
+}
+
 RecordedRun run_of(const JsonObject& json, BenchMode mode) {
     RecordedRun run;
     run.number = json.integer("run");
@@ -158,6 +177,7 @@ RecordedRun run_of(const JsonObject& json, BenchMode mode) {
     run.session_start_s = json.optional_number("t_session_start").value_or(0.0);
     if (json.has("T0")) run.pretension_N = json.positive("T0");
     run.output = output_of(json);
+    run.conditions = conditions_of(json);
     run.driven = json.has("driven") ? json.texts("driven") : usual_driven_channels(mode);
     return run;
 }

@@ -65,12 +65,43 @@ class GapTrial(CapstanTest):
     def test_wrong_use(self):
         self.assertIn("--keep", self.run_capstan("gap-trial", "--generate-only", expect=2).stderr)
         self.assertIn("severity", self.run_capstan("gap-trial", "--severity", "weak", expect=2).stderr)
+        for wrong in ("3", "0.5:", "10:0.5", "0.5:10x"):
+            self.assertIn("LOW:HIGH", self.run_capstan("gap-trial", "--visibility", wrong, expect=2).stderr)
+        self.assertIn("--kind rigs", self.run_capstan("gap-trial", "--only", "three effects", expect=2).stderr)
+        self.assertIn("--kind benches", self.run_capstan("gap-trial", "--kind", "rigs", "--only", "wrong parameter",
+                                                         expect=2).stderr)
         self.run_capstan("gap-trial", "--unseal", "nowhere/labels.json", expect=2)
         self.generate()
         other = self.run_capstan("gap-trial", "--cases", 3, "--keep", "kept", expect=2)
         self.assertIn("holds a trial with other options", other.stderr)
         nobody = self.run_capstan("gap-trial", "--unseal", "kept/labels.json", expect=2)
         self.assertIn("no answers", nobody.stderr)
+
+
+class Rigs(CapstanTest):
+    def test_recordings_are_read_by_the_other_commands_and_the_labels_tell_nuisances_apart(self):
+        self.run_capstan("gap-trial", "--kind", "rigs", "--cases", 5, "--seed", 4, "--keep", "rigs", "--generate-only")
+        labels = json.loads((self.folder / "rigs/labels.json").read_text())
+        self.assertEqual(labels["kind"], "rigs")
+        self.assertEqual(len(labels["cases"]), 5)
+        stated = 0
+        for name, label in labels["cases"].items():
+            sidecar = json.loads((self.folder / f"rigs/{name}.json").read_text())
+            conditions = [set(run.get("condition", {})) for run in sidecar["runs"]]
+            self.assertEqual(conditions, [set(label.get("conditions", []))] * len(conditions))
+            stated += "conditions" in label
+            self.assertTrue(label["nuisances"])
+            checked = self.run_capstan("recording", "check", f"rigs/{name}").stdout
+            self.assertIn("can be used", checked)
+            for condition in label.get("conditions", []):
+                self.assertIn(condition, checked)
+        self.assertEqual(stated, 2)
+
+    def test_a_trial_without_causes(self):
+        self.run_capstan("gap-trial", "--kind", "rigs", "--only", "none", "--cases", 2, "--seed", 4, "--keep", "rigs",
+                         "--generate-only")
+        labels = json.loads((self.folder / "rigs/labels.json").read_text())
+        self.assertEqual([label["causes"] for label in labels["cases"].values()], [[], []])
 
 
 class WholeTrial(CapstanTest):

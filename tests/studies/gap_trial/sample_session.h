@@ -16,15 +16,19 @@ inline std::vector<TrialRun> sample_session(const TrialBench& bench) {
         return values;
     };
     if (!bench.is_pair()) {
-        TrialRun run{1, "single_sine", 0.0, 25.0, OutputKind::locked, {"motor_angle"}, {}, {}, {}};
+        TrialRun run{.protocol = "single_sine", .pretension_N = 25.0, .driven = {"motor_angle"}};
         run.motor_angle_rad = sine(0.4, 0.8, 2.5);
         return {run};
     }
-    TrialRun locked{1, "ramp_locked", 0.0, 6.0, OutputKind::locked, {"motor_torque", "load_angle"}, {}, {},
-                    {}};
+    TrialRun locked{.protocol = "ramp_locked", .pretension_N = 6.0, .driven = {"motor_torque", "load_angle"}};
     locked.motor_torque_Nm = sine(0.12, 0.8, 2.5);
     locked.load_angle_rad.assign(locked.motor_torque_Nm.size(), 0.0);
-    TrialRun moved{2, "sines", 5.0, 6.0, OutputKind::handle, {"motor_torque", "load_angle"}, {}, {}, {}};
+    TrialRun moved{.number = 2,
+                   .protocol = "sines",
+                   .session_start_s = 5.0,
+                   .pretension_N = 6.0,
+                   .output = OutputKind::handle,
+                   .driven = {"motor_torque", "load_angle"}};
     moved.load_angle_rad = sine(0.2, 0.8, 2.5);
     moved.motor_torque_Nm.assign(moved.load_angle_rad.size(), 0.0);
     return {locked, moved};

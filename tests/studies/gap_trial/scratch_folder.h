@@ -3,9 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
-
-#include "capstan/gap_trial/sealed_labels.h"
 
 namespace capstan::gap_trial {
 
@@ -13,7 +12,8 @@ namespace capstan::gap_trial {
 class ScratchFolder {
   public:
     ScratchFolder()
-        : path_(std::filesystem::temp_directory_path() / ("capstan-test-gap-trial-" + random_salt())) {
+        : path_(std::filesystem::temp_directory_path() /
+                ("capstan-test-gap-trial-" + std::to_string(std::random_device{}()))) {
         std::filesystem::create_directories(path_);
     }
     ~ScratchFolder() { std::filesystem::remove_all(path_); }

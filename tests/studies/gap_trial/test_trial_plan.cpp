@@ -63,6 +63,22 @@ TEST(TrialPlan, TheSeedDecides) {
     EXPECT_NE(order(1), order(2));
 }
 
+TEST(TrialPlan, WithNuisancesWhatEveryBenchHasIsNoCause) {
+    TrialOptions options;
+    options.cases = 200;
+    options.nuisances = true;
+    options.mixtures = 0.5;
+    int mixtures = 0;
+    for (const PlannedCase& planned : plan_trial(options)) {
+        mixtures += planned.group == TruthGroup::mixture ? 1 : 0;
+        for (const EffectMaker& maker : planned.makers) {
+            EXPECT_NE(maker.effect, "sensor_offset");
+            EXPECT_NE(maker.effect, "pulley_friction");
+        }
+    }
+    EXPECT_EQ(mixtures, 100);
+}
+
 TEST(TrialPlan, OneSeverityWhereOneIsAskedFor) {
     TrialOptions options;
     options.severity = SeverityChoice::mild;

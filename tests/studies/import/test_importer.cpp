@@ -241,6 +241,7 @@ driven = ["motor_angle"]
 run = 5
 protocol = "fast"
 driven = ["motor_angle"]
+condition = { roll_deg = -45 }
 )");
     const Recording recording = imported();
     ASSERT_EQ(recording.runs.size(), 2u);
@@ -248,6 +249,8 @@ driven = ["motor_angle"]
     EXPECT_EQ(recording.runs[0].protocol, "slow");
     EXPECT_EQ(recording.runs[1].number, 5);
     EXPECT_EQ(recording.runs[1].protocol, "fast");
+    EXPECT_TRUE(recording.runs[0].conditions.empty());
+    EXPECT_EQ(recording.runs[1].conditions, (std::map<std::string, double>{{"roll_deg", -45.0}}));
 }
 
 TEST_F(Importing, LeavesAConstantChannelOut) {

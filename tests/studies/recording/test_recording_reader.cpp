@@ -5,6 +5,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/recording/recording_reader.h"
+#include "capstan/recording/recording_writer.h"
 #include "sample_recording.h"
 
 namespace capstan::gap {
@@ -54,6 +55,19 @@ TEST(RecordingReader, ReadsWhatWasRecorded) {
             EXPECT_NEAR(read.runs[1].values[found][77], measured.runs[1].values[original][77], 1e-8);
         }
     }
+}
+
+TEST(RecordingReader, ReadsTheConditionsOfARunAndWritesThemAgain) {
+    RecordingFiles files = as_files(measured_session(true_parameters));
+    files.sidecar_json = replaced(files.sidecar_json, "\"T0\": 6.0, ",
+                                  "\"T0\": 6.0, \"condition\": {\"roll_deg\": -45, \"load\": 0.5}, ");
+    const TemporaryFolder folder;
+    const Recording read = read_recording(folder.write(files));
+    EXPECT_TRUE(read.runs[0].conditions.empty());
+    EXPECT_EQ(read.runs[1].conditions, (std::map<std::string, double>{{"load", 0.5}, {"roll_deg", -45.0}}));
+    const std::filesystem::path copy = folder.write(files).parent_path() / "copy.csv";
+    write_recording(copy, read);
+    EXPECT_EQ(read_recording(copy).runs[1].conditions, read.runs[1].conditions);
 }
 
 struct Fault {
@@ -155,6 +169,18 @@ const Fault faults[] = {
     {"MissingPretension",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"T0\": 6.0, ", ""); },
      {"runs[1].T0", "missing"}},
+    {"ConditionsAsAList",
+     [](RecordingFiles& f) {
+         f.sidecar_json = replaced(f.sidecar_json, "\"T0\": 6.0, ", "\"T0\": 6.0, \"condition\": [45], ");
+     },
+     {"runs[1].condition", "object of numbers", "roll_deg"}},
+    {"AConditionInWords",
+     [](RecordingFiles& f) {
+         f.sidecar_json =
+             replaced(f.sidecar_json, "\"T0\": 6.0, ",
+                      "\"T0\": 6.0, \"condition\": {\"weather\": \"dry\", \"roll_deg\": null}, ");
+     },
+     {"runs[1].condition.weather", "one number", "runs[1].condition.roll_deg"}},
     {"BrokenJson",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"runs\": [", "\"runs\": "); },
      {"bench.json", "is not JSON", "line"}},

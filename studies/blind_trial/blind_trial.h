@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "capstan/gap_trial/trial_folder.h"
-#include "capstan/gap_trial/trial_score.h"
+#include "capstan/blind_trial/trial_folder.h"
+#include "capstan/blind_trial/trial_score.h"
 
 namespace capstan::gap_trial {
 

@@ -14,13 +14,24 @@ struct ChannelRms {
     std::string channel;
     double before = 0.0;
     double after = 0.0;
+    std::optional<double> held_out{};  ///< in place of `after`, each run with numbers fitted to the others
+};
+
+/// One effect of an answer.
+struct AnsweredEffect {
+    std::string effect;
+    double probability = 0.0;  ///< its part of one hypothesis after another; sums to 1 over the effects
+    std::optional<double> present{};  ///< the probability that it is there at all
+    std::string varies{};             ///< the run condition that its number follows; empty: none
+
+    double presence() const { return present.value_or(probability); }
 };
 
 /// The part of a diagnosis that is scored.
 struct CaseAnswer {
     std::string name;
-    std::vector<gap::RankedEffect> ranked;  ///< best first
-    std::vector<std::string> named;         ///< effects that the verdict names: none, one, or two together
+    std::vector<AnsweredEffect> ranked;  ///< best first
+    std::vector<std::string> named;      ///< effects that the verdict names: none, one, or two together
     std::string component;
     std::string end;
     std::optional<double> position_m;

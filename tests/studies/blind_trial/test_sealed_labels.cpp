@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "capstan/blind_trial/sealed_labels.h"
+#include "capstan/blind_trial/trial_answer.h"
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/sealed_labels.h"
-#include "capstan/gap_trial/trial_answer.h"
 #include "capstan/platform/files.h"
 #include "scratch_folder.h"
 
@@ -52,6 +52,25 @@ TEST(SealedLabels, AreReadAsTheyWereWritten) {
     EXPECT_EQ(bytes_of(folder.path() / "labels.sha256"), seal + "  labels.json\n");
 }
 
+TEST(SealedLabels, KeepTheNuisancesAndConditionsOfARig) {
+    TrialLabels labels = sample_labels();
+    labels.options.kind = TrialKind::rigs;
+    labels.options.visibility = VisibilityRange{0.5, 10.0};
+    CaseLabel& rig = labels.cases.front();
+    rig.group = TruthGroup::three;
+    rig.severity.reset();
+    rig.causes.front().varies = "roll_deg";
+    rig.nuisances = {{"sensor_offset", "load_torque", -0.25}, {"param_mu", "", 0.125}};
+    rig.conditions = {"roll_deg"};
+    const TrialLabels back = read_labels(labels_text(labels), "labels.json");
+    EXPECT_EQ(labels_text(back), labels_text(labels));
+    EXPECT_EQ(back.options.kind, TrialKind::rigs);
+    EXPECT_EQ(back.options.visibility->high, 10.0);
+    EXPECT_EQ(back.cases.front().causes.front().varies, "roll_deg");
+    EXPECT_EQ(back.cases.front().nuisances.front().size, -0.25);
+    EXPECT_EQ(back.cases.front().conditions, std::vector<std::string>{"roll_deg"});
+}
+
 TEST(SealedLabels, AChangeIsDetected) {
     const ScratchFolder folder;
     const std::string seal = seal_labels(folder.path(), sample_labels());
@@ -91,9 +110,25 @@ TEST(CaseAnswer, IsReadAsItWasWrittenUnderItsSeal) {
     EXPECT_EQ(back.ranked.front().effect, "creep");
     EXPECT_EQ(back.ranked.back().probability, 0.25);
     EXPECT_EQ(back.position_m, 1.25);
+    EXPECT_FALSE(back.ranked.front().present);
     EXPECT_EQ(back.channels.front().after, 0.25);
+    EXPECT_FALSE(back.channels.front().held_out);
     EXPECT_EQ(back.named, std::vector<std::string>{"creep"});
     EXPECT_THROW(read_answer(file, "another"), InvalidInput);
+}
+
+TEST(CaseAnswer, KeepsWhatIsPresentAndWhatItFollows) {
+    const ScratchFolder folder;
+    CaseAnswer answer;
+    answer.name = "case001";
+    answer.ranked = {{"param_mu", 0.5, 0.99, "roll_deg"}, {"creep", 0.5, 0.75}};
+    answer.channels = {{"load_torque", 0.5, 0.25, 0.3125}};
+    write_answer(folder.path() / "case001.json", answer, "abc");
+    const CaseAnswer back = read_answer(folder.path() / "case001.json", "abc");
+    EXPECT_EQ(back.ranked.front().present, 0.99);
+    EXPECT_EQ(back.ranked.front().varies, "roll_deg");
+    EXPECT_EQ(back.ranked.back().varies, "");
+    EXPECT_EQ(back.channels.front().held_out, 0.3125);
 }
 
 }  // namespace

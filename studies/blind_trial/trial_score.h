@@ -4,25 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "capstan/gap_trial/sealed_labels.h"
-#include "capstan/gap_trial/trial_answer.h"
+#include "capstan/blind_trial/causes_score.h"
+#include "capstan/blind_trial/sealed_labels.h"
+#include "capstan/blind_trial/trial_answer.h"
 #include "capstan/recording/recording.h"
 
 namespace capstan::gap_trial {
-
-/// A count of hits among cases, with Wilson's 95% interval (1927) for the probability behind it.
-struct Fraction {
-    int hits = 0;
-    int of = 0;
-
-    void count(bool hit) {
-        ++of;
-        hits += hit ? 1 : 0;
-    }
-    double value() const { return of > 0 ? static_cast<double>(hits) / of : 0.0; }
-    double low() const;
-    double high() const;
-};
 
 /// The scores of one group of cases. Of two true effects either counts as a hit.
 struct GroupScore {
@@ -33,25 +20,18 @@ struct GroupScore {
     Fraction family;  ///< of the effect that leads
 };
 
-/// Stated probability of the leading effect against how often it was right.
-struct ReliabilityBin {
-    double from = 0.0;
-    double to = 0.0;
-    int cases = 0;
-    double mean_probability = 0.0;
-    double fraction_right = 0.0;
-};
-
 struct Calibration {
     /// Mean over cases of the squared distance of the stated probabilities from the truth (Brier 1950): 0 is
     /// perfect, 2 the worst. Two true effects hold half of the truth each.
     double brier = 0.0;
-    /// Expected calibration error: mean gap between stated and found, weighted by cases, in ten bins.
+    /// Expected calibration error: mean gap between stated and found, weighted by cases, in ten bins. The
+    /// stated probability is that of all effects named together, and all of them must be there.
     double ece = 0.0;
     std::vector<ReliabilityBin> bins;  ///< those that hold a case
 };
 
-/// The gap that the named causes leave, relative to the gap that the true causes leave.
+/// The gap that the named causes leave, relative to the gap that the true causes leave: on runs held out,
+/// where the answer states that.
 struct Shrinkage {
     int cases = 0;
     double median_before = 0.0;  ///< relative to the gap that the true cause leaves, as all three
@@ -67,6 +47,7 @@ struct TrialScore {
     Fraction needless_unknown;       ///< `unknown` where the catalogue has the cause
     Fraction both_of_mixtures;       ///< the first two are the two
     Calibration calibration;
+    CausesScore causes;
     // Of single causes that lead the answer.
     Fraction component;
     Fraction end;    ///< where the truth has one

@@ -1,4 +1,4 @@
-#include "capstan/gap_trial/blind_trial.h"
+#include "capstan/blind_trial/blind_trial.h"
 
 #include <fmt/format.h>
 
@@ -66,13 +66,15 @@ Reference read_reference(const std::filesystem::path& path, const std::string& n
 
 TrialLabels make_recordings(const TrialOptions& options, const std::filesystem::path& folder, int jobs,
                             const CaseProgress& on_progress) {
-    const std::vector<PlannedCase> plan = plan_trial(options);
+    const bool is_rigs = options.kind == TrialKind::rigs;
+    const std::vector<PlannedCase> plan = is_rigs ? plan_rigs(options) : plan_trial(options);
     TrialLabels labels{options, random_salt(), std::vector<CaseLabel>(plan.size())};
     std::mutex reporting;
     int done = 0;
     parallel_for_each_index(static_cast<int>(plan.size()), jobs, [&](int index) {
         const auto slot = static_cast<std::size_t>(index);
-        labels.cases[slot] = make_case(plan[slot], options, folder);
+        labels.cases[slot] =
+            is_rigs ? make_rig_case(plan[slot], options, folder) : make_case(plan[slot], options, folder);
         const std::lock_guard lock(reporting);
         on_progress("simulating", ++done, static_cast<int>(plan.size()));
     });
@@ -98,8 +100,7 @@ void answer_trial(const TrialFolder& folder, const TrialOptions& options, const 
         [&](const std::string& name) {
             gap::DiagnosisOptions one_thread;
             one_thread.threads = 1;
-            const Recording recording =
-                read_recording(folder.recording(name));
+            const Recording recording = read_recording(folder.recording(name));
             write_answer(folder.answer(name), answer_of(name, gap::diagnose(recording, one_thread)), seal);
         });
 }

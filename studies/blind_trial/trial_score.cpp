@@ -1,8 +1,8 @@
-#include "capstan/gap_trial/trial_score.h"
+#include "capstan/blind_trial/trial_score.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "capstan/platform/statistics.h"
@@ -18,26 +18,30 @@ constexpr double as_good_factor = 1.1;
 struct ScoredCase {
     const CaseLabel* label;
     const CaseAnswer* answer;
-    const Reference* reference;   // null: not known
-    std::set<std::string> truth;  // effects; `none` where there is none
+    const Reference* reference;          // null: not known
+    std::set<std::string> truth;         // effects; `none` where there is none
+    std::vector<AnsweredEffect> ranked;  // without nuisances
+    std::vector<std::string> named;      // likewise
 };
 
-std::set<std::string> truth_of(const CaseLabel& label) {
-    std::set<std::string> truth;
-    for (const TrueCause& cause : label.causes) truth.insert(cause.effect);
-    if (truth.empty()) truth.insert("none");
-    return truth;
+ScoredCase scored_case(const CaseLabel& label, const CaseAnswer& answer, const Reference* reference) {
+    const CaseTruth truth = truth_of(label);
+    ScoredCase scored{&label, &answer, reference, truth.causes, judged(answer, truth), {}};
+    if (scored.truth.empty()) scored.truth.insert("none");
+    std::copy_if(answer.named.begin(), answer.named.end(), std::back_inserter(scored.named),
+                 [&](const std::string& effect) { return truth.nuisances.count(effect) == 0; });
+    return scored;
 }
 
 bool among_first(const ScoredCase& scored, std::size_t count) {
-    const auto& ranked = scored.answer->ranked;
+    const auto& ranked = scored.ranked;
     return std::any_of(ranked.begin(),
                        ranked.begin() + static_cast<std::ptrdiff_t>(std::min(count, ranked.size())),
-                       [&](const gap::RankedEffect& each) { return scored.truth.count(each.effect) > 0; });
+                       [&](const AnsweredEffect& each) { return scored.truth.count(each.effect) > 0; });
 }
 
 std::string leading(const ScoredCase& scored) {
-    return scored.answer->ranked.empty() ? "" : scored.answer->ranked.front().effect;
+    return scored.ranked.empty() ? "none" : scored.ranked.front().effect;
 }
 
 bool family_is_right(const ScoredCase& scored) {
@@ -82,11 +86,11 @@ std::vector<GroupScore> score_groups(const std::vector<ScoredCase>& cases) {
 
 double brier_of(const ScoredCase& scored) {
     std::set<std::string> effects = scored.truth;
-    for (const gap::RankedEffect& each : scored.answer->ranked) effects.insert(each.effect);
+    for (const AnsweredEffect& each : scored.ranked) effects.insert(each.effect);
     double sum = 0.0;
     for (const std::string& effect : effects) {
         double stated = 0.0;
-        for (const gap::RankedEffect& each : scored.answer->ranked) {
+        for (const AnsweredEffect& each : scored.ranked) {
             if (each.effect == effect) stated += each.probability;
         }
         const double true_fraction =
@@ -96,48 +100,39 @@ double brier_of(const ScoredCase& scored) {
     return sum;
 }
 
-// The two effects of a pair share the probability in the answer, so the stated one is their sum. A verdict of
+// A verdict of several effects states their sum, and is right if all of them are there. A verdict of
 // `unknown` names the best fitting effects too, but the probability is not theirs.
-double stated_probability(const ScoredCase& scored) {
-    const CaseAnswer& answer = *scored.answer;
-    if (answer.ranked.empty()) return 0.0;
+struct Verdict {
+    double probability = 0.0;
+    bool is_right = false;
+};
+
+Verdict verdict_of(const ScoredCase& scored) {
     const auto is_named = [&](const std::string& effect) {
-        return std::find(answer.named.begin(), answer.named.end(), effect) != answer.named.end();
+        return std::find(scored.named.begin(), scored.named.end(), effect) != scored.named.end();
     };
-    if (answer.named.size() < 2 || !is_named(answer.ranked.front().effect))
-        return answer.ranked.front().probability;
+    if (scored.ranked.empty()) return {0.0, among_first(scored, 1)};
+    if (scored.named.size() < 2 || !is_named(scored.ranked.front().effect))
+        return {scored.ranked.front().probability, among_first(scored, 1)};
     double sum = 0.0;
-    for (const gap::RankedEffect& each : answer.ranked) {
+    for (const AnsweredEffect& each : scored.ranked) {
         if (is_named(each.effect)) sum += each.probability;
     }
-    return std::min(1.0, sum);
+    return {std::min(1.0, sum),
+            std::all_of(scored.named.begin(), scored.named.end(),
+                        [&](const std::string& effect) { return scored.truth.count(effect) > 0; })};
 }
 
 Calibration calibrate(const std::vector<ScoredCase>& cases) {
-    constexpr int bin_count = 10;
-    std::array<ReliabilityBin, bin_count> bins;
     Calibration calibration;
-    if (cases.empty()) return calibration;
+    Reliability reliability;
     for (const ScoredCase& scored : cases) {
         calibration.brier += brier_of(scored) / static_cast<double>(cases.size());
-        const double stated = stated_probability(scored);
-        const int index = std::clamp(static_cast<int>(stated * bin_count), 0, bin_count - 1);
-        ReliabilityBin& bin = bins[static_cast<std::size_t>(index)];
-        ++bin.cases;
-        bin.mean_probability += stated;
-        bin.fraction_right += among_first(scored, 1) ? 1.0 : 0.0;
+        const Verdict verdict = verdict_of(scored);
+        reliability.add(verdict.probability, verdict.is_right);
     }
-    for (int k = 0; k < bin_count; ++k) {
-        ReliabilityBin& bin = bins[static_cast<std::size_t>(k)];
-        if (bin.cases == 0) continue;
-        bin.from = static_cast<double>(k) / bin_count;
-        bin.to = static_cast<double>(k + 1) / bin_count;
-        bin.mean_probability /= bin.cases;
-        bin.fraction_right /= bin.cases;
-        calibration.ece += std::abs(bin.mean_probability - bin.fraction_right) * bin.cases /
-                           static_cast<double>(cases.size());
-        calibration.bins.push_back(bin);
-    }
+    calibration.bins = reliability.bins();
+    calibration.ece = reliability.calibration_error();
     return calibration;
 }
 
@@ -160,7 +155,7 @@ Shrinkage shrinkage_in(const std::vector<ScoredCase>& cases, const std::string& 
         const ChannelRms* claimed = find_channel(scored.answer->channels, name);
         if (truth == nullptr || claimed == nullptr || truth->after <= 0.0) continue;
         before.push_back(claimed->before / truth->after);
-        after.push_back(claimed->after / truth->after);
+        after.push_back(claimed->held_out.value_or(claimed->after) / truth->after);
         shrinkage.as_good_as_truth.count(after.back() <= as_good_factor);
     }
     shrinkage.cases = static_cast<int>(after.size());
@@ -188,34 +183,11 @@ void score_places(const std::vector<ScoredCase>& cases, TrialScore& score) {
 }
 
 bool first_two_are_the_two(const ScoredCase& scored) {
-    const auto& ranked = scored.answer->ranked;
+    const auto& ranked = scored.ranked;
     return ranked.size() >= 2 && std::set<std::string>{ranked[0].effect, ranked[1].effect} == scored.truth;
 }
 
-constexpr double z95 = 1.959963984540054;
-
-// Wilson's interval: middle and half width.
-std::pair<double, double> wilson(double fraction, int of) {
-    const double n = of;
-    const double middle = (fraction + z95 * z95 / (2.0 * n)) / (1.0 + z95 * z95 / n);
-    const double half =
-        z95 / (1.0 + z95 * z95 / n) * std::sqrt(fraction * (1.0 - fraction) / n + z95 * z95 / (4.0 * n * n));
-    return {middle, half};
-}
-
 }  // namespace
-
-double Fraction::low() const {
-    if (of == 0) return 0.0;
-    const auto [middle, half] = wilson(value(), of);
-    return std::max(0.0, middle - half);
-}
-
-double Fraction::high() const {
-    if (of == 0) return 1.0;
-    const auto [middle, half] = wilson(value(), of);
-    return std::min(1.0, middle + half);
-}
 
 TrialScore score_trial(const TrialLabels& labels, const std::vector<CaseAnswer>& answers,
                        const std::vector<Reference>& references) {
@@ -228,7 +200,7 @@ TrialScore score_trial(const TrialLabels& labels, const std::vector<CaseAnswer>&
     };
     for (const CaseLabel& label : labels.cases) {
         if (const CaseAnswer* answer = find_named(answers, label.name)) {
-            cases.push_back({&label, answer, find_named(references, label.name), truth_of(label)});
+            cases.push_back(scored_case(label, *answer, find_named(references, label.name)));
         } else {
             score.unanswered.push_back(label.name);
         }
@@ -247,6 +219,7 @@ TrialScore score_trial(const TrialLabels& labels, const std::vector<CaseAnswer>&
             case TruthGroup::mixture:
                 score.both_of_mixtures.count(first_two_are_the_two(scored));
                 [[fallthrough]];
+            case TruthGroup::three:
             case TruthGroup::catalogue:
             case TruthGroup::parameter:
                 score.missed_gaps.count(first == "none");
@@ -255,6 +228,9 @@ TrialScore score_trial(const TrialLabels& labels, const std::vector<CaseAnswer>&
         }
     }
     score.calibration = calibrate(cases);
+    std::vector<NamedCase> named;
+    for (const ScoredCase& scored : cases) named.push_back({scored.label, scored.answer});
+    score.causes = score_causes(named);
     score_places(cases, score);
     score.load_torque = shrinkage_in(cases, channel::load_torque);
     score.clearest_channel = shrinkage_in(cases, "");

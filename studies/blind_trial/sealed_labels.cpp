@@ -1,4 +1,4 @@
-#include "capstan/gap_trial/sealed_labels.h"
+#include "capstan/blind_trial/sealed_labels.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -35,7 +35,7 @@ std::string text_of(const ordered_json& json) {
 }
 
 ordered_json cause_json(const TrueCause& cause) {
-    return {
+    ordered_json json = {
         {"effect", cause.effect},
         {"kind", cause.kind},
         {"component", text_or_null(cause.component)},
@@ -45,6 +45,8 @@ ordered_json cause_json(const TrueCause& cause) {
         {"shape", cause.shape},
         {"visibility", cause.visibility},
         {"clearest_channel", cause.clearest_channel}};
+    if (!cause.varies.empty()) json["varies"] = cause.varies;
+    return json;
 }
 
 TrueCause cause_of(const ordered_json& json) {
@@ -60,6 +62,7 @@ TrueCause cause_of(const ordered_json& json) {
     cause.shape = json.at("shape").get<std::map<std::string, double>>();
     cause.visibility = json.at("visibility");
     cause.clearest_channel = json.at("clearest_channel");
+    cause.varies = json.value("varies", "");
     return cause;
 }
 
@@ -75,6 +78,10 @@ ordered_json case_json(const CaseLabel& label) {
           {"stiffness", label.stiffness_ratio},
           {"pretension", label.pretension_ratio}}}};
     for (const TrueCause& cause : label.causes) json["causes"].push_back(cause_json(cause));
+    for (const Nuisance& nuisance : label.nuisances)
+        json["nuisances"].push_back(
+            {{"effect", nuisance.effect}, {"where", nuisance.where}, {"size", nuisance.size}});
+    if (!label.conditions.empty()) json["conditions"] = label.conditions;
     return json;
 }
 
@@ -87,6 +94,9 @@ CaseLabel case_of(const std::string& name, const ordered_json& json) {
     label.bench = json.at("bench");
     label.protocols = json.at("protocols").get<std::vector<std::string>>();
     for (const ordered_json& cause : json.at("causes")) label.causes.push_back(cause_of(cause));
+    for (const ordered_json& nuisance : json.value("nuisances", ordered_json::array()))
+        label.nuisances.push_back({nuisance.at("effect"), nuisance.at("where"), nuisance.at("size")});
+    label.conditions = json.value("conditions", std::vector<std::string>());
     const ordered_json& ratios = json.at("true_ratios");
     label.friction_ratio = ratios.at("friction");
     label.stiffness_ratio = ratios.at("stiffness");
@@ -120,8 +130,12 @@ std::string labels_text(const TrialLabels& labels) {
                          {"severity", severity_choice_name(options.severity)},
                          {"noise_factor", options.noise_factor},
                          {"length", length_name(options.length)},
-                         {"nominal_error", options.nominal_error},
-                         {"cases", ordered_json::object()}};
+                         {"nominal_error", options.nominal_error}};
+    if (options.kind != TrialKind::benches) json["kind"] = trial_kind_name(options.kind);
+    if (options.visibility) json["visibility"] = {options.visibility->low, options.visibility->high};
+    if (options.nuisances) json["nuisances"] = true;
+    if (options.mixtures != TrialOptions().mixtures) json["mixtures"] = options.mixtures;
+    json["cases"] = ordered_json::object();
     for (const CaseLabel& label : labels.cases) json["cases"][label.name] = case_json(label);
     return json.dump(1) + "\n";
 }
@@ -140,6 +154,12 @@ TrialLabels read_labels(const std::string& text, const std::string& place) {
         labels.options.length =
             json.at("length") == "standard" ? RecordingLength::standard : RecordingLength::brief;
         labels.options.nominal_error = json.at("nominal_error");
+        if (json.value("kind", "benches") == trial_kind_name(TrialKind::rigs))
+            labels.options.kind = TrialKind::rigs;
+        if (json.contains("visibility"))
+            labels.options.visibility = {json.at("visibility").at(0), json.at("visibility").at(1)};
+        labels.options.nuisances = json.value("nuisances", false);
+        labels.options.mixtures = json.value("mixtures", TrialOptions().mixtures);
         for (const auto& [name, label] : json.at("cases").items())
             labels.cases.push_back(case_of(name, label));
         labels.options.cases = static_cast<int>(labels.cases.size());

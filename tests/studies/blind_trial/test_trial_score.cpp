@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "capstan/gap_trial/trial_score.h"
+#include "capstan/blind_trial/trial_score.h"
 
 namespace capstan::gap_trial {
 namespace {
@@ -28,7 +28,7 @@ TrueCause cause(const std::string& effect, const std::string& component = "condu
     return made;
 }
 
-CaseAnswer answer(const std::string& name, std::vector<gap::RankedEffect> ranked) {
+CaseAnswer answer(const std::string& name, std::vector<AnsweredEffect> ranked) {
     CaseAnswer made;
     made.name = name;
     made.ranked = std::move(ranked);
@@ -130,8 +130,8 @@ TEST_F(HandMadeTrial, CalibrationErrorWeighsBinsByCases) {
     const double gaps = 1 * 0.2 + 1 * 0.6 + 3 * std::abs(2.8 / 3.0 - 1.0) + 1 * 0.5 + 1 * 0.3;
     EXPECT_NEAR(score_.calibration.ece, gaps / 7.0, 1e-12);
     ASSERT_EQ(score_.calibration.bins.size(), 5U);
-    EXPECT_EQ(score_.calibration.bins.back().cases, 3);
-    EXPECT_EQ(score_.calibration.bins.back().fraction_right, 1.0);
+    EXPECT_EQ(score_.calibration.bins.back().right.of, 3);
+    EXPECT_EQ(score_.calibration.bins.back().right.value(), 1.0);
 }
 
 TEST_F(HandMadeTrial, PlacesCountWhereTheCauseIsNamedRightly) {
@@ -156,6 +156,21 @@ TEST_F(HandMadeTrial, ACaseWithoutAnAnswerIsListedNotScored) {
     const TrialScore score = score_trial(labels_, answers_, references_);
     EXPECT_EQ(score.unanswered, std::vector<std::string>{"pair"});
     EXPECT_EQ(score.groups.front().top1.of, 6);
+}
+
+TEST_F(HandMadeTrial, ASpuriousSecondCauseIsAWrongStatement) {
+    answers_[2] = answer("bend", {{"local_bend", 0.5}, {"creep", 0.5}});
+    answers_[2].named = {"local_bend", "creep"};
+    const TrialScore score = score_trial(labels_, answers_, references_);
+    // 1.0 was right and is wrong now: its bin holds two right ones of 0.9 besides.
+    EXPECT_NEAR(score.calibration.bins.back().right.value(), 2.0 / 3.0, 1e-12);
+    EXPECT_EQ(score.groups.front().top1.hits, score_.groups.front().top1.hits);  // a cause still leads
+}
+
+TEST_F(HandMadeTrial, ShrinkageIsJudgedOnRunsHeldOutWhereTheAnswerHasThem) {
+    answers_[2].channels.front().held_out = 0.03;
+    const TrialScore score = score_trial(labels_, answers_, references_);
+    EXPECT_NEAR(score.load_torque.median_after, 1.5, 1e-12);
 }
 
 // Wilson 1927; 8 of 10 as in Newcombe 1998: 0.490 to 0.943.

@@ -1,12 +1,12 @@
-#include "capstan/gap_trial/trial_folder.h"
+#include "capstan/blind_trial/trial_folder.h"
 
 #include <fmt/format.h>
 
 #include <system_error>
 #include <utility>
 
+#include "capstan/blind_trial/sealed_labels.h"
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/sealed_labels.h"
 #include "capstan/platform/files.h"
 
 namespace capstan::gap_trial {

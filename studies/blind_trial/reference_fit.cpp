@@ -2,9 +2,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "capstan/blind_trial/trial_score.h"
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/screening.h"
-#include "capstan/gap_trial/trial_score.h"
 
 namespace capstan::gap_trial {
 
@@ -66,6 +66,10 @@ std::vector<ChannelRms> measured_gap(const Recording& recording, const gap::Benc
 
 std::optional<std::vector<ChannelRms>> reference_fit(const Recording& recording, const CaseLabel& label) {
     if (label.group == TruthGroup::none || label.group == TruthGroup::foreign) return std::nullopt;
+    // The engine's fit has neither free geometry nor numbers that follow a condition.
+    const bool varies = std::any_of(label.causes.begin(), label.causes.end(),
+                                    [](const TrueCause& cause) { return !cause.varies.empty(); });
+    if (varies || !recording.nominal) return std::nullopt;
     // The most visible cause first: the other one is fitted to the residuals that it leaves.
     std::vector<TrueCause> truths = label.causes;
     std::stable_sort(truths.begin(), truths.end(),

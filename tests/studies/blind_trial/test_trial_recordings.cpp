@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "capstan/blind_trial/blind_trial.h"
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap_trial/blind_trial.h"
 #include "capstan/recording/recording_reader.h"
 #include "scratch_folder.h"
 
@@ -22,12 +22,16 @@ std::string without_salt(TrialLabels labels) {
     return labels_text(labels);
 }
 
-TEST(TrialRecordings, AreTheSameBitsForAnyNumberOfThreads) {
+class TrialRecordings : public testing::TestWithParam<TrialKind> {};
+
+TEST_P(TrialRecordings, AreTheSameBitsForAnyNumberOfThreads) {
+    TrialOptions options = short_trial();
+    options.kind = GetParam();
     const ScratchFolder one;
     const ScratchFolder three;
     const auto quiet = [](const std::string&, int, int) {};
-    const TrialLabels labels = make_recordings(short_trial(), one.path(), 1, quiet);
-    const TrialLabels again = make_recordings(short_trial(), three.path(), 3, quiet);
+    const TrialLabels labels = make_recordings(options, one.path(), 1, quiet);
+    const TrialLabels again = make_recordings(options, three.path(), 3, quiet);
     EXPECT_EQ(without_salt(labels), without_salt(again));
     ASSERT_EQ(labels.cases.size(), 3U);
     for (const CaseLabel& label : labels.cases) {
@@ -39,11 +43,16 @@ TEST(TrialRecordings, AreTheSameBitsForAnyNumberOfThreads) {
         // The lab's own reader takes them, and they tell nothing of what is behind.
         const Recording recording = read_recording(one.path() / (label.name + ".csv"));
         EXPECT_EQ(recording.runs.size(), label.protocols.size());
+        EXPECT_EQ(recording.runs.front().conditions.size(), label.conditions.size());
         const std::string sidecar = bytes_of(one.path() / (label.name + ".json"));
-        for (const char* word : {"effect", "cause", "severity", "visibility", "true_ratios"})
+        for (const char* word :
+             {"effect", "cause", "severity", "visibility", "true_ratios", "nuisance", "varies"})
             EXPECT_EQ(sidecar.find(word), std::string::npos) << word;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, TrialRecordings, testing::Values(TrialKind::benches, TrialKind::rigs),
+                         [](const auto& kind) { return trial_kind_name(kind.param); });
 
 TEST(TrialFolder, RejectsTheFolderOfAnotherTrial) {
     const ScratchFolder scratch;
