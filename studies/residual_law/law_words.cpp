@@ -1,0 +1,110 @@
+#include "capstan/residual_law/law_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace capstan::residual_law {
+
+namespace {
+
+// The unit in which a value reads well, and its factor.
+struct ReadableUnit {
+    std::string name;
+    double factor = 1.0;
+};
+
+ReadableUnit readable_unit(double value, const std::string& unit) {
+    constexpr double small = 0.1;
+    const bool has_milli = unit == "N m" || unit == "rad" || unit == "m" || unit == "A";
+    if (has_milli && std::abs(value) < small) return {"m" + unit, 1000.0};
+    return {unit, 1.0};
+}
+
+// With as many digits as the interval allows.
+std::string with_interval(double value, double half_width, const std::string& unit) {
+    const ReadableUnit readable = readable_unit(value, unit);
+    const double shown = readable.factor * value;
+    const double width = readable.factor * half_width;
+    const double finest = width > 0.0 ? width : 0.1 * std::abs(shown);
+    const int digits = finest > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(finest))), 0, 6) : 1;
+    if (!(width > 0.0)) return fmt::format("{:.{}f} {}", shown, digits, readable.name);
+    return fmt::format("{:.{}f} +- {:.{}f} {}", shown, digits, width, digits, readable.name);
+}
+
+std::string plain(double value, const std::string& unit) {
+    const ReadableUnit readable = readable_unit(value, unit);
+    return fmt::format("{:.2g} {}", readable.factor * value, readable.name);
+}
+
+}  // namespace
+
+std::string term_words(const LawTerm& term, const FeatureScales& scales, const ResidualNames& names) {
+    const Feature& first = term.features.front();
+    const std::string noun = (names.output.starts_with('a') ? "an " : "a ") + names.output;
+    const std::string size = with_interval(term.size, term.half_width, names.output_unit);
+    const std::string range = plain(2.0 * scales.motion_half_range, names.motion_unit);
+    const std::string load = first.times_load
+                                 ? fmt::format(" at a {} of {}, in proportion to the {}", names.load,
+                                               plain(scales.load, names.load_unit), names.load)
+                                 : "";
+    const std::string amount = fmt::format("{} of {}{}", noun, size, load);
+    switch (first.kind) {
+        case FeatureKind::constant:
+            return first.times_load ? amount : fmt::format("a constant {} of {}", names.output, size);
+        case FeatureKind::position: {
+            const char* power = first.parameter == 1.0   ? "in proportion to"
+                                : first.parameter == 2.0 ? "with the square of"
+                                                         : "with the cube of";
+            return fmt::format(
+                "{} at the end of the range of the {} ({}), which grows {} the distance from the "
+                "middle of the range",
+                amount, names.motion, range, power);
+        }
+        case FeatureKind::wave_sine:
+        case FeatureKind::wave_cosine:
+            return fmt::format("{}, up and down with the {}, with a period of {}", amount, names.motion,
+                               plain(first.parameter, names.motion_unit));
+        case FeatureKind::speed:
+            return fmt::format("{} at the highest speed ({}/s), in proportion to the speed", amount,
+                               plain(scales.speed, names.motion_unit));
+        case FeatureKind::speed_magnitude:
+            return fmt::format("{} at the highest speed ({}/s), in proportion to the magnitude of the speed",
+                               amount, plain(scales.speed, names.motion_unit));
+        case FeatureKind::friction:
+            return fmt::format(
+                "{}, which follows the direction of motion and has built up within {} after a "
+                "reversal",
+                amount, plain(2.0 * first.parameter, names.motion_unit));
+        case FeatureKind::relaxation:
+            return fmt::format(
+                "{}, which follows the direction of motion and fades within about {:g} s after a "
+                "reversal",
+                amount, first.parameter);
+        case FeatureKind::session_time:
+            return fmt::format("a drift of the {} by {} within {:.0f} s of the session", names.output, size,
+                               scales.session_s);
+    }
+    return {};
+}
+
+std::string law_sentence(const ResidualLaw& law, const ResidualNames& names) {
+    if (!law.holds()) return "";
+    std::string text = fmt::format("What is left is {}: ", plain(law.residual_rms, names.output_unit));
+    for (std::size_t k = 0; k < law.terms.size(); ++k)
+        text += fmt::format("{}{}",
+                            k == 0                      ? "it looks like "
+                            : k + 1 == law.terms.size() ? "; and "
+                                                        : "; ",
+                            law.terms[k].words);
+    if (law.has_history_model)
+        text += law.terms.empty()
+                    ? "it depends on the motion since the last reversals in no simple form"
+                    : "; the rest depends on the motion since the last reversals in no simple form";
+    text += fmt::format(". On runs that were left out this removes {:.0f}%", 100.0 * law.removed_fraction);
+    if (law.removed_low)
+        text += fmt::format(" ({:.0f} to {:.0f})", 100.0 * *law.removed_low, 100.0 * *law.removed_high);
+    return text + fmt::format(" of its mean square; {} remain.", plain(law.left_out_rms, names.output_unit));
+}
+
+}  // namespace capstan::residual_law

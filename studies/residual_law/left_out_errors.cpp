@@ -1,0 +1,79 @@
+#include "capstan/residual_law/left_out_errors.h"
+
+#include <Eigen/Cholesky>
+
+namespace capstan::residual_law {
+
+namespace {
+
+// Columns that say the same share a weight instead of cancelling each other.
+constexpr double least_ridge = 1e-6;
+constexpr double no_column_square = 1e-12;
+
+Eigen::VectorXd solved(const NormalEquations& sum, const ChosenColumns& chosen) {
+    if (chosen.columns.empty()) return Eigen::VectorXd(0);
+    Eigen::MatrixXd normal = sum.columns(chosen.columns, chosen.columns);
+    for (std::size_t k = 0; k < chosen.ridge.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        normal(at, at) += (chosen.ridge[k] + least_ridge) * normal(at, at) + no_column_square;
+    }
+    return normal.ldlt().solve(sum.target(chosen.columns));
+}
+
+NormalEquations sum_of(const std::vector<NormalEquations>& parts) {
+    NormalEquations sum = parts.front();
+    for (std::size_t k = 1; k < parts.size(); ++k) sum += parts[k];
+    return sum;
+}
+
+}  // namespace
+
+NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
+    columns += other.columns;
+    target += other.target;
+    target_square += other.target_square;
+    return *this;
+}
+
+NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual) {
+    const auto samples = static_cast<double>(columns.rows());
+    return {columns.transpose() * columns / samples, columns.transpose() * residual / samples,
+            residual.squaredNorm() / samples};
+}
+
+void ChosenColumns::add(Eigen::Index column, double with_ridge) {
+    columns.push_back(column);
+    ridge.push_back(with_ridge);
+}
+
+Eigen::VectorXd fitted_weights(const std::vector<NormalEquations>& parts, const ChosenColumns& chosen) {
+    return solved(sum_of(parts), chosen);
+}
+
+double LeftOutErrors::mean() const {
+    double sum = 0.0;
+    for (const double square : squares) sum += square;
+    return sum / static_cast<double>(squares.size());
+}
+
+double mean_square(const NormalEquations& part, const ChosenColumns& chosen, const Eigen::VectorXd& weights) {
+    if (chosen.columns.empty()) return part.target_square;
+    const Eigen::MatrixXd normal = part.columns(chosen.columns, chosen.columns);
+    const Eigen::VectorXd target = part.target(chosen.columns);
+    return part.target_square - 2.0 * weights.dot(target) + weights.dot(normal * weights);
+}
+
+LeftOutErrors left_out_errors(const std::vector<NormalEquations>& parts, const ChosenColumns& chosen) {
+    LeftOutErrors errors;
+    const NormalEquations all = sum_of(parts);
+    for (const NormalEquations& part : parts) {
+        NormalEquations others = all;
+        others.columns -= part.columns;
+        others.target -= part.target;
+        errors.weights.push_back(solved(others, chosen));
+        errors.squares.push_back(mean_square(part, chosen, errors.weights.back()));
+    }
+    return errors;
+}
+
+}  // namespace capstan::residual_law

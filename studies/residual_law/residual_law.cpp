@@ -1,0 +1,182 @@
+#include "capstan/residual_law/residual_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/gap/least_squares.h"
+#include "capstan/residual_law/law_search.h"
+#include "capstan/residual_law/law_words.h"
+
+namespace capstan::residual_law {
+
+namespace {
+
+// Neighbouring samples say the same: no more rows than this are fitted.
+constexpr std::size_t fitted_samples = 6000;
+// The only run is left out in parts.
+constexpr std::size_t blocks_of_a_run = 4;
+
+/// A part of the data that is left out at once.
+struct Part {
+    Eigen::MatrixXd columns;   // samples x columns
+    Eigen::VectorXd residual;  // samples
+    NormalEquations normal;
+};
+
+std::vector<Part> parts_of(std::span<const ResidualRun> runs, const ColumnLibrary& library,
+                           const FeatureScales& scales) {
+    std::size_t scored = 0;
+    for (const ResidualRun& run : runs) scored += run.motion.size() - run.first_scored;
+    const std::size_t stride = std::max<std::size_t>(1, scored / fitted_samples);
+    std::vector<Part> parts;
+    for (const ResidualRun& run : runs) {
+        const Eigen::MatrixXd columns = columns_of(library, scales, run, stride);
+        Eigen::VectorXd residual(columns.rows());
+        for (Eigen::Index row = 0; row < residual.size(); ++row)
+            residual[row] = run.residual[run.first_scored + static_cast<std::size_t>(row) * stride];
+        const auto blocks = static_cast<Eigen::Index>(runs.size() == 1 ? blocks_of_a_run : 1);
+        for (Eigen::Index block = 0; block < blocks; ++block) {
+            const Eigen::Index first = residual.size() * block / blocks;
+            const Eigen::Index rows = residual.size() * (block + 1) / blocks - first;
+            if (rows == 0) continue;
+            Part part{columns.middleRows(first, rows), residual.segment(first, rows), {}};
+            part.normal = normal_equations(part.columns, part.residual);
+            parts.push_back(std::move(part));
+        }
+    }
+    return parts;
+}
+
+std::vector<NormalEquations> normals_of(const std::vector<Part>& parts) {
+    std::vector<NormalEquations> normals;
+    for (const Part& part : parts) normals.push_back(part.normal);
+    return normals;
+}
+
+// Mean square of each part before, and with the law that is found without it.
+struct NestedErrors {
+    std::vector<double> before;
+    std::vector<double> after;
+
+    // Without part `left_out`; none: of all.
+    double removed(std::optional<std::size_t> left_out = {}) const {
+        double sum_before = 0.0;
+        double sum_after = 0.0;
+        for (std::size_t k = 0; k < before.size(); ++k) {
+            if (k == left_out) continue;
+            sum_before += before[k];
+            sum_after += after[k];
+        }
+        return sum_before > 0.0 ? 1.0 - sum_after / sum_before : 0.0;
+    }
+};
+
+NestedErrors nested_errors(const ColumnLibrary& library, const std::vector<NormalEquations>& parts,
+                           const FoundLaw& found) {
+    NestedErrors errors;
+    if (parts.size() < 3) {  // no choice can be repeated on the only other part
+        errors.after = left_out_errors(parts, chosen_columns(library, found)).squares;
+        for (const NormalEquations& part : parts) errors.before.push_back(part.target_square);
+        return errors;
+    }
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        std::vector<NormalEquations> others = parts;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+        const ChosenColumns chosen = chosen_columns(library, search_law(library, others));
+        errors.before.push_back(parts[k].target_square);
+        errors.after.push_back(mean_square(parts[k], chosen, fitted_weights(others, chosen)));
+    }
+    return errors;
+}
+
+void state_removed_fraction(ResidualLaw& law, const NestedErrors& errors) {
+    law.removed_fraction = errors.removed();
+    if (errors.before.size() < 3) return;
+    std::vector<Eigen::VectorXd> without;
+    for (std::size_t k = 0; k < errors.before.size(); ++k)
+        without.push_back(Eigen::VectorXd::Constant(1, errors.removed(k)));
+    const double half_width = gap::jackknife_half_widths(without, 1)[0];
+    law.removed_low = law.removed_fraction - half_width;
+    law.removed_high = std::min(1.0, law.removed_fraction + half_width);
+}
+
+// The magnitude that 95% of the residuals do not exceed, each with the weights that the other parts give.
+double band_of(const std::vector<Part>& parts, const ChosenColumns& chosen, const LeftOutErrors& left_out) {
+    std::vector<double> magnitudes;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        Eigen::VectorXd rest = parts[k].residual;
+        if (!chosen.columns.empty())
+            rest -= parts[k].columns(Eigen::all, chosen.columns) * left_out.weights[k];
+        for (const double value : rest) magnitudes.push_back(std::abs(value));
+    }
+    constexpr double quantile = 0.95;
+    const auto at = magnitudes.begin() +
+                    static_cast<std::ptrdiff_t>(quantile * static_cast<double>(magnitudes.size() - 1));
+    std::nth_element(magnitudes.begin(), at, magnitudes.end());
+    return *at;
+}
+
+// The terms with their sizes. A wave's is its amplitude.
+std::vector<LawTerm> sized_terms(const ColumnLibrary& library, const FoundLaw& found,
+                                 const Eigen::VectorXd& weights, const LeftOutErrors& left_out) {
+    std::vector<LawTerm> terms;
+    Eigen::Index column = 0;
+    for (const std::size_t term : found.terms) {
+        LawTerm sized;
+        const auto columns = static_cast<Eigen::Index>(library.terms[term].size());
+        for (const Eigen::Index each : library.terms[term])
+            sized.features.push_back(library.features[static_cast<std::size_t>(each)]);
+        const auto size_of = [&](const Eigen::VectorXd& all) {
+            return columns == 1 ? all[column] : all.segment(column, columns).norm();
+        };
+        sized.size = size_of(weights);
+        std::vector<Eigen::VectorXd> without;
+        for (const Eigen::VectorXd& each : left_out.weights)
+            without.push_back(Eigen::VectorXd::Constant(1, size_of(each)));
+        sized.half_width = gap::jackknife_half_widths(without, 1)[0];
+        terms.push_back(std::move(sized));
+        column += columns;
+    }
+    return terms;
+}
+
+}  // namespace
+
+std::vector<double> ResidualLaw::predict(const ResidualRun& run) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(run.motion.size()));
+    for (const WeightedFeature& each : weights) sum += each.weight * column_of(each.feature, scales, run);
+    return {sum.begin(), sum.end()};
+}
+
+ResidualLaw fit_residual_law(std::span<const ResidualRun> given, const ResidualNames& names) {
+    std::vector<ResidualRun> runs;
+    for (const ResidualRun& run : given)
+        if (run.first_scored < run.motion.size()) runs.push_back(run);
+    ResidualLaw law;
+    if (runs.empty()) return law;
+    law.scales = scales_of(runs);
+    const ColumnLibrary library = column_library(law.scales);
+    const std::vector<Part> parts = parts_of(runs, library, law.scales);
+    if (parts.size() < 2) return law;
+    const std::vector<NormalEquations> normals = normals_of(parts);
+    FoundLaw found = search_law(library, normals);
+    if (!found.empty()) {
+        state_removed_fraction(law, nested_errors(library, normals, found));
+        if (law.removed_fraction <= 0.0) found = {};
+    }
+    const ChosenColumns chosen = chosen_columns(library, found);
+    const Eigen::VectorXd weights = fitted_weights(normals, chosen);
+    const LeftOutErrors left_out = left_out_errors(normals, chosen);
+    for (std::size_t k = 0; k < chosen.columns.size(); ++k)
+        law.weights.push_back({library.features[static_cast<std::size_t>(chosen.columns[k])],
+                               weights[static_cast<Eigen::Index>(k)]});
+    law.has_history_model = found.history_ridge.has_value();
+    law.terms = sized_terms(library, found, weights, left_out);
+    for (LawTerm& term : law.terms) term.words = term_words(term, law.scales, names);
+    law.residual_rms = std::sqrt(left_out_errors(normals, {}).mean());
+    law.left_out_rms = std::sqrt(left_out.mean());
+    law.band = band_of(parts, chosen, left_out);
+    return law;
+}
+
+}  // namespace capstan::residual_law
