@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace capstan::residual_law {
 
@@ -13,23 +15,6 @@ constexpr std::size_t max_terms = 6;
 constexpr double min_removed = 0.03;
 // And its logarithm falls by more than this many standard errors over the parts.
 constexpr double clear_errors = 2.0;
-
-// Relative to each part's own residual, so that the part with the largest does not decide alone.
-bool improves_clearly(const LeftOutErrors& before, const LeftOutErrors& after) {
-    if (!(after.mean() < (1.0 - min_removed) * before.mean())) return false;
-    const auto parts = static_cast<double>(before.squares.size());
-    double sum = 0.0;
-    double squares = 0.0;
-    for (std::size_t k = 0; k < before.squares.size(); ++k) {
-        if (!(after.squares[k] > 0.0)) continue;
-        const double fall = std::log(before.squares[k] / after.squares[k]);
-        sum += fall;
-        squares += fall * fall;
-    }
-    const double mean = sum / parts;
-    const double variance = std::max(0.0, squares / parts - mean * mean) / (parts - 1.0);
-    return mean > clear_errors * std::sqrt(variance);
-}
 
 bool same(const Feature& one, const Feature& other) {
     return one.kind == other.kind && one.parameter == other.parameter && one.times_load == other.times_load;
@@ -42,40 +27,78 @@ Eigen::Index column_in(ColumnLibrary& library, const Feature& feature) {
     return static_cast<Eigen::Index>(library.features.size() - 1);
 }
 
-LeftOutErrors errors_of(const ColumnLibrary& library, const std::vector<NormalEquations>& parts,
-                        const FoundLaw& law) {
-    return left_out_errors(parts, chosen_columns(library, law));
+std::vector<double> errors_of(const ColumnLibrary& library, const PartedData& data, const FoundLaw& law) {
+    return left_out_errors(data, chosen_columns(library, law)).squares;
 }
 
-// The term that lowers the error on left-out parts most; false if none does so clearly.
-bool add_best_term(const ColumnLibrary& library, const std::vector<NormalEquations>& parts, FoundLaw& law) {
-    const LeftOutErrors before = errors_of(library, parts, law);
-    std::optional<std::size_t> best;
-    double least = before.mean();
-    for (std::size_t term = 0; term < library.terms.size(); ++term) {
-        if (std::find(law.terms.begin(), law.terms.end(), term) != law.terms.end()) continue;
-        FoundLaw tried = law;
-        tried.terms.push_back(term);
-        const LeftOutErrors after = errors_of(library, parts, tried);
-        if (after.mean() < least && improves_clearly(before, after)) {
-            least = after.mean();
-            best = term;
+double sum_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+FoundLaw with_terms(FoundLaw law, const std::vector<std::size_t>& terms) {
+    for (const std::size_t term : terms)
+        if (std::find(law.terms.begin(), law.terms.end(), term) == law.terms.end()) law.terms.push_back(term);
+    return law;
+}
+
+// A term whose work others have taken over, the least useful first.
+void drop_needless_terms(const ColumnLibrary& library, const PartedData& data, FoundLaw& law) {
+    while (!law.terms.empty()) {
+        const std::vector<double> now = errors_of(library, data, law);
+        std::optional<std::size_t> needless;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < law.terms.size(); ++k) {
+            FoundLaw without = law;
+            without.terms.erase(without.terms.begin() + static_cast<std::ptrdiff_t>(k));
+            const std::vector<double> then = errors_of(library, data, without);
+            if (sum_of(then) < least && !improves_clearly(then, now)) {
+                least = sum_of(then);
+                needless = k;
+            }
+        }
+        if (!needless) return;
+        law.terms.erase(law.terms.begin() + static_cast<std::ptrdiff_t>(*needless));
+    }
+}
+
+// The term, or terms that belong together, that lower the error on left-out parts most; false if none does so
+// clearly.
+bool add_best_terms(const ColumnLibrary& library, const PartedData& data, FoundLaw& law) {
+    const std::vector<double> before = errors_of(library, data, law);
+    std::vector<std::vector<std::size_t>> choices = library.together;
+    for (std::size_t term = 0; term < library.terms.size(); ++term) choices.push_back({term});
+    FoundLaw best = law;
+    double least = sum_of(before);
+    for (const std::vector<std::size_t>& choice : choices) {
+        const FoundLaw tried = with_terms(law, choice);
+        if (tried.terms.size() == law.terms.size()) continue;
+        const std::vector<double> after = errors_of(library, data, tried);
+        if (sum_of(after) < least && improves_clearly(before, after)) {
+            least = sum_of(after);
+            best = tried;
         }
     }
-    if (!best) return false;
-    law.terms.push_back(*best);
+    drop_needless_terms(library, data, best);
+    if (!(sum_of(errors_of(library, data, best)) < sum_of(before))) return false;
+    law = best;
     return true;
 }
 
-// A term whose work later terms have taken over.
-void drop_needless_terms(const ColumnLibrary& library, const std::vector<NormalEquations>& parts,
-                         FoundLaw& law) {
-    for (std::size_t k = law.terms.size(); k-- > 0;) {
-        FoundLaw without = law;
-        without.terms.erase(without.terms.begin() + static_cast<std::ptrdiff_t>(k));
-        if (!improves_clearly(errors_of(library, parts, without), errors_of(library, parts, law)))
-            law = without;
+FoundLaw with_history(const ColumnLibrary& library, const PartedData& data, const FoundLaw& law) {
+    constexpr std::array ridges = {1.0, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5};
+    const std::vector<double> before = errors_of(library, data, law);
+    FoundLaw best = law;
+    double least = sum_of(before);
+    for (const double ridge : ridges) {
+        FoundLaw tried = law;
+        tried.history_ridge = ridge;
+        const std::vector<double> after = errors_of(library, data, tried);
+        if (sum_of(after) < least && improves_clearly(before, after)) {
+            least = sum_of(after);
+            best = tried;
+        }
     }
+    return best;
 }
 
 }  // namespace
@@ -85,6 +108,15 @@ ColumnLibrary column_library(const FeatureScales& scales) {
     for (const Term& term : possible_terms(scales)) {
         library.terms.emplace_back();
         for (const Feature& feature : term) library.terms.back().push_back(column_in(library, feature));
+    }
+    const auto term_of = [&](const Feature& feature) {
+        const std::vector<Eigen::Index> columns = {column_in(library, feature)};
+        return static_cast<std::size_t>(std::find(library.terms.begin(), library.terms.end(), columns) -
+                                        library.terms.begin());
+    };
+    for (const Term& together : terms_that_belong_together(scales)) {
+        library.together.emplace_back();
+        for (const Feature& feature : together) library.together.back().push_back(term_of(feature));
     }
     for (const Feature& feature : history_features(scales))
         library.history.push_back(column_in(library, feature));
@@ -118,21 +150,29 @@ ChosenColumns chosen_columns(const ColumnLibrary& library, const FoundLaw& law) 
     return chosen;
 }
 
-FoundLaw search_law(const ColumnLibrary& library, const std::vector<NormalEquations>& parts) {
-    constexpr std::array ridges = {1.0, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5};
+// Relative to each part's own residual, so that the part with the largest does not decide alone.
+bool improves_clearly(const std::vector<double>& before, const std::vector<double>& after) {
+    if (!(sum_of(after) < (1.0 - min_removed) * sum_of(before))) return false;
+    const auto parts = static_cast<double>(before.size());
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        if (!(after[k] > 0.0)) continue;
+        const double fall = std::log(before[k] / after[k]);
+        sum += fall;
+        squares += fall * fall;
+    }
+    const double mean = sum / parts;
+    const double variance = std::max(0.0, squares / parts - mean * mean) / (parts - 1.0);
+    return mean > clear_errors * std::sqrt(variance);
+}
+
+FoundLaw search_law(const ColumnLibrary& library, const PartedData& data, LawForm form) {
     FoundLaw law;
-    while (law.terms.size() < max_terms && add_best_term(library, parts, law)) {
-    }
-    drop_needless_terms(library, parts, law);
-    FoundLaw best = law;
-    for (const double ridge : ridges) {
-        FoundLaw tried = law;
-        tried.history_ridge = ridge;
-        if (errors_of(library, parts, tried).mean() < errors_of(library, parts, best).mean()) best = tried;
-    }
-    const bool helps = best.history_ridge &&
-                       improves_clearly(errors_of(library, parts, law), errors_of(library, parts, best));
-    return helps ? best : law;
+    if (form != LawForm::history)
+        while (law.terms.size() < max_terms && add_best_terms(library, data, law)) {
+        }
+    return form == LawForm::terms ? law : with_history(library, data, law);
 }
 
 }  // namespace capstan::residual_law

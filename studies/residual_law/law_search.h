@@ -12,7 +12,10 @@ namespace capstan::residual_law {
 struct ColumnLibrary {
     std::vector<Feature> features;                 // columns
     std::vector<std::vector<Eigen::Index>> terms;  // terms x their columns
-    std::vector<Eigen::Index> history;             ///< the columns of the ridge regression
+    /// Terms that are tried together, because one of them may help only beside the others: zero, load and
+    /// friction.
+    std::vector<std::vector<std::size_t>> together;
+    std::vector<Eigen::Index> history;  ///< the columns of the ridge regression
 };
 
 ColumnLibrary column_library(const FeatureScales& scales);
@@ -30,7 +33,19 @@ struct FoundLaw {
 
 ChosenColumns chosen_columns(const ColumnLibrary& library, const FoundLaw& law);
 
-/// Forward selection by the error on parts left out, then the ridge regression; at least two parts.
-FoundLaw search_law(const ColumnLibrary& library, const std::vector<NormalEquations>& parts);
+/// What a law may be made of.
+enum class LawForm {
+    terms,              ///< a few terms
+    history,            ///< a ridge regression on the motion's history
+    terms_and_history,  ///< a few terms, and the ridge regression for what they leave
+};
+
+/// The law of a form that the error on parts left out asks for; empty if none helps clearly. At least two
+/// parts.
+FoundLaw search_law(const ColumnLibrary& library, const PartedData& data, LawForm form);
+
+/// Whether the mean square falls by more than a few percent, and by more than twice the standard error of its
+/// logarithm over the parts.
+bool improves_clearly(const std::vector<double>& before, const std::vector<double>& after);
 
 }  // namespace capstan::residual_law

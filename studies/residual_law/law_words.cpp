@@ -37,6 +37,19 @@ std::string plain(double value, const std::string& unit) {
     return fmt::format("{:.2g} {}", readable.factor * value, readable.name);
 }
 
+// A bench that is locked does not move: its torque changes.
+bool is_motion(const ResidualNames& names) {
+    return names.motion_unit == "rad" || names.motion_unit == "m";
+}
+
+std::string speed_of(const ResidualNames& names) {
+    return is_motion(names) ? "speed" : "rate of change of the " + names.motion;
+}
+
+std::string direction_of(const ResidualNames& names) {
+    return is_motion(names) ? "direction of motion" : "direction in which the " + names.motion + " changes";
+}
+
 }  // namespace
 
 std::string term_words(const LawTerm& term, const FeatureScales& scales, const ResidualNames& names) {
@@ -66,21 +79,16 @@ std::string term_words(const LawTerm& term, const FeatureScales& scales, const R
             return fmt::format("{}, up and down with the {}, with a period of {}", amount, names.motion,
                                plain(first.parameter, names.motion_unit));
         case FeatureKind::speed:
-            return fmt::format("{} at the highest speed ({}/s), in proportion to the speed", amount,
-                               plain(scales.speed, names.motion_unit));
         case FeatureKind::speed_magnitude:
-            return fmt::format("{} at the highest speed ({}/s), in proportion to the magnitude of the speed",
-                               amount, plain(scales.speed, names.motion_unit));
+            return fmt::format("{} at the highest {} ({}/s), in proportion to {}", amount, speed_of(names),
+                               plain(scales.speed, names.motion_unit),
+                               first.kind == FeatureKind::speed ? "it" : "its magnitude");
         case FeatureKind::friction:
-            return fmt::format(
-                "{}, which follows the direction of motion and has built up within {} after a "
-                "reversal",
-                amount, plain(2.0 * first.parameter, names.motion_unit));
+            return fmt::format("{}, which follows the {} and has built up within {} after a reversal", amount,
+                               direction_of(names), plain(2.0 * first.parameter, names.motion_unit));
         case FeatureKind::relaxation:
-            return fmt::format(
-                "{}, which follows the direction of motion and fades within about {:g} s after a "
-                "reversal",
-                amount, first.parameter);
+            return fmt::format("{}, which follows the {} and fades within about {:g} s after a reversal",
+                               amount, direction_of(names), first.parameter);
         case FeatureKind::session_time:
             return fmt::format("a drift of the {} by {} within {:.0f} s of the session", names.output, size,
                                scales.session_s);

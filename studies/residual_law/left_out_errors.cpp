@@ -10,22 +10,6 @@ namespace {
 constexpr double least_ridge = 1e-6;
 constexpr double no_column_square = 1e-12;
 
-Eigen::VectorXd solved(const NormalEquations& sum, const ChosenColumns& chosen) {
-    if (chosen.columns.empty()) return Eigen::VectorXd(0);
-    Eigen::MatrixXd normal = sum.columns(chosen.columns, chosen.columns);
-    for (std::size_t k = 0; k < chosen.ridge.size(); ++k) {
-        const auto at = static_cast<Eigen::Index>(k);
-        normal(at, at) += (chosen.ridge[k] + least_ridge) * normal(at, at) + no_column_square;
-    }
-    return normal.ldlt().solve(sum.target(chosen.columns));
-}
-
-NormalEquations sum_of(const std::vector<NormalEquations>& parts) {
-    NormalEquations sum = parts.front();
-    for (std::size_t k = 1; k < parts.size(); ++k) sum += parts[k];
-    return sum;
-}
-
 }  // namespace
 
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
@@ -46,8 +30,25 @@ void ChosenColumns::add(Eigen::Index column, double with_ridge) {
     ridge.push_back(with_ridge);
 }
 
-Eigen::VectorXd fitted_weights(const std::vector<NormalEquations>& parts, const ChosenColumns& chosen) {
-    return solved(sum_of(parts), chosen);
+PartedData in_parts(std::vector<NormalEquations> parts) {
+    PartedData data;
+    data.all = parts.front();
+    for (std::size_t k = 1; k < parts.size(); ++k) data.all += parts[k];
+    for (const NormalEquations& part : parts)
+        data.others.push_back({data.all.columns - part.columns, data.all.target - part.target,
+                               data.all.target_square - part.target_square});
+    data.parts = std::move(parts);
+    return data;
+}
+
+Eigen::VectorXd fitted_weights(const NormalEquations& data, const ChosenColumns& chosen) {
+    if (chosen.columns.empty()) return Eigen::VectorXd(0);
+    Eigen::MatrixXd normal = data.columns(chosen.columns, chosen.columns);
+    for (std::size_t k = 0; k < chosen.ridge.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        normal(at, at) += (chosen.ridge[k] + least_ridge) * normal(at, at) + no_column_square;
+    }
+    return normal.ldlt().solve(data.target(chosen.columns));
 }
 
 double LeftOutErrors::mean() const {
@@ -63,15 +64,11 @@ double mean_square(const NormalEquations& part, const ChosenColumns& chosen, con
     return part.target_square - 2.0 * weights.dot(target) + weights.dot(normal * weights);
 }
 
-LeftOutErrors left_out_errors(const std::vector<NormalEquations>& parts, const ChosenColumns& chosen) {
+LeftOutErrors left_out_errors(const PartedData& data, const ChosenColumns& chosen) {
     LeftOutErrors errors;
-    const NormalEquations all = sum_of(parts);
-    for (const NormalEquations& part : parts) {
-        NormalEquations others = all;
-        others.columns -= part.columns;
-        others.target -= part.target;
-        errors.weights.push_back(solved(others, chosen));
-        errors.squares.push_back(mean_square(part, chosen, errors.weights.back()));
+    for (std::size_t k = 0; k < data.parts.size(); ++k) {
+        errors.weights.push_back(fitted_weights(data.others[k], chosen));
+        errors.squares.push_back(mean_square(data.parts[k], chosen, errors.weights.back()));
     }
     return errors;
 }

@@ -26,7 +26,20 @@ struct ChosenColumns {
     void add(Eigen::Index column, double with_ridge);
 };
 
-Eigen::VectorXd fitted_weights(const std::vector<NormalEquations>& parts, const ChosenColumns& chosen);
+/// The data in parts that are left out in turn.
+struct PartedData {
+    std::vector<NormalEquations> parts;
+    std::vector<NormalEquations> others;  // parts: the sum of all others
+    NormalEquations all;                  ///< the sum of all
+};
+
+PartedData in_parts(std::vector<NormalEquations> parts);
+
+/// Weights of the chosen columns by least squares with their ridges.
+Eigen::VectorXd fitted_weights(const NormalEquations& data, const ChosenColumns& chosen);
+
+/// Mean square of one part with given weights.
+double mean_square(const NormalEquations& part, const ChosenColumns& chosen, const Eigen::VectorXd& weights);
 
 /// Mean square of each part with the weights that the other parts give, and these weights.
 struct LeftOutErrors {
@@ -35,9 +48,6 @@ struct LeftOutErrors {
     double mean() const;
 };
 
-LeftOutErrors left_out_errors(const std::vector<NormalEquations>& parts, const ChosenColumns& chosen);
-
-/// Mean square of one part with given weights.
-double mean_square(const NormalEquations& part, const ChosenColumns& chosen, const Eigen::VectorXd& weights);
+LeftOutErrors left_out_errors(const PartedData& data, const ChosenColumns& chosen);
 
 }  // namespace capstan::residual_law

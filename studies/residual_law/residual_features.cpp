@@ -176,6 +176,21 @@ std::vector<Term> possible_terms(const FeatureScales& scales) {
     return terms;
 }
 
+std::vector<Term> terms_that_belong_together(const FeatureScales& scales) {
+    std::vector<Term> all;
+    for (const double threshold : simple_models::stop_thresholds) {
+        Term together;
+        for (const bool times_load : {false, true}) {
+            if (times_load && scales.load == 0.0) continue;
+            together.push_back({FeatureKind::constant, 0.0, times_load});
+            together.push_back(
+                {FeatureKind::friction, threshold * 2.0 * scales.motion_half_range, times_load});
+        }
+        all.push_back(std::move(together));
+    }
+    return all;
+}
+
 std::vector<Feature> history_features(const FeatureScales& scales) {
     const double range = 2.0 * scales.motion_half_range;
     std::vector<Feature> features = {{FeatureKind::constant, 0.0, false},

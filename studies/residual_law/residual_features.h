@@ -58,6 +58,8 @@ using Term = std::vector<Feature>;
 
 /// Every term that a sparse law may have.
 std::vector<Term> possible_terms(const FeatureScales& scales);
+/// A zero, a gain on the load, and friction with and without the load, for every path.
+std::vector<Term> terms_that_belong_together(const FeatureScales& scales);
 /// Motion, load, and stop operators with and without the load (as Prandtl-Ishlinskii times load).
 std::vector<Feature> history_features(const FeatureScales& scales);
 

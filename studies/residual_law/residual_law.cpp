@@ -47,10 +47,10 @@ std::vector<Part> parts_of(std::span<const ResidualRun> runs, const ColumnLibrar
     return parts;
 }
 
-std::vector<NormalEquations> normals_of(const std::vector<Part>& parts) {
+PartedData parted(const std::vector<Part>& parts) {
     std::vector<NormalEquations> normals;
     for (const Part& part : parts) normals.push_back(part.normal);
-    return normals;
+    return in_parts(std::move(normals));
 }
 
 // Mean square of each part before, and with the law that is found without it.
@@ -71,22 +71,41 @@ struct NestedErrors {
     }
 };
 
-NestedErrors nested_errors(const ColumnLibrary& library, const std::vector<NormalEquations>& parts,
-                           const FoundLaw& found) {
+/// A law of one form, and how it did where its choice was repeated without each part.
+struct TriedLaw {
+    FoundLaw found;
     NestedErrors errors;
-    if (parts.size() < 3) {  // no choice can be repeated on the only other part
-        errors.after = left_out_errors(parts, chosen_columns(library, found)).squares;
-        for (const NormalEquations& part : parts) errors.before.push_back(part.target_square);
-        return errors;
+};
+
+TriedLaw tried_law(const ColumnLibrary& library, const PartedData& data, LawForm form) {
+    TriedLaw tried{search_law(library, data, form), {}};
+    for (const NormalEquations& part : data.parts) tried.errors.before.push_back(part.target_square);
+    if (data.parts.size() < 3) {  // no choice can be repeated on the only other part
+        tried.errors.after = left_out_errors(data, chosen_columns(library, tried.found)).squares;
+        return tried;
     }
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        std::vector<NormalEquations> others = parts;
+    for (std::size_t k = 0; k < data.parts.size(); ++k) {
+        std::vector<NormalEquations> others = data.parts;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-        const ChosenColumns chosen = chosen_columns(library, search_law(library, others));
-        errors.before.push_back(parts[k].target_square);
-        errors.after.push_back(mean_square(parts[k], chosen, fitted_weights(others, chosen)));
+        const PartedData inner = in_parts(std::move(others));
+        const ChosenColumns chosen = chosen_columns(library, search_law(library, inner, form));
+        tried.errors.after.push_back(mean_square(data.parts[k], chosen, fitted_weights(inner.all, chosen)));
     }
-    return errors;
+    return tried;
+}
+
+// Few terms, if they remove nearly as much as the best form does.
+TriedLaw best_law(const ColumnLibrary& library, const PartedData& data) {
+    constexpr double nearly = 0.05;
+    constexpr double worth_stating = 0.1;
+    TriedLaw best;
+    for (const LawForm form : {LawForm::terms, LawForm::terms_and_history, LawForm::history}) {
+        TriedLaw tried = tried_law(library, data, form);
+        if (tried.found.empty()) continue;
+        const double least = best.found.empty() ? worth_stating : best.errors.removed() + nearly;
+        if (tried.errors.removed() > least) best = std::move(tried);
+    }
+    return best;
 }
 
 void state_removed_fraction(ResidualLaw& law, const NestedErrors& errors) {
@@ -158,22 +177,20 @@ ResidualLaw fit_residual_law(std::span<const ResidualRun> given, const ResidualN
     const ColumnLibrary library = column_library(law.scales);
     const std::vector<Part> parts = parts_of(runs, library, law.scales);
     if (parts.size() < 2) return law;
-    const std::vector<NormalEquations> normals = normals_of(parts);
-    FoundLaw found = search_law(library, normals);
-    if (!found.empty()) {
-        state_removed_fraction(law, nested_errors(library, normals, found));
-        if (law.removed_fraction <= 0.0) found = {};
-    }
+    const PartedData data = parted(parts);
+    const TriedLaw best = best_law(library, data);
+    const FoundLaw& found = best.found;
+    if (!found.empty()) state_removed_fraction(law, best.errors);
     const ChosenColumns chosen = chosen_columns(library, found);
-    const Eigen::VectorXd weights = fitted_weights(normals, chosen);
-    const LeftOutErrors left_out = left_out_errors(normals, chosen);
+    const Eigen::VectorXd weights = fitted_weights(data.all, chosen);
+    const LeftOutErrors left_out = left_out_errors(data, chosen);
     for (std::size_t k = 0; k < chosen.columns.size(); ++k)
         law.weights.push_back({library.features[static_cast<std::size_t>(chosen.columns[k])],
                                weights[static_cast<Eigen::Index>(k)]});
     law.has_history_model = found.history_ridge.has_value();
     law.terms = sized_terms(library, found, weights, left_out);
     for (LawTerm& term : law.terms) term.words = term_words(term, law.scales, names);
-    law.residual_rms = std::sqrt(left_out_errors(normals, {}).mean());
+    law.residual_rms = std::sqrt(left_out_errors(data, {}).mean());
     law.left_out_rms = std::sqrt(left_out.mean());
     law.band = band_of(parts, chosen, left_out);
     return law;

@@ -181,6 +181,7 @@ SimpleModel fit_elastic_plastic(const Recording& recording, const ModelledOutput
     SimpleModel model;
     model.name = "elastic_plastic";
     model.title = "elastic-plastic elements";
+    model.heading = "elastic";
     model.formula =
         "a zero, a gain on the load, and six springs in series with sliders whose yield is linear in "
         "the load";

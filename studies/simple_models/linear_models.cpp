@@ -86,10 +86,19 @@ SimpleModel ridge_fit(const Recording& recording, const ModelledOutput& channels
     return model;
 }
 
-SimpleModel named(SimpleModel model, const char* name, const char* title, const char* formula) {
-    model.name = name;
-    model.title = title;
-    model.formula = formula;
+// How a model is called.
+struct ModelWords {
+    const char* name;
+    const char* title;
+    const char* heading;
+    const char* formula;
+};
+
+SimpleModel named(SimpleModel model, const ModelWords& words) {
+    model.name = words.name;
+    model.title = words.title;
+    model.heading = words.heading;
+    model.formula = words.formula;
     return model;
 }
 
@@ -165,15 +174,15 @@ std::vector<SimpleModel> fit_linear_models(const Recording& recording, const Mod
         ++tried.numbers;  // the threshold
         if (!best.predict || tried.fitted_rms < best.fitted_rms) best = std::move(tried);
     }
-    return {named(constant_model(recording, channels), "constant", "constant", "the mean"),
-            named(ridge_fit(recording, channels, linear), "linear", "linear",
-                  "linear in the motion and the load"),
-            named(std::move(best), "closed_form", "closed form",
-                  "a zero, a gain on the load, and friction that grows linearly with the load, built up "
-                  "linearly within a path after each reversal"),
-            named(ridge_fit(recording, channels, prandtl_ishlinskii), "prandtl_ishlinskii",
-                  "Prandtl-Ishlinskii times load",
-                  "linear in the motion, the load, and nine stop operators with and without the load")};
+    return {named(constant_model(recording, channels), {"constant", "constant", "constant", "the mean"}),
+            named(ridge_fit(recording, channels, linear),
+                  {"linear", "linear", "linear", "linear in the motion and the load"}),
+            named(std::move(best), {"closed_form", "closed form", "closed",
+                                    "a zero, a gain on the load, and friction that grows linearly with the "
+                                    "load, built up linearly within a path after each reversal"}),
+            named(ridge_fit(recording, channels, prandtl_ishlinskii),
+                  {"prandtl_ishlinskii", "Prandtl-Ishlinskii times load", "Prandtl",
+                   "linear in the motion, the load, and nine stop operators with and without the load"})};
 }
 
 }  // namespace capstan::simple_models

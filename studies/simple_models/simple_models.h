@@ -13,6 +13,7 @@ namespace capstan::simple_models {
 struct SimpleModel {
     std::string name;         ///< in JSON
     std::string title;        ///< for people
+    std::string heading;      ///< the same in a word, above a column
     std::string formula;      ///< in words
     std::size_t numbers = 0;  ///< that were fitted
     ModelledOutput channels;
