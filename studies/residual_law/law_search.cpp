@@ -11,6 +11,9 @@ namespace capstan::residual_law {
 namespace {
 
 constexpr std::size_t max_terms = 6;
+// Where the runs hardly distinguish two terms, as a zero and a gain on a load that changes little, both stay
+// small. It makes a term that stands alone a hundredth too small.
+constexpr double term_ridge = 0.01;
 // What is added removes at least this fraction of the mean square that is left.
 constexpr double min_removed = 0.03;
 // And its logarithm falls by more than this many standard errors over the parts.
@@ -140,7 +143,7 @@ Eigen::MatrixXd columns_of(const ColumnLibrary& library, const FeatureScales& sc
 ChosenColumns chosen_columns(const ColumnLibrary& library, const FoundLaw& law) {
     ChosenColumns chosen;
     for (const std::size_t term : law.terms)
-        for (const Eigen::Index column : library.terms[term]) chosen.add(column, 0.0);
+        for (const Eigen::Index column : library.terms[term]) chosen.add(column, term_ridge);
     if (!law.history_ridge) return chosen;
     for (const Eigen::Index column : library.history) {
         const bool is_free =

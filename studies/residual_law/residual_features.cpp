@@ -24,9 +24,9 @@ constexpr std::array<std::pair<FeatureKind, const char*>, 9> feature_names = {
      {FeatureKind::relaxation, "relaxation"},
      {FeatureKind::session_time, "session_time"}}};
 
-// A position beyond what was recorded is taken for this much of the half range, so that a power stays
-// bounded.
-constexpr double max_position = 1.25;
+// A position or speed beyond what was recorded is taken for this much of the largest recorded one, so that no
+// term grows where nothing was fitted.
+constexpr double max_recorded = 1.25;
 // Speeds are slopes over this time: one encoder step a sample is not a speed.
 constexpr double slope_s = 0.04;
 // The direction of motion has changed when the motion has come back by this part of its half range.
@@ -76,8 +76,8 @@ Eigen::VectorXd without_load(const Feature& feature, const FeatureScales& scales
             return Eigen::VectorXd::Ones(samples);
         case FeatureKind::position:
             return ((motion - scales.motion_middle) / scales.motion_half_range)
-                .max(-max_position)
-                .min(max_position)
+                .max(-max_recorded)
+                .min(max_recorded)
                 .pow(feature.parameter);
         case FeatureKind::wave_sine:
             return (2.0 * std::numbers::pi / feature.parameter * motion).sin();
@@ -87,8 +87,8 @@ Eigen::VectorXd without_load(const Feature& feature, const FeatureScales& scales
         case FeatureKind::speed_magnitude: {
             const std::vector<double> slopes = speeds(run);
             const Eigen::Map<const Eigen::ArrayXd> slope(slopes.data(), samples);
-            if (feature.kind == FeatureKind::speed) return slope / scales.speed;
-            return slope.abs() / scales.speed;
+            const Eigen::ArrayXd bounded = (slope / scales.speed).max(-max_recorded).min(max_recorded);
+            return feature.kind == FeatureKind::speed ? bounded : Eigen::ArrayXd(bounded.abs());
         }
         case FeatureKind::friction:
             return simple_models::stop_operator(run.motion, feature.parameter);

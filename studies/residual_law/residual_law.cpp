@@ -13,6 +13,8 @@ namespace {
 
 // Neighbouring samples say the same: no more rows than this are fitted.
 constexpr std::size_t fitted_samples = 6000;
+// A choice is repeated without each part where enough others are left to repeat it on.
+constexpr std::size_t min_nested_parts = 4;
 // The only run is left out in parts.
 constexpr std::size_t blocks_of_a_run = 4;
 
@@ -80,7 +82,7 @@ struct TriedLaw {
 TriedLaw tried_law(const ColumnLibrary& library, const PartedData& data, LawForm form) {
     TriedLaw tried{search_law(library, data, form), {}};
     for (const NormalEquations& part : data.parts) tried.errors.before.push_back(part.target_square);
-    if (data.parts.size() < 3) {  // no choice can be repeated on the only other part
+    if (data.parts.size() < min_nested_parts) {
         tried.errors.after = left_out_errors(data, chosen_columns(library, tried.found)).squares;
         return tried;
     }
@@ -94,18 +96,23 @@ TriedLaw tried_law(const ColumnLibrary& library, const PartedData& data, LawForm
     return tried;
 }
 
-// Few terms, if they remove nearly as much as the best form does.
+// Few terms, if they remove nearly as much as the best form does. Terms that remove less than half of what
+// the motion's history does are not what is behind the residual, and are not stated.
 TriedLaw best_law(const ColumnLibrary& library, const PartedData& data) {
     constexpr double nearly = 0.05;
     constexpr double worth_stating = 0.1;
-    TriedLaw best;
-    for (const LawForm form : {LawForm::terms, LawForm::terms_and_history, LawForm::history}) {
-        TriedLaw tried = tried_law(library, data, form);
-        if (tried.found.empty()) continue;
-        const double least = best.found.empty() ? worth_stating : best.errors.removed() + nearly;
-        if (tried.errors.removed() > least) best = std::move(tried);
+    const auto removed_by = [](const TriedLaw& law) {
+        return law.found.empty() ? 0.0 : law.errors.removed();
+    };
+    const TriedLaw history = tried_law(library, data, LawForm::history);
+    TriedLaw best = tried_law(library, data, LawForm::terms);
+    if (removed_by(best) < 0.5 * removed_by(history)) best = {};
+    if (!best.found.empty()) {
+        TriedLaw both = tried_law(library, data, LawForm::terms_and_history);
+        if (removed_by(both) > removed_by(best) + nearly) best = std::move(both);
     }
-    return best;
+    if (removed_by(history) > removed_by(best) + nearly) best = history;
+    return removed_by(best) > worth_stating ? best : TriedLaw{};
 }
 
 void state_removed_fraction(ResidualLaw& law, const NestedErrors& errors) {
