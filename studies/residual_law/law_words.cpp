@@ -50,6 +50,50 @@ std::string direction_of(const ResidualNames& names) {
     return is_motion(names) ? "direction of motion" : "direction in which the " + names.motion + " changes";
 }
 
+// The friction of the motion's history, when it has built up.
+struct BuiltUpFriction {
+    double unloaded = 0.0;
+    double loaded = 0.0;     ///< at the largest load
+    double half_path = 0.0;  ///< after a reversal, until half of the change is there
+};
+
+BuiltUpFriction built_up_friction(const ResidualLaw& law) {
+    BuiltUpFriction friction;
+    for (const WeightedFeature& each : law.weights) {
+        if (each.feature.kind != FeatureKind::friction) continue;
+        friction.loaded += each.weight;
+        if (!each.feature.times_load) friction.unloaded += each.weight;
+    }
+    constexpr int steps = 200;
+    for (int step = 1; step <= steps; ++step) {
+        const double path = 2.0 * law.scales.motion_half_range * step / steps;
+        double changed = 0.0;  // from -1 to 1 is 2
+        for (const WeightedFeature& each : law.weights)
+            if (each.feature.kind == FeatureKind::friction)
+                changed += each.weight * std::min(path / each.feature.parameter, 2.0) / 2.0;
+        friction.half_path = path;
+        if (changed / friction.loaded >= 0.5) break;
+    }
+    return friction;
+}
+
+// What the history of the motion adds, as far as a few numbers say it.
+std::string history_words(const ResidualLaw& law, const ResidualNames& names) {
+    constexpr double worth_saying = 0.2;  // of the residual
+    const BuiltUpFriction friction = built_up_friction(law);
+    const double largest = std::max(std::abs(friction.unloaded), std::abs(friction.loaded));
+    if (largest < worth_saying * law.residual_rms) return "it depends on the motion since the last reversals";
+    std::string size = plain(friction.unloaded, names.output_unit);
+    if (law.scales.load != 0.0)
+        size += fmt::format(" without load and {} at a {} of {}", plain(friction.loaded, names.output_unit),
+                            names.load, plain(law.scales.load, names.load_unit));
+    return fmt::format(
+        "it looks like {} {} that follows the {}, {}, half of which builds up within {} after a "
+        "reversal, along many paths",
+        names.output.starts_with('a') ? "an" : "a", names.output, direction_of(names), size,
+        plain(friction.half_path, names.motion_unit));
+}
+
 }  // namespace
 
 std::string term_words(const LawTerm& term, const FeatureScales& scales, const ResidualNames& names) {
@@ -106,9 +150,8 @@ std::string law_sentence(const ResidualLaw& law, const ResidualNames& names) {
                                                         : "; ",
                             law.terms[k].words);
     if (law.has_history_model)
-        text += law.terms.empty()
-                    ? "it depends on the motion since the last reversals in no simple form"
-                    : "; the rest depends on the motion since the last reversals in no simple form";
+        text += law.terms.empty() ? history_words(law, names)
+                                  : "; the rest depends on the motion since the last reversals";
     text += fmt::format(". On runs that were left out this removes {:.0f}%", 100.0 * law.removed_fraction);
     if (law.removed_low)
         text += fmt::format(" ({:.0f} to {:.0f})", 100.0 * *law.removed_low, 100.0 * *law.removed_high);

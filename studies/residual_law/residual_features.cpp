@@ -130,7 +130,8 @@ FeatureScales scales_of(const std::vector<ResidualRun>& runs) {
         high = is_first ? *highest : std::max(high, *highest);
         is_first = false;
         speed = std::max(speed, largest_magnitude(speeds(run)));
-        scales.load = std::max(scales.load, largest_magnitude(run.load));
+        for (const double load : run.load)
+            if (std::abs(load) > std::abs(scales.load)) scales.load = load;
         session_s = std::max(
             session_s, run.session_start_s + static_cast<double>(run.motion.size()) * run.sample_period_s);
     }
@@ -195,10 +196,10 @@ std::vector<Feature> history_features(const FeatureScales& scales) {
     const double range = 2.0 * scales.motion_half_range;
     std::vector<Feature> features = {{FeatureKind::constant, 0.0, false},
                                      {FeatureKind::position, 1.0, false}};
-    if (scales.load > 0.0) features.push_back({FeatureKind::constant, 0.0, true});
+    if (scales.load != 0.0) features.push_back({FeatureKind::constant, 0.0, true});
     for (const double threshold : simple_models::stop_thresholds) {
         features.push_back({FeatureKind::friction, threshold * range, false});
-        if (scales.load > 0.0) features.push_back({FeatureKind::friction, threshold * range, true});
+        if (scales.load != 0.0) features.push_back({FeatureKind::friction, threshold * range, true});
     }
     return features;
 }

@@ -44,7 +44,7 @@ struct FeatureScales {
     double motion_middle = 0.0;
     double motion_half_range = 1.0;
     double speed = 1.0;      ///< the largest, per second
-    double load = 0.0;       ///< the largest magnitude; 0: no load is recorded
+    double load = 0.0;       ///< that of the largest magnitude, with its sign; 0: no load is recorded
     double session_s = 1.0;  ///< to the end of the last run
 };
 
