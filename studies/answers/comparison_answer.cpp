@@ -42,8 +42,8 @@ std::string best_sentence(const OutputComparison& output) {
         output.models.begin(), output.models.end(),
         [&](const ModelErrors& one, const ModelErrors& other) { return error(one) < error(other); });
     if (best == output.models.end()) return "";
-    return fmt::format("The least error of the {} has the {} ({:.3g} {}).", channel_words(output.channel),
-                       best->title, error(*best), output.unit);
+    return fmt::format("The smallest error in the {} is that of \"{}\" ({:.3g} {}).",
+                       channel_words(output.channel), best->title, error(*best), output.unit);
 }
 
 Data run_errors(const std::vector<RunError>& errors) {
@@ -81,7 +81,7 @@ reports::AnswerTable run_error_table(const OutputComparison& output) {
         .columns = {{"run", "run"}},
         .rows = Data::list()};
     for (const ModelErrors& model : output.models) {
-        table.columns.push_back({model.name, model.heading, "", ".3g"});
+        table.columns.push_back({model.name, model.heading, "", ".4g"});
         const std::vector<RunError>& errors = held_out ? model.held_out : model.fitted;
         for (std::size_t run = 0; run < errors.size(); ++run) {
             if (table.rows.items().size() == run) table.rows.push_back({{"run", errors[run].run}});
@@ -125,8 +125,8 @@ void add_comparison(reports::Answer& answer, const ModelComparison& comparison) 
                     "RMS of measured minus modelled, from one second into each run; every run counts alike",
                     {{"channel", "channel"},
                      {"title", "model"},
-                     {"rms_fitted", "fitted", "", ".3g"},
-                     {"rms_held_out", "held out", "", ".3g"},
+                     {"rms_fitted", "fitted", "", ".4g"},
+                     {"rms_held_out", "held out", "", ".4g"},
                      {"unit", "unit"}},
                     *answer.values.find("comparison.models")}},
         .note =

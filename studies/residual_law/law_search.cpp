@@ -11,7 +11,7 @@ namespace capstan::residual_law {
 namespace {
 
 constexpr std::size_t max_terms = 6;
-// Where the runs hardly distinguish two terms, as a zero and a gain on a load that changes little, both stay
+// Where the runs do not distinguish two terms, as a zero and a gain on a load that changes little, both stay
 // small. It makes a term that stands alone a hundredth too small.
 constexpr double term_ridge = 0.01;
 // What is added removes at least this fraction of the mean square that is left.

@@ -34,7 +34,11 @@ std::string with_interval(double value, double half_width, const std::string& un
 
 std::string plain(double value, const std::string& unit) {
     const ReadableUnit readable = readable_unit(value, unit);
-    return fmt::format("{:.2g} {}", readable.factor * value, readable.name);
+    const double shown = readable.factor * value;
+    constexpr double large = 100.0;
+    if (std::abs(shown) < large) return fmt::format("{:.2g} {}", shown, readable.name);
+    const double last_digit = std::pow(10.0, std::floor(std::log10(std::abs(shown))) - 1.0);
+    return fmt::format("{:.0f} {}", last_digit * std::round(shown / last_digit), readable.name);
 }
 
 // A bench that is locked does not move: its torque changes.

@@ -181,7 +181,8 @@ std::vector<SimpleModel> fit_linear_models(const Recording& recording, const Mod
                                     "a zero, a gain on the load, and friction that grows linearly with the "
                                     "load, built up linearly within a path after each reversal"}),
             named(ridge_fit(recording, channels, prandtl_ishlinskii),
-                  {"prandtl_ishlinskii", "Prandtl-Ishlinskii times load", "Prandtl",
+                  {"prandtl_ishlinskii",
+                   channels.load ? "Prandtl-Ishlinskii times load" : "Prandtl-Ishlinskii", "Prandtl",
                    "linear in the motion, the load, and nine stop operators with and without the load"})};
 }
 
