@@ -82,7 +82,8 @@ struct TriedLaw {
 TriedLaw tried_law(const ColumnLibrary& library, const PartedData& data, LawForm form) {
     TriedLaw tried{search_law(library, data, form), {}};
     for (const NormalEquations& part : data.parts) tried.errors.before.push_back(part.target_square);
-    if (data.parts.size() < min_nested_parts) {
+    // The history's only choice is its ridge, which is not worth repeating.
+    if (form == LawForm::history || data.parts.size() < min_nested_parts) {
         tried.errors.after = left_out_errors(data, chosen_columns(library, tried.found)).squares;
         return tried;
     }

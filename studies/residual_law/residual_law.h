@@ -41,8 +41,8 @@ struct ResidualLaw {
     bool has_history_model = false;        ///< a ridge regression adds to the terms
     double residual_rms = 0.0;             ///< of the runs it was fitted to, each run counts alike
     double left_out_rms = 0.0;             ///< what is left of that on runs that were left out
-    /// Fraction of the squares that is removed on runs left out, where these had no part in the choice of
-    /// terms; with its 95% interval (jackknife over runs). No interval from fewer than three parts.
+    /// Fraction of the squares that is removed on runs left out, which from four runs on had no part in the
+    /// choice of terms; with its 95% interval (jackknife over runs). No interval from fewer than three parts.
     double removed_fraction = 0.0;
     std::optional<double> removed_low;
     std::optional<double> removed_high;
