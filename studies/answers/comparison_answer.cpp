@@ -138,7 +138,7 @@ void add_comparison(reports::Answer& answer, const ModelComparison& comparison) 
         section.prose += " " + best_sentence(output);
         section.tables.push_back(run_error_table(output));
     }
-    answer.sections.push_back(std::move(section));
+    add_before_curves(answer, std::move(section));
     answer.drawn.push_back(error_table(comparison));
 }
 

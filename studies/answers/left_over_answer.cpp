@@ -1,8 +1,7 @@
 // What a corrected model leaves, and what it looks like.
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "capstan/answers/recording_answers.h"
-#include "capstan/rig/channel_names.h"
 
 namespace capstan::answers {
 
@@ -40,19 +39,25 @@ Data law_data(const LeftOver& left, const std::string& channel) {
 
 }  // namespace
 
+void add_before_curves(reports::Answer& answer, reports::AnswerSection section) {
+    const auto curves = std::find_if(answer.sections.begin(), answer.sections.end(),
+                                     [](const reports::AnswerSection& each) { return each.id == "runs"; });
+    answer.sections.insert(curves, std::move(section));
+}
+
 void add_left_over(reports::Answer& answer, const std::vector<LeftOver>& left, const Recording& recording) {
     Data rows = Data::list();
     std::string prose;
     for (const LeftOver& each : left) {
         const std::string& channel = recording.channels[each.channels.output].name;
         rows.push_back(law_data(each, channel));
-        if (each.law.holds())
-            prose += fmt::format("{}{}: {}", prose.empty() ? "" : "\n\n", channel_words(channel),
-                                 residual_law::law_sentence(each.law, each.names));
+        const std::string sentence = residual_law::law_sentence(each.law, each.names);
+        if (!sentence.empty()) prose += (prose.empty() ? "" : "\n\n") + sentence;
     }
     answer.values["left_over"] = rows;
     if (prose.empty()) return;
-    answer.sections.push_back(
+    add_before_curves(
+        answer,
         {.id = "left",
          .heading = "What is left",
          .prose = prose,

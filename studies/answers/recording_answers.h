@@ -33,6 +33,9 @@ reports::Answer stored_diagnosis_answer(const storage::DiagnosisRecord& diagnosi
 /// A diagnosis with the curves of the recording and the experiment that would decide what it left open.
 reports::Answer diagnosis_answer(const Recording& recording, const gap::Diagnosis& diagnosis);
 
+/// Adds a section to a diagnosis before its curves, of which there are many.
+void add_before_curves(reports::Answer& answer, reports::AnswerSection section);
+
 /// Adds to a diagnosis what its corrected model leaves of each channel, and what that looks like.
 void add_left_over(reports::Answer& answer, const std::vector<model_comparison::LeftOver>& left,
                    const Recording& recording);

@@ -19,8 +19,13 @@ std::string noun_of(const Channel& channel) {
 residual_law::ResidualNames names_of(const Recording& recording, const ModelledOutput& channels) {
     const Channel& output = recording.channels[channels.output];
     const Channel& motion = recording.channels[channels.motion];
-    residual_law::ResidualNames names{noun_of(output), output.unit, channel_words(motion.name),
-                                      motion.unit,     "load",      ""};
+    residual_law::ResidualNames names{channel_words(output.name),
+                                      noun_of(output),
+                                      output.unit,
+                                      channel_words(motion.name),
+                                      motion.unit,
+                                      "load",
+                                      ""};
     if (channels.load) {
         names.load = channel_words(recording.channels[*channels.load].name);
         names.load_unit = recording.channels[*channels.load].unit;

@@ -54,6 +54,9 @@ void add_errors(OutputComparison& output, const DiagnosedSplit& split, std::size
         errors.push_back(
             {recorded.number, simple_models::scored_rms(recorded, channel, predicted.values[run])});
     }
+    for (std::vector<RunError>* errors : {&model->fitted, &model->held_out})
+        std::sort(errors->begin(), errors->end(),
+                  [](const RunError& one, const RunError& other) { return one.run < other.run; });
 }
 
 }  // namespace

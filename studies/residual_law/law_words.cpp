@@ -146,7 +146,8 @@ std::string term_words(const LawTerm& term, const FeatureScales& scales, const R
 
 std::string law_sentence(const ResidualLaw& law, const ResidualNames& names) {
     if (!law.holds()) return "";
-    std::string text = fmt::format("What is left is {}: ", plain(law.residual_rms, names.output_unit));
+    std::string text = fmt::format("What is left in the {} is {}: ", names.channel,
+                                   plain(law.residual_rms, names.output_unit));
     for (std::size_t k = 0; k < law.terms.size(); ++k)
         text += fmt::format("{}{}",
                             k == 0                      ? "it looks like "

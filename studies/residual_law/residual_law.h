@@ -11,7 +11,8 @@ namespace capstan::residual_law {
 
 /// How the channels are called in sentences, and their units.
 struct ResidualNames {
-    std::string output = "torque";  ///< what the residual is: "torque", "angle", "tension"
+    std::string channel = "motor torque";
+    std::string output = "torque";  ///< what it is: "torque", "angle", "tension"
     std::string output_unit = "N m";
     std::string motion = "motor angle";
     std::string motion_unit = "rad";
@@ -59,7 +60,7 @@ struct ResidualLaw {
 /// condition. What does not remove anything when its choice is repeated without each run is dropped.
 ResidualLaw fit_residual_law(std::span<const ResidualRun> runs, const ResidualNames& names);
 
-/// One sentence: "What is left is 8.1 mN m: ..."; empty if nothing holds.
+/// One sentence: "What is left in the motor torque is 8.1 mN m: ..."; empty if nothing holds.
 std::string law_sentence(const ResidualLaw& law, const ResidualNames& names);
 
 std::string law_json(const ResidualLaw& law);
