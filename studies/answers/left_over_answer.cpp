@@ -52,7 +52,7 @@ void add_left_over(reports::Answer& answer, const std::vector<LeftOver>& left, c
         const std::string& channel = recording.channels[each.channels.output].name;
         rows.push_back(law_data(each, channel));
         const std::string sentence = residual_law::law_sentence(each.law, each.names);
-        if (!sentence.empty()) prose += (prose.empty() ? "" : "\n\n") + sentence;
+        if (!sentence.empty()) prose += (prose.empty() ? "" : " ") + sentence;
     }
     answer.values["left_over"] = rows;
     if (prose.empty()) return;
@@ -74,7 +74,8 @@ void add_left_over(reports::Answer& answer, const std::vector<LeftOver>& left, c
                      rows}},
          .note =
              "The law is chosen and fitted without each run in turn and judged on it: with law, removed "
-             "(fraction of the mean square) and band (95% of the samples are within) are for such runs."});
+             "(fraction of the mean square) and band (95% of the samples are within) are for such runs. A run whose "
+             "load lies outside those of the others counts less there."});
 }
 
 }  // namespace capstan::answers

@@ -30,12 +30,8 @@ Eigen::Index column_in(ColumnLibrary& library, const Feature& feature) {
     return static_cast<Eigen::Index>(library.features.size() - 1);
 }
 
-std::vector<double> errors_of(const ColumnLibrary& library, const PartedData& data, const FoundLaw& law) {
-    return left_out_errors(data, chosen_columns(library, law)).squares;
-}
-
-double sum_of(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
+LeftOutErrors errors_of(const ColumnLibrary& library, const PartedData& data, const FoundLaw& law) {
+    return left_out_errors(data, chosen_columns(library, law));
 }
 
 FoundLaw with_terms(FoundLaw law, const std::vector<std::size_t>& terms) {
@@ -47,15 +43,15 @@ FoundLaw with_terms(FoundLaw law, const std::vector<std::size_t>& terms) {
 // A term whose work others have taken over, the least useful first.
 void drop_needless_terms(const ColumnLibrary& library, const PartedData& data, FoundLaw& law) {
     while (!law.terms.empty()) {
-        const std::vector<double> now = errors_of(library, data, law);
+        const LeftOutErrors now = errors_of(library, data, law);
         std::optional<std::size_t> needless;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < law.terms.size(); ++k) {
             FoundLaw without = law;
             without.terms.erase(without.terms.begin() + static_cast<std::ptrdiff_t>(k));
-            const std::vector<double> then = errors_of(library, data, without);
-            if (sum_of(then) < least && !improves_clearly(then, now)) {
-                least = sum_of(then);
+            const LeftOutErrors then = errors_of(library, data, without);
+            if (then.mean() < least && !improves_clearly(then, now)) {
+                least = then.mean();
                 needless = k;
             }
         }
@@ -67,37 +63,37 @@ void drop_needless_terms(const ColumnLibrary& library, const PartedData& data, F
 // The term, or terms that belong together, that lower the error on left-out parts most; false if none does so
 // clearly.
 bool add_best_terms(const ColumnLibrary& library, const PartedData& data, FoundLaw& law) {
-    const std::vector<double> before = errors_of(library, data, law);
+    const LeftOutErrors before = errors_of(library, data, law);
     std::vector<std::vector<std::size_t>> choices = library.together;
     for (std::size_t term = 0; term < library.terms.size(); ++term) choices.push_back({term});
     FoundLaw best = law;
-    double least = sum_of(before);
+    double least = before.mean();
     for (const std::vector<std::size_t>& choice : choices) {
         const FoundLaw tried = with_terms(law, choice);
         if (tried.terms.size() == law.terms.size()) continue;
-        const std::vector<double> after = errors_of(library, data, tried);
-        if (sum_of(after) < least && improves_clearly(before, after)) {
-            least = sum_of(after);
+        const LeftOutErrors after = errors_of(library, data, tried);
+        if (after.mean() < least && improves_clearly(before, after)) {
+            least = after.mean();
             best = tried;
         }
     }
     drop_needless_terms(library, data, best);
-    if (!(sum_of(errors_of(library, data, best)) < sum_of(before))) return false;
+    if (!(errors_of(library, data, best).mean() < before.mean())) return false;
     law = best;
     return true;
 }
 
 FoundLaw with_history(const ColumnLibrary& library, const PartedData& data, const FoundLaw& law) {
     constexpr std::array ridges = {1.0, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5};
-    const std::vector<double> before = errors_of(library, data, law);
+    const LeftOutErrors before = errors_of(library, data, law);
     FoundLaw best = law;
-    double least = sum_of(before);
+    double least = before.mean();
     for (const double ridge : ridges) {
         FoundLaw tried = law;
         tried.history_ridge = ridge;
-        const std::vector<double> after = errors_of(library, data, tried);
-        if (sum_of(after) < least && improves_clearly(before, after)) {
-            least = sum_of(after);
+        const LeftOutErrors after = errors_of(library, data, tried);
+        if (after.mean() < least && improves_clearly(before, after)) {
+            least = after.mean();
             best = tried;
         }
     }
@@ -154,19 +150,24 @@ ChosenColumns chosen_columns(const ColumnLibrary& library, const FoundLaw& law) 
 }
 
 // Relative to each part's own residual, so that the part with the largest does not decide alone.
-bool improves_clearly(const std::vector<double>& before, const std::vector<double>& after) {
-    if (!(sum_of(after) < (1.0 - min_removed) * sum_of(before))) return false;
-    const auto parts = static_cast<double>(before.size());
+bool improves_clearly(const LeftOutErrors& before, const LeftOutErrors& after) {
+    if (!(after.mean() < (1.0 - min_removed) * before.mean())) return false;
+    double importance = 0.0;
+    double importance_squares = 0.0;
     double sum = 0.0;
     double squares = 0.0;
-    for (std::size_t k = 0; k < before.size(); ++k) {
-        if (!(after[k] > 0.0)) continue;
-        const double fall = std::log(before[k] / after[k]);
-        sum += fall;
-        squares += fall * fall;
+    for (std::size_t k = 0; k < before.squares.size(); ++k) {
+        if (!(after.squares[k] > 0.0)) continue;
+        const double fall = std::log(before.squares[k] / after.squares[k]);
+        const double counts = before.importance[k];
+        importance += counts;
+        importance_squares += counts * counts;
+        sum += counts * fall;
+        squares += counts * fall * fall;
     }
-    const double mean = sum / parts;
-    const double variance = std::max(0.0, squares / parts - mean * mean) / (parts - 1.0);
+    const double mean = sum / importance;
+    const double parts = importance * importance / importance_squares;
+    const double variance = std::max(0.0, squares / importance - mean * mean) / (parts - 1.0);
     return mean > clear_errors * std::sqrt(variance);
 }
 

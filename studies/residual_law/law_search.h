@@ -46,6 +46,6 @@ FoundLaw search_law(const ColumnLibrary& library, const PartedData& data, LawFor
 
 /// Whether the mean square falls by more than a few percent, and by more than twice the standard error of its
 /// logarithm over the parts.
-bool improves_clearly(const std::vector<double>& before, const std::vector<double>& after);
+bool improves_clearly(const LeftOutErrors& before, const LeftOutErrors& after);
 
 }  // namespace capstan::residual_law

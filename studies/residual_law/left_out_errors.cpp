@@ -1,6 +1,7 @@
 #include "capstan/residual_law/left_out_errors.h"
 
 #include <Eigen/Cholesky>
+#include <numeric>
 
 namespace capstan::residual_law {
 
@@ -52,9 +53,8 @@ Eigen::VectorXd fitted_weights(const NormalEquations& data, const ChosenColumns&
 }
 
 double LeftOutErrors::mean() const {
-    double sum = 0.0;
-    for (const double square : squares) sum += square;
-    return sum / static_cast<double>(squares.size());
+    return std::inner_product(squares.begin(), squares.end(), importance.begin(), 0.0) /
+           std::accumulate(importance.begin(), importance.end(), 0.0);
 }
 
 double mean_square(const NormalEquations& part, const ChosenColumns& chosen, const Eigen::VectorXd& weights) {
@@ -68,6 +68,7 @@ LeftOutErrors left_out_errors(const PartedData& data, const ChosenColumns& chose
     LeftOutErrors errors;
     for (std::size_t k = 0; k < data.parts.size(); ++k) {
         errors.weights.push_back(fitted_weights(data.others[k], chosen));
+        errors.importance.push_back(data.parts[k].importance);
         errors.squares.push_back(mean_square(data.parts[k], chosen, errors.weights.back()));
     }
     return errors;

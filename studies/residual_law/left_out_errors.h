@@ -11,6 +11,8 @@ struct NormalEquations {
     Eigen::MatrixXd columns;  // columns x columns
     Eigen::VectorXd target;   // columns: with the residual
     double target_square = 0.0;
+    /// How much the part counts when it is left out: less where that asks for an extrapolation.
+    double importance = 1.0;
 
     NormalEquations& operator+=(const NormalEquations& other);
 };
@@ -44,8 +46,9 @@ double mean_square(const NormalEquations& part, const ChosenColumns& chosen, con
 /// Mean square of each part with the weights that the other parts give, and these weights.
 struct LeftOutErrors {
     std::vector<double> squares;           // parts
+    std::vector<double> importance;        // parts
     std::vector<Eigen::VectorXd> weights;  // parts
-    double mean() const;
+    double mean() const;                   ///< over the parts as they count
 };
 
 LeftOutErrors left_out_errors(const PartedData& data, const ChosenColumns& chosen);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/gap/least_squares.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/residual_law/law_search.h"
 #include "capstan/residual_law/law_words.h"
 
@@ -25,13 +26,35 @@ struct Part {
     NormalEquations normal;
 };
 
+// How much each run counts when it is left out. A run whose load lies outside those of the others would test
+// an extrapolation, in which a friction and its growth with the load are one: it counts less by its distance
+// from them, in parts of the range of all. Of two runs each lies outside the other.
+std::vector<double> importance_of(std::span<const ResidualRun> runs) {
+    std::vector<double> importance(runs.size(), 1.0);
+    if (runs.size() < 3 || runs.front().load.empty()) return importance;
+    std::vector<double> loads;
+    for (const ResidualRun& run : runs) loads.push_back(mean_of(run.load));
+    const auto [least, largest] = std::minmax_element(loads.begin(), loads.end());
+    if (!(*largest > *least)) return importance;
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+        std::vector<double> others = loads;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+        const auto [low, high] = std::minmax_element(others.begin(), others.end());
+        const double outside = std::max({0.0, *low - loads[k], loads[k] - *high});
+        importance[k] = 1.0 - outside / (*largest - *least);
+    }
+    return importance;
+}
+
 std::vector<Part> parts_of(std::span<const ResidualRun> runs, const ColumnLibrary& library,
                            const FeatureScales& scales) {
     std::size_t scored = 0;
     for (const ResidualRun& run : runs) scored += run.motion.size() - run.first_scored;
     const std::size_t stride = std::max<std::size_t>(1, scored / fitted_samples);
+    const std::vector<double> importance = importance_of(runs);
     std::vector<Part> parts;
-    for (const ResidualRun& run : runs) {
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const ResidualRun& run = runs[k];
         const Eigen::MatrixXd columns = columns_of(library, scales, run, stride);
         Eigen::VectorXd residual(columns.rows());
         for (Eigen::Index row = 0; row < residual.size(); ++row)
@@ -43,6 +66,7 @@ std::vector<Part> parts_of(std::span<const ResidualRun> runs, const ColumnLibrar
             if (rows == 0) continue;
             Part part{columns.middleRows(first, rows), residual.segment(first, rows), {}};
             part.normal = normal_equations(part.columns, part.residual);
+            part.normal.importance = importance[k];
             parts.push_back(std::move(part));
         }
     }
@@ -59,6 +83,7 @@ PartedData parted(const std::vector<Part>& parts) {
 struct NestedErrors {
     std::vector<double> before;
     std::vector<double> after;
+    std::vector<double> importance;
 
     // Without part `left_out`; none: of all.
     double removed(std::optional<std::size_t> left_out = {}) const {
@@ -66,8 +91,8 @@ struct NestedErrors {
         double sum_after = 0.0;
         for (std::size_t k = 0; k < before.size(); ++k) {
             if (k == left_out) continue;
-            sum_before += before[k];
-            sum_after += after[k];
+            sum_before += importance[k] * before[k];
+            sum_after += importance[k] * after[k];
         }
         return sum_before > 0.0 ? 1.0 - sum_after / sum_before : 0.0;
     }
@@ -81,7 +106,10 @@ struct TriedLaw {
 
 TriedLaw tried_law(const ColumnLibrary& library, const PartedData& data, LawForm form) {
     TriedLaw tried{search_law(library, data, form), {}};
-    for (const NormalEquations& part : data.parts) tried.errors.before.push_back(part.target_square);
+    for (const NormalEquations& part : data.parts) {
+        tried.errors.before.push_back(part.target_square);
+        tried.errors.importance.push_back(part.importance);
+    }
     // The history's only choice is its ridge, which is not worth repeating.
     if (form == LawForm::history || data.parts.size() < min_nested_parts) {
         tried.errors.after = left_out_errors(data, chosen_columns(library, tried.found)).squares;
@@ -97,12 +125,19 @@ TriedLaw tried_law(const ColumnLibrary& library, const PartedData& data, LawForm
     return tried;
 }
 
+// The number of parts, as they count.
+double counting_parts(const PartedData& data) {
+    double sum = 0.0;
+    for (const NormalEquations& part : data.parts) sum += part.importance;
+    return sum;
+}
+
 // Few terms, if they remove nearly as much as the best form does. Terms that remove less than half of what
 // the motion's history does are not what is behind the residual, and are not stated.
 TriedLaw best_law(const ColumnLibrary& library, const PartedData& data) {
-    constexpr double nearly = 0.05;
+    constexpr double nearly = 0.02;
     // Of two parts many a choice fits both by chance.
-    const double worth_stating = data.parts.size() < 3 ? 0.25 : 0.1;
+    const double worth_stating = counting_parts(data) < 3.0 ? 0.25 : 0.1;
     const auto removed_by = [](const TriedLaw& law) {
         return law.found.empty() ? 0.0 : law.errors.removed();
     };
@@ -130,8 +165,10 @@ void state_removed_fraction(ResidualLaw& law, const NestedErrors& errors) {
 
 // The magnitude that 95% of the residuals do not exceed, each with the weights that the other parts give.
 double band_of(const std::vector<Part>& parts, const ChosenColumns& chosen, const LeftOutErrors& left_out) {
+    constexpr double counts_enough = 0.5;
     std::vector<double> magnitudes;
     for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (parts[k].normal.importance < counts_enough) continue;
         Eigen::VectorXd rest = parts[k].residual;
         if (!chosen.columns.empty())
             rest -= parts[k].columns(Eigen::all, chosen.columns) * left_out.weights[k];
@@ -199,7 +236,9 @@ ResidualLaw fit_residual_law(std::span<const ResidualRun> given, const ResidualN
     law.has_history_model = found.history_ridge.has_value();
     law.terms = sized_terms(library, found, weights, left_out);
     for (LawTerm& term : law.terms) term.words = term_words(term, law.scales, names);
-    law.residual_rms = std::sqrt(left_out_errors(data, {}).mean());
+    double squares = 0.0;
+    for (const NormalEquations& part : data.parts) squares += part.target_square;
+    law.residual_rms = std::sqrt(squares / static_cast<double>(data.parts.size()));
     law.left_out_rms = std::sqrt(left_out.mean());
     law.band = band_of(parts, chosen, left_out);
     return law;
