@@ -32,7 +32,7 @@ Data law_data(const LeftOver& left, const std::string& channel) {
         {"terms", terms},
         {"removed_fraction", holds ? Data(law.removed_fraction) : Data()},
         {"removed_interval_95", law.removed_low ? Data::list({*law.removed_low, *law.removed_high}) : Data()},
-        {"rms_left_out", law.left_out_rms},
+        {"rms_left_out", holds ? Data(law.left_out_rms) : Data()},
         {"band_95", law.band},
         {"sentence", residual_law::law_sentence(law, left.names)}};
 }

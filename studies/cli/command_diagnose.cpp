@@ -143,7 +143,7 @@ std::vector<model_comparison::LeftOver> left_over(const model_comparison::Diagno
 // The bench's models on runs held out, with --baselines beside the simple models.
 model_comparison::ModelComparison compared(const Invocation& invocation,
                                            const model_comparison::DiagnosedSplit& diagnosed,
-                                           const gap::DiagnosisOptions& options) {
+                                           const gap::DiagnosisOptions& options, int& diagnoses_done) {
     using model_comparison::Compared;
     model_comparison::ModelComparison comparison;
     if (has_split(invocation)) {
@@ -152,10 +152,12 @@ model_comparison::ModelComparison compared(const Invocation& invocation,
             invocation.has("baselines") ? Compared::with_simple_models : Compared::bench_alone, options);
     } else if (invocation.has("baselines")) {
         for (const model_comparison::RunSplit& split :
-             model_comparison::alternating_splits(diagnosed.recorded))
+             model_comparison::alternating_splits(diagnosed.recorded)) {
+            ++diagnoses_done;
             model_comparison::add_split(comparison,
                                         model_comparison::diagnose_split(diagnosed.recorded, split, options),
                                         Compared::with_simple_models, options);
+        }
     }
     return comparison;
 }
@@ -197,16 +199,22 @@ ExitCode run_diagnose(const Invocation& invocation) {
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
     ProgressDisplay display(progress_mode(invocation.text("progress")));
+    // Without a choice of runs, the comparison diagnoses two halves of the runs as well.
+    const int diagnoses = invocation.has("baselines") && !has_split(invocation)
+                              ? 1 + static_cast<int>(model_comparison::alternating_splits(recorded).size())
+                              : 1;
+    int diagnoses_done = 0;
     options.on_progress = [&](const std::string& activity, double fraction) {
         ProgressEvent event;
         event.activity = activity;
-        event.fraction = fraction;
+        event.fraction = (diagnoses_done + fraction) / diagnoses;
         display.show(event);
     };
     const model_comparison::DiagnosedSplit diagnosed = diagnosed_runs(invocation, recorded, options);
     const Recording& recording = diagnosed.diagnosed;
     const Diagnosis& diagnosis = diagnosed.diagnosis;
-    const model_comparison::ModelComparison comparison = compared(invocation, diagnosed, options);
+    const model_comparison::ModelComparison comparison =
+        compared(invocation, diagnosed, options, diagnoses_done);
     display.end_line();
     if (invocation.has("db")) store(invocation, recording, diagnosis);
     if (invocation.has("corrected"))
