@@ -148,15 +148,22 @@ std::string law_sentence(const ResidualLaw& law, const ResidualNames& names) {
     if (!law.holds()) return "";
     std::string text = fmt::format("What is left in the {} is {}: ", names.channel,
                                    plain(law.residual_rms, names.output_unit));
-    for (std::size_t k = 0; k < law.terms.size(); ++k)
-        text += fmt::format("{}{}",
-                            k == 0                      ? "it looks like "
-                            : k + 1 == law.terms.size() ? "; and "
-                                                        : "; ",
-                            law.terms[k].words);
-    if (law.has_history_model)
-        text += law.terms.empty() ? history_words(law, names)
-                                  : "; the rest depends on the motion since the last reversals";
+    // A term that could as well be absent or of the other sign says nothing by itself.
+    std::vector<std::string> looks_like;
+    for (const LawTerm& term : law.terms)
+        if (std::abs(term.size) > term.half_width) looks_like.push_back(term.words);
+    const std::size_t open = law.terms.size() - looks_like.size();
+    if (open > 0)
+        looks_like.push_back(fmt::format("{} {}{} that the runs do not determine one by one", open,
+                                         open < law.terms.size() ? "further " : "",
+                                         open == 1 ? "term" : "terms"));
+    if (law.terms.empty() || (open == law.terms.size() && law.has_history_model)) {
+        text += history_words(law, names);
+    } else {
+        text += fmt::format("{} {}", open < law.terms.size() ? "it looks like" : "it depends on",
+                            fmt::join(looks_like, "; and "));
+        if (law.has_history_model) text += "; the rest depends on the motion since the last reversals";
+    }
     text += fmt::format(". On runs that were left out this removes {:.0f}%", 100.0 * law.removed_fraction);
     if (law.removed_low)
         text += fmt::format(" ({:.0f} to {:.0f})", 100.0 * *law.removed_low, 100.0 * *law.removed_high);

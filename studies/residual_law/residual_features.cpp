@@ -138,7 +138,10 @@ FeatureScales scales_of(const std::vector<ResidualRun>& runs) {
     scales.motion_middle = 0.5 * (low + high);
     if (high > low) scales.motion_half_range = 0.5 * (high - low);
     if (speed > 0.0) scales.speed = speed;
-    if (session_s > 0.0) scales.session_s = session_s;
+    const bool is_stated = std::any_of(runs.begin(), runs.end(), [&](const ResidualRun& run) {
+        return run.session_start_s != runs.front().session_start_s;
+    });
+    if (is_stated || runs.size() == 1) scales.session_s = session_s;
     return scales;
 }
 
@@ -173,7 +176,7 @@ std::vector<Term> possible_terms(const FeatureScales& scales) {
         for (const double time_constant_s : time_constants_s)
             terms.push_back({{FeatureKind::relaxation, time_constant_s, times_load}});
     }
-    terms.push_back({{FeatureKind::session_time, 0.0, false}});
+    if (scales.session_s > 0.0) terms.push_back({{FeatureKind::session_time, 0.0, false}});
     return terms;
 }
 

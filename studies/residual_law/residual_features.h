@@ -45,7 +45,7 @@ struct FeatureScales {
     double motion_half_range = 1.0;
     double speed = 1.0;      ///< the largest, per second
     double load = 0.0;       ///< that of the largest magnitude, with its sign; 0: no load is recorded
-    double session_s = 1.0;  ///< to the end of the last run
+    double session_s = 0.0;  ///< to the end of the last run; 0: where runs lie in the session is not stated
 };
 
 FeatureScales scales_of(const std::vector<ResidualRun>& runs);
