@@ -13,6 +13,7 @@
 #include "capstan/blind_trial/trial_score.h"
 #include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"
+#include "capstan/model_comparison/model_comparison.h"
 #include "capstan/recording/recording.h"
 #include "capstan/reports/answer.h"
 #include "capstan/storage/diagnosis_records.h"
@@ -31,6 +32,17 @@ reports::Answer stored_diagnosis_answer(const storage::DiagnosisRecord& diagnosi
 
 /// A diagnosis with the curves of the recording and the experiment that would decide what it left open.
 reports::Answer diagnosis_answer(const Recording& recording, const gap::Diagnosis& diagnosis);
+
+/// Adds a section to a diagnosis before its curves, of which there are many.
+void add_before_curves(reports::Answer& answer, reports::AnswerSection section);
+
+/// Adds to a diagnosis what its corrected model leaves of each channel, and what that looks like.
+void add_left_over(reports::Answer& answer, const std::vector<model_comparison::LeftOver>& left,
+                   const Recording& recording);
+
+/// Adds to a diagnosis the errors of its model, and of simple models, on the runs that each was fitted to and
+/// on runs held out.
+void add_comparison(reports::Answer& answer, const model_comparison::ModelComparison& comparison);
 
 /// Measured channels, the model without and with the cause, residuals and loops.
 std::vector<reports::Table> diagnosis_curves(const Recording& recording, const gap::Diagnosis& diagnosis);

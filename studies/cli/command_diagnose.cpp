@@ -12,6 +12,7 @@
 #include "capstan/export/series.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/equivalent_bench.h"
+#include "capstan/model_comparison/model_comparison.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/driven_inputs.h"
@@ -79,27 +80,86 @@ std::vector<int> run_numbers(const std::string& listed) {
 }
 
 // Keeps only the runs of a list such as 1,2,5.
-Recording only_runs(Recording recording, const std::string& listed) {
-    std::vector<RecordedRun> runs;
-    for (const int number : run_numbers(listed)) {
-        const auto run = std::find_if(recording.runs.begin(), recording.runs.end(),
-                                      [&](const RecordedRun& each) { return each.number == number; });
-        if (run == recording.runs.end())
-            throw UsageError(fmt::format("{}: there is no run {}", recording.name, number));
-        runs.push_back(*run);
-    }
-    recording.runs = std::move(runs);
-    return recording;
+Recording only_runs(const Recording& recording, const std::string& listed) {
+    return model_comparison::runs_of(recording, run_numbers(listed));
 }
 
-// The recorded bench, or an equivalent bench where the geometry is unknown.
-Recording recorded_bench(const Invocation& invocation) {
-    const Recording recorded = read_recording(invocation.argument("LOG"));
-    const Recording diagnosed =
-        invocation.has("runs") ? only_runs(recorded, invocation.text("runs")) : recorded;
-    const Recording fitted_to =
-        invocation.has("calibrate-on") ? only_runs(recorded, invocation.text("calibrate-on")) : diagnosed;
-    return gap::equivalent_bench(diagnosed, fitted_to);
+// The runs to fit and to judge, as --fit and --hold say; all others where one of them is missing.
+model_comparison::RunSplit asked_split(const Invocation& invocation, const Recording& recording) {
+    for (const char* other : {"runs", "calibrate-on"}) {
+        if (invocation.has(other))
+            throw UsageError(
+                fmt::format("--{} does not go with --fit and --hold, which choose the runs", other));
+    }
+    model_comparison::RunSplit split;
+    if (invocation.has("fit")) split.fit = run_numbers(invocation.text("fit"));
+    if (invocation.has("hold")) split.hold = run_numbers(invocation.text("hold"));
+    for (const int number : split.hold) {
+        if (std::find(split.fit.begin(), split.fit.end(), number) != split.fit.end())
+            throw UsageError(fmt::format("run {} is both in --fit and in --hold", number));
+    }
+    const auto all_but = [&](const std::vector<int>& listed) {
+        std::vector<int> others;
+        for (const RecordedRun& run : recording.runs)
+            if (std::find(listed.begin(), listed.end(), run.number) == listed.end())
+                others.push_back(run.number);
+        return others;
+    };
+    if (!invocation.has("fit")) split.fit = all_but(split.hold);
+    if (!invocation.has("hold")) split.hold = all_but(split.fit);
+    if (split.fit.empty()) throw UsageError("--hold leaves no run to fit");
+    return split;
+}
+
+bool has_split(const Invocation& invocation) {
+    return invocation.has("fit") || invocation.has("hold");
+}
+
+// The diagnosis of the fitted runs; without --fit and --hold of all runs or those of --runs.
+model_comparison::DiagnosedSplit diagnosed_runs(const Invocation& invocation, const Recording& recorded,
+                                                const gap::DiagnosisOptions& options) {
+    if (has_split(invocation))
+        return model_comparison::diagnose_split(recorded, asked_split(invocation, recorded), options);
+    model_comparison::DiagnosedSplit all;
+    all.recorded = invocation.has("runs") ? only_runs(recorded, invocation.text("runs")) : recorded;
+    // The recorded bench, or an equivalent bench where the geometry is unknown.
+    all.bench = gap::equivalent_bench(all.recorded, invocation.has("calibrate-on")
+                                                        ? only_runs(recorded, invocation.text("calibrate-on"))
+                                                        : all.recorded);
+    all.diagnosed = all.bench;
+    all.diagnosis = gap::diagnose(all.diagnosed, options);
+    for (const RecordedRun& run : all.recorded.runs) all.split.fit.push_back(run.number);
+    return all;
+}
+
+// What the corrected model leaves of the runs that were diagnosed.
+std::vector<model_comparison::LeftOver> left_over(const model_comparison::DiagnosedSplit& diagnosed) {
+    const Recording fitted = model_comparison::runs_of(diagnosed.recorded, diagnosed.split.fit);
+    return model_comparison::fit_left_over(
+        fitted,
+        model_comparison::in_recorded_channels(fitted, diagnosed.diagnosed, diagnosed.diagnosis.gap.leading));
+}
+
+// The bench's models on runs held out, with --baselines beside the simple models.
+model_comparison::ModelComparison compared(const Invocation& invocation,
+                                           const model_comparison::DiagnosedSplit& diagnosed,
+                                           const gap::DiagnosisOptions& options, int& diagnoses_done) {
+    using model_comparison::Compared;
+    model_comparison::ModelComparison comparison;
+    if (has_split(invocation)) {
+        model_comparison::add_split(
+            comparison, diagnosed,
+            invocation.has("baselines") ? Compared::with_simple_models : Compared::bench_alone, options);
+    } else if (invocation.has("baselines")) {
+        for (const model_comparison::RunSplit& split :
+             model_comparison::alternating_splits(diagnosed.recorded)) {
+            ++diagnoses_done;
+            model_comparison::add_split(comparison,
+                                        model_comparison::diagnose_split(diagnosed.recorded, split, options),
+                                        Compared::with_simple_models, options);
+        }
+    }
+    return comparison;
 }
 
 void store(const Invocation& invocation, const Recording& recording, const Diagnosis& diagnosis) {
@@ -135,24 +195,36 @@ void write_prediction(const std::filesystem::path& file, Recording recording, co
 }
 
 ExitCode run_diagnose(const Invocation& invocation) {
-    const Recording recording = recorded_bench(invocation);
+    const Recording recorded = read_recording(invocation.argument("LOG"));
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
     ProgressDisplay display(progress_mode(invocation.text("progress")));
+    // Without a choice of runs, the comparison diagnoses two halves of the runs as well.
+    const int diagnoses = invocation.has("baselines") && !has_split(invocation)
+                              ? 1 + static_cast<int>(model_comparison::alternating_splits(recorded).size())
+                              : 1;
+    int diagnoses_done = 0;
     options.on_progress = [&](const std::string& activity, double fraction) {
         ProgressEvent event;
         event.activity = activity;
-        event.fraction = fraction;
+        event.fraction = (diagnoses_done + fraction) / diagnoses;
         display.show(event);
     };
-    const Diagnosis diagnosis = gap::diagnose(recording, options);
+    const model_comparison::DiagnosedSplit diagnosed = diagnosed_runs(invocation, recorded, options);
+    const Recording& recording = diagnosed.diagnosed;
+    const Diagnosis& diagnosis = diagnosed.diagnosis;
+    const model_comparison::ModelComparison comparison =
+        compared(invocation, diagnosed, options, diagnoses_done);
     display.end_line();
     if (invocation.has("db")) store(invocation, recording, diagnosis);
     if (invocation.has("corrected"))
         write_file(invocation.text("corrected"),
                    corrected_model_text(recording, diagnosis, answers::verdict_sentence(diagnosis)));
     if (invocation.has("prediction")) write_prediction(invocation.text("prediction"), recording, diagnosis);
-    deliver_answer(invocation, answers::diagnosis_answer(recording, diagnosis));
+    reports::Answer answer = answers::diagnosis_answer(recording, diagnosis);
+    answers::add_left_over(answer, left_over(diagnosed), diagnosed.recorded);
+    answers::add_comparison(answer, comparison);
+    deliver_answer(invocation, answer);
     return ExitCode::success;
 }
 
@@ -166,6 +238,20 @@ const Option calibrate_on_option{
     .meaning =
         "Runs to which a drive or band of unknown geometry is calibrated. Default: the diagnosed "
         "runs."};
+const Option fit_option{
+    .name = "fit",
+    .value = "LIST",
+    .meaning = "Calibrate and diagnose on these runs only, and judge the corrected model on the others."};
+const Option hold_option{
+    .name = "hold",
+    .value = "LIST",
+    .meaning = "The runs on which the corrected model is judged. Default: those that are not fitted."};
+const Option baselines_option{
+    .name = "baselines",
+    .kind = OptionKind::flag,
+    .meaning =
+        "Also fit simple models that know nothing of the bench, and print the errors of all models on fitted "
+        "and held-out runs. Without --fit and --hold, every other run is held out, then the rest."};
 const Option keep_option{
     .name = "db",
     .value = "FILE",
@@ -195,11 +281,12 @@ Command diagnose_command() {
                 "causes cannot be distinguished, it lists them and the experiment that would distinguish "
                 "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
             .arguments = {log_argument},
-            .options = {runs_option, calibrate_on_option, keep_option, corrected_option, prediction_option,
-                        jobs_option, output_option, format_option, json_option, page_option, progress_option,
-                        help_option},
+            .options = {runs_option, calibrate_on_option, fit_option, hold_option, baselines_option,
+                        keep_option, corrected_option, prediction_option, jobs_option, output_option,
+                        format_option, json_option, page_option, progress_option, help_option},
             .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
                          "capstan diagnose bench.csv --html bench.html",
+                         "capstan diagnose bench.csv --fit 1,3,5 --hold 2,4,6 --baselines",
                          "capstan diagnose bench.csv --db bench.db",
                          "capstan diagnose bench.csv --corrected corrected.toml"},
             .run = run_diagnose};

@@ -30,7 +30,7 @@ SIDECAR
 rm -rf "$folder/trial"
 "$capstan" gap-trial --cases 1 --seed 4 --length short --severity strong --keep "$folder/trial" --generate-only \
     --progress none >/dev/null
-"$capstan" diagnose "$folder/trial/case001.csv" --progress none --html "$folder/diagnosis.html" -o /dev/null
+"$capstan" diagnose "$folder/trial/case001.csv" --fit 1 --baselines --progress none --html "$folder/diagnosis.html" -o /dev/null
 
 # Two studies beside each other.
 rm -f "$folder"/compared.db*
