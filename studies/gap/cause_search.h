@@ -61,6 +61,8 @@ class CauseSearch {
     ScoredFit scored(const Model& model, CauseFit fit);
     ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);
     Fits finely_fitted(const Fits& coarse);
+    double held_out_misfit(const Hypothesis& hypothesis);
+    void drop_unearned_causes(Fits& fits);
     bool is_better_when_built(const ScoredFit& best);
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);
@@ -71,6 +73,7 @@ class CauseSearch {
     void add_sets(const Level& level, const ScoredFit& present, Fits& sets);
 
     CauseSearchOptions options_;
+    std::size_t run_count_;
     Model fine_;
     Model coarse_;
     Evidence evidence_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "capstan/gap/candidate_cause.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/rig/channel_names.h"
 
@@ -37,32 +36,8 @@ Translation translation(const std::vector<double>& recorded, const std::vector<d
 
 }  // namespace
 
-gap::BenchNumbers corrected_numbers(const Recording& diagnosed, const gap::Diagnosis& diagnosis) {
-    gap::BenchNumbers numbers;
-    numbers.friction_ratio = diagnosis.friction_ratio;
-    numbers.stiffness_ratio = diagnosis.stiffness_ratio;
-    numbers.pretension_ratio = diagnosis.pretension_ratio;
-    const std::vector<gap::CandidateCause> candidates = gap::candidate_causes(diagnosed);
-    for (const gap::FittedCause& cause : diagnosis.causes) {
-        const auto candidate =
-            std::find_if(candidates.begin(), candidates.end(), [&](const gap::CandidateCause& each) {
-                return each.effect == cause.effect && each.variant == cause.variant;
-            });
-        if (candidate == candidates.end()) continue;
-        std::vector<double> values;
-        for (const gap::OpenNumber& open : candidate->numbers) {
-            const auto fitted =
-                std::find_if(cause.numbers.begin(), cause.numbers.end(),
-                             [&](const gap::FittedNumber& number) { return number.name == open.name; });
-            values.push_back(fitted == cause.numbers.end() ? open.absent : fitted->value);
-        }
-        candidate->apply(numbers, values);
-    }
-    return numbers;
-}
-
 std::vector<gap::TwinRun> bench_runs(const Recording& bench, const gap::BenchNumbers& numbers,
-                                     const gap::DiagnosisOptions& options) {
+                                     const gap::CauseSearchOptions& options) {
     const gap::EffectsTwin twin(bench, {.segments = options.segments});
     std::vector<gap::TwinRun> runs(bench.runs.size());
     parallel_for_each_index(static_cast<int>(runs.size()), options.threads, [&](int run) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "capstan/gap/diagnosis.h"
+#include "capstan/gap/cause_search.h"
 #include "capstan/gap/effects_twin.h"
 #include "capstan/recording/recording.h"
 
@@ -13,12 +13,9 @@ struct Predictions {
     std::vector<std::vector<std::vector<double>>> values;  // runs x channels x samples; empty: not predicted
 };
 
-/// The numbers of the bench as a diagnosis corrects it. `diagnosed`: the bench that was diagnosed.
-gap::BenchNumbers corrected_numbers(const Recording& diagnosed, const gap::Diagnosis& diagnosis);
-
 /// All runs of a bench with these numbers, driven as it was recorded.
 std::vector<gap::TwinRun> bench_runs(const Recording& bench, const gap::BenchNumbers& numbers,
-                                     const gap::DiagnosisOptions& options);
+                                     const gap::CauseSearchOptions& options);
 
 /// Translates what a model of an equivalent bench predicts into the channels of the recording that the bench
 /// was made of. `runs`: one for each run of `recording` and `bench`.

@@ -105,7 +105,7 @@ void add_split(ModelComparison& comparison, const DiagnosedSplit& split, Compare
     comparison.splits.push_back(split.split);
     const Recording& recording = split.recorded;
     const Recording fitted = runs_of(recording, split.split.fit);
-    const gap::BenchNumbers corrected_to = corrected_numbers(split.diagnosed, split.diagnosis);
+    const gap::BenchNumbers& corrected_to = split.diagnosis.corrected;
     const Predictions uncorrected =
         in_recorded_channels(recording, split.bench, bench_runs(split.bench, {}, options));
     const Predictions corrected =

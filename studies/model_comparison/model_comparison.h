@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "capstan/gap/diagnosis.h"
 #include "capstan/model_comparison/left_over.h"
 
 namespace capstan::model_comparison {
