@@ -7,9 +7,9 @@
 
 #include "capstan/duty/duty_cycle.h"
 #include "capstan/estimate/left_out.h"
-#include "capstan/gap/calibration.h"
+#include "capstan/calibration/calibration.h"
 #include "capstan/gap/diagnosis.h"
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/blind_trial/trial_score.h"
 #include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"

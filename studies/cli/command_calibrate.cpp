@@ -5,7 +5,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/duty/duty_cycle.h"
-#include "capstan/gap/calibration.h"
+#include "capstan/calibration/calibration.h"
 #include "capstan/platform/files.h"
 #include "capstan/recording/recording_reader.h"
 

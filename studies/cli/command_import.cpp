@@ -10,7 +10,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"
-#include "capstan/import/suggestion.h"
+#include "capstan/suggestion/suggestion.h"
 #include "capstan/platform/progress.h"
 #include "capstan/recording/json_object.h"
 #include "capstan/recording/recording_keys.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/parameter_file.h"
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/parameter_file.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/recording/driven_inputs.h"

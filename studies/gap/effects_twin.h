@@ -8,7 +8,7 @@
 
 #include "capstan/effects/bench_effects.h"
 #include "capstan/effects/sensor_faults.h"
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/recording/driven_inputs.h"
 #include "capstan/recording/recording.h"
 #include "capstan/rig/bench_simulation.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/calibration.h"
+#include "capstan/calibration/calibration.h"
 #include "capstan/gap/cause_fit.h"
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/import/units.h"
 #include "capstan/platform/statistics.h"
 #include "capstan/recording/recording_reader.h"

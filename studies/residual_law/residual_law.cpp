@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capstan/gap/least_squares.h"
+#include "capstan/calibration/least_squares.h"
 #include "capstan/platform/statistics.h"
 #include "capstan/residual_law/law_search.h"
 #include "capstan/residual_law/law_words.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "capstan/gap/least_squares.h"
+#include "capstan/calibration/least_squares.h"
 #include "capstan/simple_models/linear_models.h"
 
 namespace capstan::simple_models {

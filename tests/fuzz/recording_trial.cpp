@@ -1,7 +1,7 @@
 #include "recording_trial.h"
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/recording/recording_reader.h"
 #include "target.h"
 

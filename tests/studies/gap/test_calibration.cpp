@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/calibration.h"
+#include "capstan/calibration/calibration.h"
 #include "capstan/recording/recording_reader.h"
 #include "sample_recording.h"
 

@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "capstan/gap/least_squares.h"
+#include "capstan/calibration/least_squares.h"
 
 namespace capstan::gap {
 namespace {

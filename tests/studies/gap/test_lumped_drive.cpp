@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "lumped_session.h"
 
 namespace capstan::gap {

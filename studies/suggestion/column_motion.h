@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "capstan/import/column_roles.h"
+#include "capstan/suggestion/column_roles.h"
 
 namespace capstan::imports {
 

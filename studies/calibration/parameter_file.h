@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 
 namespace capstan::gap {
 

@@ -1,4 +1,4 @@
-#include "capstan/gap/least_squares.h"
+#include "capstan/calibration/least_squares.h"
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/students_t.hpp>

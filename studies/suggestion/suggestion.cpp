@@ -1,4 +1,4 @@
-#include "capstan/import/suggestion.h"
+#include "capstan/suggestion/suggestion.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <set>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/import/column_motion.h"
-#include "capstan/import/column_roles.h"
-#include "capstan/import/guessed_signs.h"
-#include "capstan/import/guessed_units.h"
+#include "capstan/suggestion/column_motion.h"
+#include "capstan/suggestion/column_roles.h"
+#include "capstan/suggestion/guessed_signs.h"
+#include "capstan/suggestion/guessed_units.h"
 #include "capstan/import/importer.h"
 #include "capstan/import/log_files.h"
 #include "capstan/import/log_times.h"

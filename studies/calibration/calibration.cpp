@@ -1,4 +1,4 @@
-#include "capstan/gap/calibration.h"
+#include "capstan/calibration/calibration.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/least_squares.h"
-#include "capstan/gap/twin_residuals.h"
+#include "capstan/calibration/least_squares.h"
+#include "capstan/calibration/twin_residuals.h"
 #include "capstan/platform/statistics.h"
 
 namespace capstan::gap {

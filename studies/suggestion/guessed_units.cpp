@@ -1,4 +1,4 @@
-#include "capstan/import/guessed_units.h"
+#include "capstan/suggestion/guessed_units.h"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "capstan/import/column_roles.h"
-#include "capstan/import/suggestion.h"
+#include "capstan/suggestion/column_roles.h"
+#include "capstan/suggestion/suggestion.h"
 
 namespace capstan::imports {
 

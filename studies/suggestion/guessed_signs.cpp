@@ -1,11 +1,11 @@
-#include "capstan/import/guessed_signs.h"
+#include "capstan/suggestion/guessed_signs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "capstan/import/column_motion.h"
+#include "capstan/suggestion/column_motion.h"
 #include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 

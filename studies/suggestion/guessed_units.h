@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "capstan/import/column_roles.h"
-#include "capstan/import/suggestion.h"
+#include "capstan/suggestion/column_roles.h"
+#include "capstan/suggestion/suggestion.h"
 
 namespace capstan::imports {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/recording/recording.h"
 
 namespace capstan::gap {

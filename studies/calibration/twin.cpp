@@ -1,4 +1,4 @@
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 
 #include <fmt/format.h>
 

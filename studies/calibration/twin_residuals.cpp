@@ -1,4 +1,4 @@
-#include "capstan/gap/twin_residuals.h"
+#include "capstan/calibration/twin_residuals.h"
 
 #include <algorithm>
 #include <cmath>

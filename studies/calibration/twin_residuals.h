@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/recording/recording.h"
 
 namespace capstan::gap {

@@ -1,4 +1,4 @@
-#include "capstan/gap/parameter_file.h"
+#include "capstan/calibration/parameter_file.h"
 
 #include <algorithm>
 

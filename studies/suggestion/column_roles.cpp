@@ -1,4 +1,4 @@
-#include "capstan/import/column_roles.h"
+#include "capstan/suggestion/column_roles.h"
 
 #include <algorithm>
 #include <array>

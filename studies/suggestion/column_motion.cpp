@@ -1,4 +1,4 @@
-#include "capstan/import/column_motion.h"
+#include "capstan/suggestion/column_motion.h"
 
 #include <algorithm>
 #include <cmath>

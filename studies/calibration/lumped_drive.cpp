@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/twin.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 #include "capstan/solver/pull_pull.h"
