@@ -1,4 +1,4 @@
--- The results database of capstan, version 3. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 4. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a fraction or a ratio has no unit and says so in its
 -- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
@@ -421,7 +421,7 @@ CREATE TABLE diagnosis_number (
     FOREIGN KEY (diagnosis_id, cause_index) REFERENCES diagnosis_cause ON DELETE CASCADE
 ) STRICT, WITHOUT ROWID;
 
--- Every hypothesis that got a full fit: first two causes together, then one or none; each best first.
+-- Every set of causes that got a full fit, best first.
 CREATE TABLE diagnosis_candidate (
     diagnosis_id       INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
     candidate_index    INTEGER NOT NULL,           -- 0, 1, ...

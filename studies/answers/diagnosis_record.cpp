@@ -1,11 +1,15 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "capstan/answers/recording_answers.h"
-#include "capstan/gap/gap_map.h"
 #include "capstan/blind_trial/sealed_labels.h"
+#include "capstan/effects/known_causes.h"
+#include "capstan/gap/gap_map.h"
 #include "capstan/platform/files.h"
 #include "capstan/reports/page_frame.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::answers {
 
@@ -51,26 +55,53 @@ storage::DiagnosisChannelRecord channel_record(const gap::ChannelGap& channel) {
 
 std::string verdict_name(const gap::Diagnosis& diagnosis) {
     const std::string& first = diagnosis.ranked.front().effect;
-    if (first == "none" || first == "unknown" || diagnosis.causes.size() < 2) return first;
-    return diagnosis.causes[0].effect + " + " + diagnosis.causes[1].effect;
+    if (first == "none" || first == "unknown" || diagnosis.causes.empty()) return first;
+    std::vector<std::string> effects;
+    for (const gap::FittedCause& cause : diagnosis.causes) {
+        if (std::find(effects.begin(), effects.end(), cause.effect) == effects.end())
+            effects.push_back(cause.effect);
+    }
+    return fmt::format("{}", fmt::join(effects, " + "));
+}
+
+// "motor cogging", "sensor offset (motor torque)"
+std::string cause_words(const gap::FittedCause& cause) {
+    const std::string title = cause_title(cause.effect);
+    return cause.variant.empty() ? title : fmt::format("{} ({})", title, channel_words(cause.variant));
+}
+
+double present_probability(const gap::Diagnosis& diagnosis, const std::string& effect) {
+    for (const gap::RankedEffect& each : diagnosis.ranked) {
+        if (each.effect == effect) return each.present;
+    }
+    return 0.0;
 }
 
 }  // namespace
 
 std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
+    constexpr double likely = 0.5;
     const gap::RankedEffect& first = diagnosis.ranked.front();
-    char probability[16];
-    std::snprintf(probability, sizeof probability, "%.2f", first.probability);
     if (first.effect == "none")
-        return std::string("There is no gap beyond noise and the floor of the model (probability ") +
-               probability + ").";
+        return fmt::format("There is no gap beyond noise and the floor of the model (probability {:.2f}).",
+                           first.probability);
     if (first.effect == "unknown")
-        return std::string("There is a gap that no known effect explains (probability ") + probability +
-               "). The numbers below are those of the best known effect.";
-    if (diagnosis.causes.size() > 1)
-        return "Two causes act together: " + diagnosis.causes[0].effect + " and " +
-               diagnosis.causes[1].effect + ".";
-    return "The cause is " + first.effect + " (probability " + probability + ").";
+        return fmt::format(
+            "There is a gap that no known effect explains (probability {:.2f}). The numbers below are those of "
+            "the best known effect.",
+            first.present);
+    std::vector<std::string> causes;
+    for (const gap::FittedCause& cause : diagnosis.causes) causes.push_back(cause_words(cause));
+    std::string text =
+        causes.size() == 1
+            ? fmt::format("The cause is {} (probability {:.2f}).", causes.front(), first.present)
+            : fmt::format("{} causes act together: {} and {}.", causes.size(),
+                          fmt::join(causes.begin(), causes.end() - 1, ", "), causes.back());
+    const double unknown = present_probability(diagnosis, "unknown");
+    if (unknown > likely)
+        text +=
+            fmt::format(" They leave a part that no known effect explains (probability {:.2f}).", unknown);
+    return text;
 }
 
 storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap::Diagnosis& diagnosis,

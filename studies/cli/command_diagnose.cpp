@@ -198,6 +198,7 @@ ExitCode run_diagnose(const Invocation& invocation) {
     const Recording recorded = read_recording(invocation.argument("LOG"));
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
+    if (invocation.has("time-limit")) options.time_limit_s = invocation.number("time-limit");
     ProgressDisplay display(progress_mode(invocation.text("progress")));
     // Without a choice of runs, the comparison diagnoses two halves of the runs as well.
     const int diagnoses = invocation.has("baselines") && !has_split(invocation)
@@ -216,6 +217,8 @@ ExitCode run_diagnose(const Invocation& invocation) {
     const model_comparison::ModelComparison comparison =
         compared(invocation, diagnosed, options, diagnoses_done);
     display.end_line();
+    if (diagnosis.cut_short)
+        say("The time limit ended the search: further causes were not tried, and the answer is the best so far.");
     if (invocation.has("db")) store(invocation, recording, diagnosis);
     if (invocation.has("corrected"))
         write_file(invocation.text("corrected"),
@@ -269,6 +272,14 @@ const Option prediction_option{
     .value = "FILE",
     .meaning = "Write what the corrected model predicts to FILE: .csv, .mat (MATLAB) or .mcap."};
 
+const Option time_limit_option{
+    .name = "time-limit",
+    .kind = OptionKind::number,
+    .value = "S",
+    .meaning = "After S seconds no further cause is tried, and the best answer so far is given.",
+    .low = 1,
+    .high = 86400};
+
 Command diagnose_command() {
     return {.name = "diagnose",
             .summary = "Find which unmodelled effect makes a recording disagree with its model.",
@@ -282,8 +293,8 @@ Command diagnose_command() {
                 "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
             .arguments = {log_argument},
             .options = {runs_option, calibrate_on_option, fit_option, hold_option, baselines_option,
-                        keep_option, corrected_option, prediction_option, jobs_option, output_option,
-                        format_option, json_option, page_option, progress_option, help_option},
+                        keep_option, corrected_option, prediction_option, time_limit_option, jobs_option,
+                        output_option, format_option, json_option, page_option, progress_option, help_option},
             .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
                          "capstan diagnose bench.csv --html bench.html",
                          "capstan diagnose bench.csv --fit 1,3,5 --hold 2,4,6 --baselines",

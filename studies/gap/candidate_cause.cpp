@@ -143,6 +143,52 @@ double span_of(const Recording& recording, std::size_t channel) {
     return span;
 }
 
+// Friction, pretension or the zero of a sensor that follows a condition with different values in the runs.
+std::vector<CandidateCause> following_causes(const Recording& recording) {
+    constexpr double typical_log = 0.1;
+    constexpr double typical_zero = 0.05;  // of the channel's span
+    std::vector<CandidateCause> causes;
+    for (const auto& [condition, first] : recording.runs.front().conditions) {
+        double low = first;
+        double high = first;
+        for (const RecordedRun& run : recording.runs) {
+            const auto stated = run.conditions.find(condition);
+            if (stated == run.conditions.end()) continue;
+            low = std::min(low, stated->second);
+            high = std::max(high, stated->second);
+        }
+        if (!(high > low)) continue;
+        const auto add = [&](CandidateCause cause, const std::string& unit, double typical,
+                             const auto& change) {
+            cause.variant += (cause.variant.empty() ? "with " : " with ") + condition;
+            cause.varies = condition;
+            cause.numbers = {{"change_over_half_range", unit, OpenNumber::Kind::signed_size, typical, 0.0,
+                              -100.0 * typical, 100.0 * typical}};
+            cause.apply = [=](BenchNumbers& numbers, Values values) {
+                BenchNumbers::Following follows{condition, 0.5 * (low + high), 0.5 * (high - low)};
+                change(follows, values[0]);
+                numbers.follows.push_back(follows);
+            };
+            causes.push_back(std::move(cause));
+        };
+        using Following = BenchNumbers::Following;
+        add(plain("param_mu", "parameter"), "", typical_log,
+            [](Following& follows, double value) { follows.friction_log = value; });
+        add(plain("param_T0", "parameter"), "", typical_log,
+            [](Following& follows, double value) { follows.pretension_log = value; });
+        for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+            const Channel& described = recording.channels[channel];
+            if (described.unit == "rad" || !ever_predicted(recording, described.name)) continue;
+            CandidateCause zero = plain("sensor_offset", "sensor:" + described.name);
+            zero.family = "sensor";
+            zero.variant = described.name;
+            add(zero, described.unit, typical_zero * span_of(recording, channel),
+                [name = described.name](Following& follows, double value) { follows.zero[name] = value; });
+        }
+    }
+    return causes;
+}
+
 }  // namespace
 
 std::optional<double> unstated_step(const Recording& recording, std::size_t channel) {
@@ -262,6 +308,7 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
                            unstated_step(recording, channel)))
             causes.push_back(std::move(cause));
     }
+    for (CandidateCause& cause : following_causes(recording)) causes.push_back(std::move(cause));
     return causes;
 }
 

@@ -53,8 +53,7 @@ struct CandidateCause {
     };
     std::vector<GivenNumber> given;  ///< parameters of the effect that the recording itself decides
     std::function<void(BenchNumbers&, std::span<const double> values)> apply;
-    bool of_runs = false;  ///< only a nominal number or a zero that differs between runs
-    std::string varies;    ///< the condition of the runs that the numbers follow; empty: none
+    std::string varies;  ///< the condition of the runs that the numbers follow; empty: none
     /// How far friction, stiffness and pretension may be from their nominal values (logarithms, standard
     /// deviation): one of them far, if that is the cause.
     double friction_std = 0.0;

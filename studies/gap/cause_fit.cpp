@@ -69,7 +69,7 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
     std::vector<RunGroup> groups;
     for (std::size_t run = 0; run < recording_.runs.size(); ++run) {
         if (left_out && left_out->run == run && left_out->is_complete_run()) continue;
-        for (BenchGroup& benches : to_be_moved_at_once(by_bench(hypotheses, run)))
+        for (BenchGroup& benches : to_be_moved_at_once(by_bench(hypotheses, recording_.runs[run])))
             groups.push_back({run, std::move(benches)});
     }
     parallel_for_each_index(static_cast<int>(groups.size()), threads_, [&](int task) {
@@ -79,7 +79,7 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
         const std::vector<TwinRun> twins = twin_.run_each(run, moved);
         for (std::size_t lane = 0; lane < twins.size(); ++lane) {
             for (const std::size_t k : group[lane].hypotheses) {
-                const auto faults = bench_numbers(hypotheses[k]).in_run(run).sensor_faults;
+                const auto faults = bench_numbers(hypotheses[k]).in_run(recording_.runs[run]).sensor_faults;
                 auto smooth = faults;
                 for (auto& [channel, fault] : smooth) {
                     if (lattice_[static_cast<std::size_t>(*recording_.channel(channel))]) fault.step = 0.0;

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "capstan/calibration/least_squares.h"
 #include "capstan/gap/effects_twin.h"
 #include "capstan/gap/hypothesis.h"
-#include "capstan/calibration/least_squares.h"
 
 namespace capstan::gap {
 

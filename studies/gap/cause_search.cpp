@@ -63,7 +63,8 @@ bool has_effect(const ScoredFit& fit, const std::string& effect) {
 void remove_wrong_numbers(std::vector<CandidateCause>& causes, bool zeros_float) {
     std::erase_if(causes, [&](const CandidateCause& cause) {
         return (cause.numbers.empty() && cause.effect != "none") ||
-               (zeros_float && (cause.effect == "sensor_offset" || cause.effect == "pulley_friction"));
+               (zeros_float && cause.varies.empty() &&
+                (cause.effect == "sensor_offset" || cause.effect == "pulley_friction"));
     });
 }
 
@@ -117,13 +118,14 @@ FoundCauses CauseSearch::run() {
     drop_unearned_causes(found.fits);
     found.nominal_misfit = nominal_misfit_;
     found.evaluations = evaluations_;
+    found.cut_short = cut_short_;
     return found;
 }
 
 // Whether the best explanation leaves much, and gains clearly by rough knowledge of the bench.
 bool CauseSearch::is_better_when_built(const ScoredFit& best) {
     constexpr double clearly = 3.0;
-    if (!worth_a_further_cause(best)) return false;
+    if (!worth_a_further_cause(best) || is_out_of_time()) return false;
     report("fitting the bench's own numbers");
     Hypothesis built = nominal_hypothesis(built_.bench);
     built.coordinates.head(nominal_coordinates) = best.fit.coordinates.head(nominal_coordinates);
@@ -170,7 +172,7 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
     constexpr std::size_t enough_runs = 3;
     constexpr double unearned_penalty = 4.0;
     if (run_count_ < enough_runs) return;
-    while (fits.front().fit.causes.size() > 1) {
+    while (fits.front().fit.causes.size() > 1 && !is_out_of_time()) {
         report("predicting each run from the others");
         const Hypothesis all = fits.front().fit.hypothesis();
         double least = held_out_misfit(all);
@@ -214,13 +216,15 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     for (const Screened& each : screened) {
         // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
         // numbers.
+        if (is_out_of_time()) break;
         const bool nominal_number = each.cause->numbers.empty();
         if (fitted == max_fitted && !nominal_number) continue;
         if (!nominal_number) ++fitted;
         add_single(level, each, nothing, singles);
     }
     sort_by_evidence(singles);
-    if (!worth_a_further_cause(singles.front())) add_confusable(level, screened, nothing, singles);
+    if (!worth_a_further_cause(singles.front()) && !is_out_of_time())
+        add_confusable(level, screened, nothing, singles);
     return singles;
 }
 
@@ -234,6 +238,12 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         sort_by_evidence(all);
         if (!better) return;
     }
+}
+
+bool CauseSearch::is_out_of_time() {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun_;
+    cut_short_ |= taken.count() > options_.time_limit_s;
+    return cut_short_;
 }
 
 void CauseSearch::report(const std::string& activity) {
@@ -349,7 +359,7 @@ void CauseSearch::add_sets(const Level& level, const ScoredFit& present, Fits& s
     const Hypothesis hypothesis = present.fit.hypothesis();
     std::size_t further = 0;
     for (const Screened& each : screen(coarse_.fitter, level.causes, hypothesis)) {
-        if (further == max_fitted_further) break;
+        if (further == max_fitted_further || is_out_of_time()) break;
         const bool known =
             std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), [&](const CandidateCause* cause) {
                 return (cause->effect == each.cause->effect && cause->variant == each.cause->variant) ||

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,8 @@ struct CauseSearchOptions {
     int segments = 40;  ///< of a cable
     int stride = 1;     ///< samples per step
     int threads = 0;    ///< 0: as many as the machine has
+    /// After this time no further cause is tried, and the best answer so far is given.
+    double time_limit_s = std::numeric_limits<double>::infinity();
     /// Called with the present activity and the fraction of the work that is done.
     std::function<void(const std::string& activity, double fraction_done)> on_progress =
         [](const std::string&, double) {};
@@ -24,7 +28,8 @@ struct CauseSearchOptions {
 struct FoundCauses {
     std::vector<ScoredFit> fits;
     double nominal_misfit = 0.0;
-    int evaluations = 0;  ///< simulations of the complete recording
+    int evaluations = 0;     ///< simulations of the complete recording
+    bool cut_short = false;  ///< by the time limit
 };
 
 /// Searches the causes of a recording's gap: screens every cause, fits the most promising ones, and adds
@@ -58,6 +63,7 @@ class CauseSearch {
     };
 
     void report(const std::string& activity);
+    bool is_out_of_time();
     ScoredFit scored(const Model& model, CauseFit fit);
     ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);
     Fits finely_fitted(const Fits& coarse);
@@ -82,6 +88,8 @@ class CauseSearch {
     double nominal_misfit_ = 0.0;
     int fitted_ = 0;
     int evaluations_ = 0;
+    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+    bool cut_short_ = false;
 };
 
 /// In place, best first.

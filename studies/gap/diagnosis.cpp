@@ -24,11 +24,15 @@ class Diagnoser {
         FoundCauses found = search_.run();
         nominal_misfit_ = found.nominal_misfit;
         evaluations_ = found.evaluations;
+        cut_short_ = found.cut_short;
         return verdict(std::move(found.fits));
     }
 
   private:
-    void report(const std::string& activity, double done) { options_.on_progress(activity, done); }
+    void report(const std::string& activity, double done) {
+        progress_ = std::max(progress_, done);
+        options_.on_progress(activity, progress_);
+    }
 
     Diagnosis verdict(std::vector<ScoredFit> fits) {
         Diagnosis diagnosis;
@@ -47,7 +51,7 @@ class Diagnoser {
         }
         const std::vector<WeighedHypothesis> weighed = search_.evidence().weigh(fits);
         diagnosis.ranked = Evidence::rank(search_.causes(), weighed);
-        report("comparing possible experiments", 0.9);
+        report("comparing possible experiments", 0.97);
         diagnosis.non_identifiable = discriminating_experiments(recording_, search_.coarse_fitter(),
                                                                 non_identifiable(weighed), options_.threads);
         diagnosis.independent_samples = fitter_.independent_samples();
@@ -62,6 +66,7 @@ class Diagnoser {
             diagnosis.candidates.push_back(score);
         }
         diagnosis.evaluations = evaluations_;
+        diagnosis.cut_short = cut_short_;
         return diagnosis;
     }
 
@@ -177,7 +182,9 @@ class Diagnoser {
     DiagnosisOptions options_;
     CauseSearch search_;
     const CauseFitter& fitter_;
+    double progress_ = 0.0;
     double nominal_misfit_ = 0.0;
+    bool cut_short_ = false;
     int evaluations_ = 0;
 };
 

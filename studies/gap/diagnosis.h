@@ -71,6 +71,7 @@ struct Diagnosis {
     std::vector<CandidateScore> candidates;  ///< that were fitted, best first
     NonIdentifiable non_identifiable;  ///< the explanations that compete, and experiments that would decide
     int evaluations = 0;               ///< simulations of the complete recording
+    bool cut_short = false;            ///< by the time limit: further causes were not tried
 };
 
 /// Finds the unmodelled effect, if any, that explains the difference between a recording and its bench's

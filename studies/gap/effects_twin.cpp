@@ -53,14 +53,17 @@ void check_driven(const Recording& recording) {
 
 }  // namespace
 
-BenchNumbers BenchNumbers::in_run(std::size_t run) const {
+BenchNumbers BenchNumbers::in_run(const RecordedRun& run) const {
     BenchNumbers numbers = *this;
-    if (runs.empty()) return numbers;
-    const RunChanges& changes = runs.at(run);
-    numbers.friction_ratio *= std::exp(changes.friction_log);
-    numbers.pretension_ratio *= std::exp(changes.pretension_log);
-    for (const auto& [channel, zero] : changes.zero) numbers.sensor_faults[channel].offset += zero;
-    numbers.runs.clear();
+    for (const Following& each : follows) {
+        const auto stated = run.conditions.find(each.condition);
+        if (stated == run.conditions.end()) continue;
+        const double part = (stated->second - each.middle) / each.half_range;
+        numbers.friction_ratio *= std::exp(part * each.friction_log);
+        numbers.pretension_ratio *= std::exp(part * each.pretension_log);
+        for (const auto& [channel, zero] : each.zero) numbers.sensor_faults[channel].offset += part * zero;
+    }
+    numbers.follows.clear();
     return numbers;
 }
 
@@ -75,7 +78,7 @@ int EffectsTwin::samples(std::size_t run) const {
 }
 
 TwinRun EffectsTwin::run(std::size_t run_index, const BenchNumbers& numbers) const {
-    const BenchNumbers of_run = numbers.in_run(run_index);
+    const BenchNumbers of_run = numbers.in_run(recording_.runs[run_index]);
     return with_faults(run_each(run_index, std::span(&of_run, 1)).front(), of_run.sensor_faults);
 }
 

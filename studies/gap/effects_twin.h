@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "capstan/calibration/twin.h"
 #include "capstan/effects/bench_effects.h"
 #include "capstan/effects/sensor_faults.h"
-#include "capstan/calibration/twin.h"
 #include "capstan/recording/driven_inputs.h"
 #include "capstan/recording/recording.h"
 #include "capstan/rig/bench_simulation.h"
@@ -23,16 +23,19 @@ struct BenchNumbers {
     double pretension_ratio = 1.0;
     BenchEffects effects;
     std::map<std::string, SensorFaults> sensor_faults;  // by channel
-    /// What differs between runs, by their index; empty: nothing.
-    struct RunChanges {
+    /// What follows a condition of the runs: changes at the end of its range, the opposite at the other end.
+    struct Following {
+        std::string condition;
+        double middle = 0.0;
+        double half_range = 1.0;
         double friction_log = 0.0;
         double pretension_log = 0.0;
-        std::map<std::string, double> zero;  // by channel
+        std::map<std::string, double> zero{};  // by channel
     };
-    std::vector<RunChanges> runs;
+    std::vector<Following> follows;
 
-    /// The numbers of one run, without further changes.
-    BenchNumbers in_run(std::size_t run) const;
+    /// The numbers under the run's conditions.
+    BenchNumbers in_run(const RecordedRun& run) const;
 
     /// A rotor on its cables oscillates at tens of hertz. It is simulated at every sample whatever the
     /// stride.

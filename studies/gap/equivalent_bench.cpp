@@ -5,8 +5,8 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/calibration/calibration.h"
-#include "capstan/gap/cause_fit.h"
 #include "capstan/calibration/twin.h"
+#include "capstan/gap/cause_fit.h"
 #include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 

@@ -58,6 +58,14 @@ Effects effects_of(const CauseFit& fit) {
 
 }  // namespace
 
+// The condition that the effect follows in an explanation; empty: none.
+static std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
+    for (const CandidateCause* cause : hypothesis.fit->fit.causes) {
+        if (cause->effect == effect && !cause->varies.empty()) return cause->varies;
+    }
+    return "";
+}
+
 std::vector<std::string> ScoredFit::of_the_bench() const {
     std::vector<std::string> effects;
     for (const std::size_t number : far_numbers) effects.push_back(fit.bench->numbers[number].effect);
@@ -170,7 +178,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
             ranked.effect = effect;
             ranked.probability += each.probability * share / sum;
             ranked.present += each.probability;
-            best.emplace(effect, each.evidence);
+            if (best.emplace(effect, each.evidence).second) ranked.varies = varies_in(each, effect);
         }
     }
     std::vector<RankedEffect> ranked;

@@ -34,7 +34,7 @@ struct SameBench {
     std::vector<std::size_t> hypotheses;
 };
 
-std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, std::size_t run);
+std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, const RecordedRun& run);
 
 /// At most bench_lanes benches. Those that ring are kept apart from those that do not.
 using BenchGroup = std::vector<SameBench>;

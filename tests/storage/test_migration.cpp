@@ -46,7 +46,7 @@ TEST(Migrating, AVersionWithoutAMigrationIsRefused) {
 }
 
 // A diagnosis of version 2 has no intervals, and keeps everything else.
-TEST(Migrating, ADiagnosisOfVersionTwoOpensWithoutIntervals) {
+TEST(Migrating, ADiagnosisOfVersionTwoOpensWithoutIntervalsAndPresence) {
     const TemporaryFolder folder;
     {
         Database database = Database::open_or_create(folder / "results.db");
@@ -55,6 +55,7 @@ TEST(Migrating, ADiagnosisOfVersionTwoOpensWithoutIntervals) {
         diagnosis.friction_ratio = 1.1;
         diagnosis.friction_low_ratio = 1.0;
         diagnosis.causes = {{"creep", "", "cable_a", "", {}, {{"fraction", 0.1, "", 0.05, 0.2}}}};
+        diagnosis.effects = {{"creep", 0.9, 0.95, ""}};
         write_diagnosis(database, diagnosis);
         for (const char* ratio : {"friction", "stiffness", "pretension"})
             for (const char* end : {"low", "high"})
@@ -63,6 +64,8 @@ TEST(Migrating, ADiagnosisOfVersionTwoOpensWithoutIntervals) {
                     "go back");
         database.execute("ALTER TABLE diagnosis_number DROP COLUMN low_in_unit", "go back");
         database.execute("ALTER TABLE diagnosis_number DROP COLUMN high_in_unit", "go back");
+        database.execute("ALTER TABLE diagnosis_effect DROP COLUMN present_fraction", "go back");
+        database.execute("ALTER TABLE diagnosis_effect DROP COLUMN varies", "go back");
         database.execute("PRAGMA user_version = 2", "go back");
     }
     Database database = Database::open_existing(folder / "results.db");
@@ -71,6 +74,8 @@ TEST(Migrating, ADiagnosisOfVersionTwoOpensWithoutIntervals) {
     EXPECT_FALSE(old.friction_low_ratio);
     EXPECT_EQ(old.causes.at(0).numbers.at(0).value_in_unit, 0.1);
     EXPECT_FALSE(old.causes.at(0).numbers.at(0).low_in_unit);
+    EXPECT_EQ(old.effects.at(0).probability_fraction, 0.9);
+    EXPECT_FALSE(old.effects.at(0).present_fraction);
 }
 
 TEST(Migrating, EveryOlderVersionHasAMigration) {

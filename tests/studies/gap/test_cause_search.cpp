@@ -50,7 +50,7 @@ TEST(Hypothesis, ThoseThatDifferInSensorFaultsOnlyShareABench) {
     Hypothesis other_bend = known.together();
     other_bend.coordinates[3] = 4.0;
     const std::vector<SameBench> benches =
-        by_bench(std::vector<Hypothesis>{known.together(), other_bend, other_lag}, 0);
+        by_bench(std::vector<Hypothesis>{known.together(), other_bend, other_lag}, RecordedRun{});
     ASSERT_EQ(benches.size(), 2u);
     EXPECT_EQ(benches[0].hypotheses, (std::vector<std::size_t>{0, 2}));
     EXPECT_EQ(benches[1].hypotheses, (std::vector<std::size_t>{1}));

@@ -13,8 +13,10 @@ namespace {
 
 // driven_session() as a bench with these numbers measures it, its sensors' noise on it. The bench has twice
 // the segments of the model that is to explain it, and steps at every sample.
-Recording session_of(const BenchNumbers& numbers) {
+Recording session_of(const BenchNumbers& numbers, const std::vector<double>& rolls_deg = {}) {
     Recording recording = driven_session();
+    for (std::size_t run = 0; run < rolls_deg.size(); ++run)
+        recording.runs.at(run).conditions["roll_deg"] = rolls_deg[run];
     std::mt19937_64 random(20260202);
     std::normal_distribution<double> normal;
     const EffectsTwin bench(recording, {80, 1});
@@ -69,6 +71,40 @@ TEST(Diagnosis, FindsViscousFrictionAndItsSize) {
     const ChannelGap& torque = channel_of(diagnosis, "load_torque");
     EXPECT_LT(torque.after_rms, 0.25 * torque.before_rms);
     EXPECT_LT(torque.held_out_rms, 0.35 * torque.before_rms);
+}
+
+TEST(Diagnosis, NamesFrictionThatFollowsAConditionOfTheRuns) {
+    BenchNumbers numbers;
+    numbers.follows = {{"roll_deg", 0.0, 45.0, 0.3}};
+    const Diagnosis diagnosis = diagnosed(session_of(numbers, {-45.0, 45.0}));
+    EXPECT_EQ(diagnosis.ranked.front().effect, "param_mu");
+    EXPECT_EQ(diagnosis.ranked.front().varies, "roll_deg");
+    ASSERT_EQ(diagnosis.causes.size(), 1u);
+    EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, 0.3, 0.05);
+}
+
+TEST(Diagnosis, AConditionThatChangesNothingIsNotNamed) {
+    const Diagnosis diagnosis = diagnosed(session_of({}, {-45.0, 45.0}));
+    EXPECT_EQ(diagnosis.ranked.front().effect, "none");
+}
+
+// A bench as it is built: its numbers are rough, a sensor has a zero, the bearings rub.
+TEST(Diagnosis, FindsACauseBesideRoughNumbersZerosAndBearings) {
+    BenchNumbers numbers;
+    numbers.friction_ratio = 1.12;
+    numbers.stiffness_ratio = 0.92;
+    numbers.pretension_ratio = 0.9;
+    numbers.sensor_faults["load_torque"].offset = 0.03;
+    numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 6.0;
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    EXPECT_EQ(diagnosis.ranked.front().effect, "viscous_friction");
+    EXPECT_GT(diagnosis.ranked.front().present, 0.9);
+    ASSERT_FALSE(diagnosis.bench.empty());
+    const auto zero =
+        std::find_if(diagnosis.bench.begin(), diagnosis.bench.end(),
+                     [](const FittedNumber& number) { return number.name == "zero of load_torque"; });
+    ASSERT_NE(zero, diagnosis.bench.end());
+    EXPECT_NEAR(zero->value, 0.03, 0.015);
 }
 
 TEST(Diagnosis, LocatesABend) {
