@@ -86,8 +86,9 @@ Data candidates_data(const DiagnosisRecord& diagnosis) {
 Data values_of(const DiagnosisRecord& diagnosis) {
     Data data = {{"case", diagnosis.recording}, {"ranked", Data::list()}};
     for (const auto& each : diagnosis.effects) {
-        Data entry = {{"effect", each.effect}, {"probability", each.probability_fraction}};
-        if (each.present_fraction) entry["present"] = *each.present_fraction;
+        Data entry = {{"effect", each.effect},
+                      {"probability", each.probability_fraction},
+                      {"present", each.present_fraction}};
         if (!each.varies.empty()) entry["varies"] = each.varies;
         data["ranked"].push_back(entry);
     }
@@ -177,11 +178,14 @@ reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const D
         .id = "verdict",
         .heading = "The cause",
         .prose =
-            "Every known cause is fitted, with the nominal numbers free within their uncertainty. A cause is "
-            "judged by what it leaves of the gap and by how many numbers it needs.",
+            "Every known cause is fitted, with the bench's numbers free within their uncertainty. Causes are judged "
+            "by what they leave of the gap and by how many numbers they need. Causes that act together share "
+            "their probability; \"present at all\" is the probability that a cause is there, whatever else is.",
         .tables = {{"probability",
                     "Probability of each cause",
-                    {{"effect", "effect"}, {"probability", "probability", "", ".2f"}},
+                    {{"effect", "effect"},
+                     {"probability", "probability", "", ".2f"},
+                     {"present", "present at all", "", ".2f"}},
                     *values.find("ranked"),
                     likely_effects(diagnosis)},
                    {"fitted",

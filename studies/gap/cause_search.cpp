@@ -60,11 +60,19 @@ bool has_effect(const ScoredFit& fit, const std::string& effect) {
 }
 
 // Of a bench whose numbers float widely, no number can be wrong beyond that.
-void remove_wrong_numbers(std::vector<CandidateCause>& causes, bool zeros_float) {
-    std::erase_if(causes, [&](const CandidateCause& cause) {
-        return (cause.numbers.empty() && cause.effect != "none") ||
-               (zeros_float && cause.varies.empty() &&
-                (cause.effect == "sensor_offset" || cause.effect == "pulley_friction"));
+void remove_wrong_numbers(std::vector<CandidateCause>& causes) {
+    std::erase_if(
+        causes, [](const CandidateCause& cause) { return cause.numbers.empty() && cause.effect != "none"; });
+}
+
+// Zeros and bearings of an undescribed bench float by factors. Its radii and routing are not known, so the
+// gain of a sensor and a bend at a place are part of what was fitted.
+void remove_what_is_fitted(std::vector<CandidateCause>& causes) {
+    remove_wrong_numbers(causes);
+    std::erase_if(causes, [](const CandidateCause& cause) {
+        return cause.varies.empty() &&
+               (cause.effect == "sensor_offset" || cause.effect == "pulley_friction" ||
+                cause.effect == "sensor_gain" || cause.effect == "local_bend");
     });
 }
 
@@ -88,8 +96,8 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
       described_{recording.nominal_is_fitted ? undescribed_bench(recording) : measured_bench(),
                  candidate_causes(recording)},
       built_{built_bench(recording), candidate_causes(recording)} {
-    if (recording.nominal_is_fitted) remove_wrong_numbers(described_.causes, true);
-    remove_wrong_numbers(built_.causes, false);
+    if (recording.nominal_is_fitted) remove_what_is_fitted(described_.causes);
+    remove_wrong_numbers(built_.causes);
 }
 
 FoundCauses CauseSearch::run() {

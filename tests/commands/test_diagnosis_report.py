@@ -35,7 +35,8 @@ class DiagnosisReport(ServiceTest):
         cells = {(row["table"], row["row"], row["column"]): row["value"] for row in rows}
         count = len(made["ranked"])
         self.assertEqual([{"effect": cells["probability", str(k), "effect"],
-                           "probability": float(cells["probability", str(k), "probability"])} for k in range(1, count + 1)],
+                           "probability": float(cells["probability", str(k), "probability"]),
+                           "present": float(cells["probability", str(k), "present"])} for k in range(1, count + 1)],
                          made["ranked"])
         for number, channel in enumerate(made["channels"], 1):
             self.assertEqual(float(cells["channels", str(number), "rms_held_out"]), channel["rms_held_out"])
