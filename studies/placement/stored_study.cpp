@@ -101,11 +101,11 @@ storage::StudyDescription describe(const PreparedStudy& study, const std::string
 }
 
 StoredStudy load_stored_study(storage::Database& database, std::int64_t study_id) {
-    StoredStudy stored{storage::load_study(database, study_id), {}};
+    storage::StudyDescription description = storage::load_study(database, study_id);
     const std::string where =
         database.path().string() + ", stored configuration of study " + std::to_string(study_id);
-    stored.plan = config::parse_config(stored.description.study.config_toml, where).plan;
-    return stored;
+    StudyPlan plan = config::parse_config(description.study.config_toml, where).plan;
+    return {std::move(description), std::move(plan)};
 }
 
 std::string difference_between(storage::StudyDescription one, storage::StudyDescription other) {
