@@ -89,7 +89,7 @@ Curvatures curvatures_of(const SmoothLine& line, const Grouped& points) {
     return all;
 }
 
-// The angle by which each point's stretch of line turns, less what noise alone makes of it (E42).
+// The angle by which each point's stretch of line turns, less what noise alone makes of it (E47).
 Eigen::VectorXd turning_rad(const Curvatures& all, const LinePoints& curvature) {
     return (curvature.rowwise().squaredNorm() - all.chance_variance_per_m2)
         .cwiseMax(0.0)
@@ -197,7 +197,7 @@ Eigen::RowVector3d way_at(const Curvatures& all, const Part& bend, bool at_end) 
 }
 
 // Smoothing moves turning from a bend into the straight parts beside it, and overshoots: the half of each
-// that is beside the bend counts with its sign along the way of the bend (E43).
+// that is beside the bend counts with its sign along the way of the bend (E48).
 struct Beside {
     std::size_t bend = 0;
     Eigen::Index first = 0;

@@ -29,7 +29,7 @@ struct MeasuredConduit {
 /// Everything wrong with a centre line, by "points" and "noise_m".
 std::vector<KeyProblem> problems_of(const CentreLine& line);
 
-/// Smooths the points and cuts the smooth line into pieces of constant radius (E41 to E43). The smoothest
+/// Smooths the points and cuts the smooth line into pieces of constant radius (E46 to E48). The smoothest
 /// line is taken that the noise allows, so that a straight line of noisy points has no bend. A bend is split
 /// where its radius changes. Deviations come from smoothing points with fresh noise about the smooth line,
 /// and hold the bias of smoothing as well. Same points, same result. Throws InvalidInput with

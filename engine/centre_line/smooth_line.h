@@ -7,7 +7,7 @@ namespace capstan {
 
 using LinePoints = Eigen::Matrix<double, Eigen::Dynamic, 3>;  // points x coordinates
 
-/// The smoothest line through noisy points (E41): least squares with a penalty on the third derivative by
+/// The smoothest line through noisy points (E46): least squares with a penalty on the third derivative by
 /// length, so that neither a straight line nor a constant curvature is penalised. The penalty is the largest
 /// that leaves the points no further from the line than their noise.
 class SmoothLine {
@@ -30,7 +30,7 @@ class SmoothLine {
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
 };
 
-/// The change of direction by length at every point [1/m]; at an end that of its neighbour (E42).
+/// The change of direction by length at every point [1/m]; at an end that of its neighbour (E47).
 LinePoints curvature_of(const LinePoints& points_m);
 /// The length that each point stands for [m].
 Eigen::VectorXd lengths_of(const LinePoints& points_m);
