@@ -124,17 +124,8 @@ std::string sha256(const std::string& bytes) {
 }
 
 std::string labels_text(const TrialLabels& labels) {
-    const TrialOptions& options = labels.options;
-    ordered_json json = {{"salt", labels.salt},
-                         {"seed", options.seed},
-                         {"severity", severity_choice_name(options.severity)},
-                         {"noise_factor", options.noise_factor},
-                         {"length", length_name(options.length)},
-                         {"nominal_error", options.nominal_error}};
-    if (options.kind != TrialKind::benches) json["kind"] = trial_kind_name(options.kind);
-    if (options.visibility) json["visibility"] = {options.visibility->low, options.visibility->high};
-    if (options.nuisances) json["nuisances"] = true;
-    if (options.mixtures != TrialOptions().mixtures) json["mixtures"] = options.mixtures;
+    ordered_json json = {{"salt", labels.salt}};
+    add_options(json, labels.options);
     json["cases"] = ordered_json::object();
     for (const CaseLabel& label : labels.cases) json["cases"][label.name] = case_json(label);
     return json.dump(1) + "\n";

@@ -227,6 +227,7 @@ ExitCode run_diagnose(const Invocation& invocation) {
     reports::Answer answer = answers::diagnosis_answer(recording, diagnosis);
     answers::add_left_over(answer, left_over(diagnosed), diagnosed.recorded);
     answers::add_comparison(answer, comparison);
+    if (diagnosis.cut_short) answer.values["cut_short"] = true;
     deliver_answer(invocation, answer);
     return ExitCode::success;
 }
@@ -281,26 +282,27 @@ const Option time_limit_option{
     .high = 86400};
 
 Command diagnose_command() {
-    return {.name = "diagnose",
-            .summary = "Find which unmodelled effect makes a recording disagree with its model.",
-            .description =
-                "Drives the bench's model with the recording's driven channels and fits every effect of the "
-                "catalogue, wrong parameters and sensor faults to the residuals of the other channels. Names "
-                "the most probable cause and its location, and prints the probability of each cause and how "
-                "far the gap shrinks, also on runs that the fit did not use. The verdict is `none` where "
-                "only noise remains and `unknown` where the best known cause leaves much of the gap. Where "
-                "causes cannot be distinguished, it lists them and the experiment that would distinguish "
-                "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
-            .arguments = {log_argument},
-            .options = {runs_option, calibrate_on_option, fit_option, hold_option, baselines_option,
-                        keep_option, corrected_option, prediction_option, time_limit_option, jobs_option,
-                        output_option, format_option, json_option, page_option, progress_option, help_option},
-            .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
-                         "capstan diagnose bench.csv --html bench.html",
-                         "capstan diagnose bench.csv --fit 1,3,5 --hold 2,4,6 --baselines",
-                         "capstan diagnose bench.csv --db bench.db",
-                         "capstan diagnose bench.csv --corrected corrected.toml"},
-            .run = run_diagnose};
+    return {
+        .name = "diagnose",
+        .summary = "Find which unmodelled effect makes a recording disagree with its model.",
+        .description =
+            "Drives the bench's model with the recording's driven channels and fits every effect of the "
+            "catalogue, wrong parameters and sensor faults to the residuals of the other channels, alone and "
+            "together. Names the most probable causes and where they are, and prints the probability of each "
+            "and how far the gap shrinks, also on runs that the fit did not use. The verdict is `none` where "
+            "only noise remains and `unknown` where a structure remains that no known cause explains. Where "
+            "causes cannot be distinguished, it lists them and the experiment that would distinguish "
+            "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
+        .arguments = {log_argument},
+        .options = {runs_option, calibrate_on_option, fit_option, hold_option, baselines_option, keep_option,
+                    corrected_option, prediction_option, time_limit_option, jobs_option, output_option,
+                    format_option, json_option, page_option, progress_option, help_option},
+        .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
+                     "capstan diagnose bench.csv --html bench.html",
+                     "capstan diagnose bench.csv --fit 1,3,5 --hold 2,4,6 --baselines",
+                     "capstan diagnose bench.csv --db bench.db",
+                     "capstan diagnose bench.csv --corrected corrected.toml"},
+        .run = run_diagnose};
 }
 
 }  // namespace capstan::cli

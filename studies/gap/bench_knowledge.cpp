@@ -45,18 +45,13 @@ double half_span(const Recording& recording, std::size_t channel) {
     return 0.5 * (high - low);
 }
 
-bool is_predicted(const Recording& recording, const std::string& channel) {
-    return std::any_of(recording.runs.begin(), recording.runs.end(),
-                       [&](const RecordedRun& run) { return !run.drives(channel); });
-}
-
 // A sensor's zero as a part of its span, bearings' friction as a part of the torque at their end.
 void add_zeros_and_bearings(const Recording& recording, double zero_part, double bearing_part,
                             double presliding_rad, BenchKnowledge& bench) {
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
         const std::string& unit = recording.channels[channel].unit;
-        if (unit == "rad" || !is_predicted(recording, name)) continue;
+        if (unit == "rad" || !recording.is_predicted(name)) continue;
         bench.numbers.push_back({.name = "zero of " + name,
                                  .unit = unit,
                                  .kind = FloatingNumber::Kind::zero,
@@ -128,8 +123,11 @@ BenchKnowledge built_bench(const Recording& recording) {
 
 BenchKnowledge undescribed_bench(const Recording& recording) {
     constexpr double by_factors = 1.0;
+    // Nobody zeroed the sensors or stated their range, and bearings may take a third of a small drive's
+    // torque.
     constexpr double zero_part = 0.1;
     constexpr double bearing_part = 0.3;
+    // Not fitted: a bearing's friction builds up over about half a degree.
     constexpr double presliding_rad = 0.01;
     BenchKnowledge bench{ratios(by_factors, by_factors, by_factors, false)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, presliding_rad, bench);

@@ -33,16 +33,18 @@ struct FloatingNumber {
     double value(double coordinate) const;
 };
 
+/// Logarithms of friction, stiffness and pretension over their nominal values.
+inline constexpr int nominal_coordinates = 3;
+
 /// What is known of a bench before a cause is sought. The first three numbers are always the friction, the
 /// stiffness and the pretension over their nominal values.
 struct BenchKnowledge {
     std::vector<FloatingNumber> numbers;
 
     Eigen::Index size() const { return static_cast<Eigen::Index>(numbers.size()); }
+    /// Nothing floats but the three numbers.
+    bool is_measured() const { return numbers.size() == nominal_coordinates; }
 };
-
-/// Logarithms of friction, stiffness and pretension over their nominal values.
-inline constexpr int nominal_coordinates = 3;
 
 /// The uncertainty of the nominal numbers of a bench whose numbers were measured (standard deviation of the
 /// logarithm): a calliper's, a load cell's and a tensile test's error of one to two per cent.

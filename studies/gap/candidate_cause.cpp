@@ -129,11 +129,6 @@ std::vector<CandidateCause> sensor_causes(const std::string& channel, double spa
     return causes;
 }
 
-bool ever_predicted(const Recording& recording, const std::string& channel) {
-    return std::any_of(recording.runs.begin(), recording.runs.end(),
-                       [&](const RecordedRun& run) { return !run.drives(channel); });
-}
-
 double span_of(const Recording& recording, std::size_t channel) {
     double span = 0.0;
     for (const RecordedRun& run : recording.runs) {
@@ -178,7 +173,7 @@ std::vector<CandidateCause> following_causes(const Recording& recording) {
             [](Following& follows, double value) { follows.pretension_log = value; });
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
             const Channel& described = recording.channels[channel];
-            if (described.unit == "rad" || !ever_predicted(recording, described.name)) continue;
+            if (described.unit == "rad" || !recording.is_predicted(described.name)) continue;
             CandidateCause zero = plain("sensor_offset", "sensor:" + described.name);
             zero.family = "sensor";
             zero.variant = described.name;
@@ -302,7 +297,7 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
     }
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
-        if (!ever_predicted(recording, name) || name == channel::load_angle) continue;
+        if (!recording.is_predicted(name) || name == channel::load_angle) continue;
         for (CandidateCause& cause :
              sensor_causes(name, span_of(recording, channel), 1.0 / recording.sample_rate_Hz,
                            unstated_step(recording, channel)))

@@ -100,13 +100,13 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
     remove_wrong_numbers(built_.causes);
 }
 
-FoundCauses CauseSearch::run() {
+FoundCauses CauseSearch::run() & {
     report("nominal model");
     const Hypothesis nominal = nominal_hypothesis(described_.bench);
     nominal_misfit_ = fine_.fitter.data_residuals({&nominal, 1}).squaredNorm() /
                       static_cast<double>(fine_.fitter.data_rows());
     FoundCauses found;
-    const bool is_measured = described_.bench.size() == nominal_coordinates;
+    const bool is_measured = described_.bench.is_measured();
     found.fits = search_one(described_);
     bool built = is_measured && is_better_when_built(found.fits.front());
     if (!built) {
@@ -212,12 +212,11 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
 }
 
 CauseSearch::Fits CauseSearch::search_one(const Level& level) {
-    const bool is_measured = level.bench.size() == nominal_coordinates;
     const Hypothesis start = nominal_hypothesis(level.bench);
     Fits singles = {fitted(level, with_cause(start, &level.causes.front(), {}), {})};
     // Numbers that float widely move first, for every cause is screened beside them.
     const Hypothesis nothing =
-        is_measured ? start : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
+        level.bench.is_measured() ? start : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
     const std::vector<Screened> screened = screen(coarse_.fitter, level.causes, nothing);
     std::size_t fitted = 0;
@@ -262,15 +261,15 @@ void CauseSearch::report(const std::string& activity) {
 // A bench with many floating numbers is searched with the coarse model, and its best sets are fitted again.
 ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start,
                               const CauseFitter::FitOptions& options) {
-    const Model& model = level.bench.size() == nominal_coordinates ? fine_ : coarse_;
+    const Model& model = level.bench.is_measured() ? fine_ : coarse_;
     return scored(model, model.fitter.fit(start, options));
 }
 
 CauseSearch::Fits CauseSearch::finely_fitted(const Fits& coarse) {
-    constexpr std::size_t most = 4;
+    constexpr std::size_t max_fits = 4;
     Fits fine;
     for (const ScoredFit& each : coarse) {
-        if (fine.size() >= most && !has_effect(each, "none")) continue;
+        if (fine.size() >= max_fits && !has_effect(each, "none")) continue;
         report("fitting " + in_words(each.fit.causes) + " finely");
         CauseFitter::FitOptions options;
         options.any_size = false;
@@ -337,34 +336,19 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
             continue;
         if (each.fit.causes.size() > 1 && !firsts.empty()) break;
         firsts.push_back(first);
-        add_sets(level, each, sets);
+        if (worth_a_further_cause(each)) add_sets(level, each.fit.hypothesis(), sets);
     }
     sort_by_evidence(sets);
     if (sets.empty() || sets.front().fit.causes.size() > 2) return sets;
-    const ScoredFit best = sets.front();
-    if (!worth_a_further_cause(best)) return sets;
-    for (const CandidateCause* kept : best.fit.causes) {
-        const auto alone = std::find_if(smaller.begin(), smaller.end(), [&](const ScoredFit& each) {
-            return each.fit.causes.size() == 1 && each.fit.causes.front() == kept;
-        });
-        if (alone != smaller.end()) {
-            add_sets(level, *alone, sets);
-        } else {
-            ScoredFit part = best;
-            const Hypothesis kept_alone = only_causes(
-                best.fit.hypothesis(), [&](const CandidateCause& cause) { return &cause == kept; });
-            part.fit.causes = kept_alone.causes;
-            part.fit.coordinates = kept_alone.coordinates;
-            add_sets(level, part, sets);
-        }
-    }
+    if (!worth_a_further_cause(sets.front())) return sets;
+    const Hypothesis best = sets.front().fit.hypothesis();
+    for (const CandidateCause* kept : best.causes)
+        add_sets(level, only_causes(best, [&](const CandidateCause& cause) { return &cause == kept; }), sets);
     sort_by_evidence(sets);
     return sets;
 }
 
-void CauseSearch::add_sets(const Level& level, const ScoredFit& present, Fits& sets) {
-    if (!worth_a_further_cause(present)) return;
-    const Hypothesis hypothesis = present.fit.hypothesis();
+void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, Fits& sets) {
     std::size_t further = 0;
     for (const Screened& each : screen(coarse_.fitter, level.causes, hypothesis)) {
         if (further == max_fitted_further || is_out_of_time()) break;

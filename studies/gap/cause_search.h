@@ -41,7 +41,8 @@ class CauseSearch {
     /// `recording` must outlive it and what it finds.
     CauseSearch(const Recording& recording, const CauseSearchOptions& options);
 
-    FoundCauses run();
+    /// The fits point to the causes that this search keeps.
+    FoundCauses run() &;
 
     const CauseFitter& fitter() const { return fine_.fitter; }
     const CauseFitter& coarse_fitter() const { return coarse_.fitter; }
@@ -76,7 +77,7 @@ class CauseSearch {
     void add_confusable(const Level& level, const std::vector<Screened>& screened, const Hypothesis& nothing,
                         Fits& singles);
     Fits larger_sets(const Level& level, const Fits& smaller);
-    void add_sets(const Level& level, const ScoredFit& present, Fits& sets);
+    void add_sets(const Level& level, const Hypothesis& hypothesis, Fits& sets);
 
     CauseSearchOptions options_;
     std::size_t run_count_;

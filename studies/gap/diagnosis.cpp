@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "capstan/gap/next_experiment.h"
@@ -140,6 +141,7 @@ class Diagnoser {
                 fitted.numbers.push_back({given.name, given.unit, given.value});
             diagnosis.causes.push_back(fitted);
         }
+        put_clearest_first(diagnosis.causes, leading.visibility);
         for (const std::size_t k : leading.far_numbers) {
             const FloatingNumber& number = fit.bench->numbers[k];
             FittedCause far{number.effect, number.variant, number.component, number.end, {}, {}};
@@ -156,6 +158,17 @@ class Diagnoser {
         }
         diagnosis.gap = measure_gap(recording_, fitter_,
                                     {numbers, bench_numbers(runner_up.fit.hypothesis()), std::move(models)});
+    }
+
+    // `visibility`: of each cause.
+    static void put_clearest_first(std::vector<FittedCause>& causes, const std::vector<double>& visibility) {
+        std::vector<std::size_t> order(causes.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return visibility[a] > visibility[b]; });
+        std::vector<FittedCause> sorted;
+        for (const std::size_t place : order) sorted.push_back(std::move(causes[place]));
+        causes = std::move(sorted);
     }
 
     // A fit without a part of the recording.

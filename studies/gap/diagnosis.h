@@ -49,7 +49,7 @@ struct CandidateScore {
 
 struct Diagnosis {
     std::vector<RankedEffect> ranked;  ///< best first; sums to 1
-    std::vector<FittedCause> causes;   ///< that act together
+    std::vector<FittedCause> causes;   ///< that act together, the clearest first; then numbers of the bench
     double friction_ratio = 1.0;       ///< nominal numbers as fitted with the causes
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;

@@ -3,6 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "capstan/simple_models/stop_operator.h"
 
 namespace capstan::gap {
 
@@ -32,19 +35,8 @@ std::vector<Driving> driving_channels(const Recording& recording) {
         }
         if (high > low) all.push_back({channel, 0.5 * (low + high), high - low});
     }
-    constexpr std::size_t most_channels = 2;
-    if (all.size() > most_channels) all.resize(most_channels);
-    return all;
-}
-
-// An elastic-perfectly-plastic element that follows a signal, in units of its width.
-std::vector<double> stop_of(const std::vector<double>& signal, double width) {
-    std::vector<double> all;
-    double bend = 0.0;
-    for (std::size_t k = 0; k < signal.size(); ++k) {
-        if (k > 0) bend = std::clamp(bend + signal[k] - signal[k - 1], -width, width);
-        all.push_back(bend / width);
-    }
+    constexpr std::size_t max_channels = 2;
+    if (all.size() > max_channels) all.resize(max_channels);
     return all;
 }
 
@@ -80,7 +72,8 @@ Features features_of(const Recording& recording, const RecordedRun& run, const s
         for (std::size_t row = 1; row < rows; ++row) speed[row] = (signal[row] - signal[row - 1]) / step_s;
         features.push_back(speed);
         for (const double width : stop_widths) {
-            features.push_back(stop_of(signal, width));
+            const Eigen::VectorXd bent = simple_models::stop_operator(signal, width);
+            features.emplace_back(bent.begin(), bent.end());
             if (k == 0 && signals.size() > 1) features.push_back(product(features.back(), signals[1]));
         }
     }

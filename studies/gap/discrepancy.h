@@ -23,7 +23,7 @@ using Marginals = std::array<Marginal, discrepancy_sizes.size()>;
 /// when the motion does (M. Kennedy and A. O'Hagan, Bayesian calibration of computer models, J. R. Stat. Soc.
 /// B 63, 2001). Each predicted channel has one. Its kernel is a sum over features of equal prior variance:
 /// the driven channels, their squares, product and speeds, stop operators of five widths on each, and the
-/// first one's stops times the second.
+/// first one's stops times the second (E44, E45).
 class Discrepancy {
   public:
     /// `series`: of the recording; `stride`: samples per row. `independent_samples`: of all rows together.

@@ -87,13 +87,6 @@ Recording bench_of_drive(const Recording& recording, const Recording& fitted_to)
             scaled(samples(recording, run, channel::load_angle), way),
             scaled(samples(recording, run, channel::load_torque), orientation.load_torque_sign)};
     }
-    // The zero of a run's load angle is unknown, so its mean is set to the model's.
-    const EffectsTwin twin(bench, {});
-    const auto load_angle = static_cast<std::size_t>(*bench.channel(channel::load_angle));
-    for (std::size_t run = 0; run < bench.runs.size(); ++run) {
-        std::vector<double>& measured = bench.runs[run].values[load_angle];
-        measured = scaled(measured, 1.0, mean_of(twin.run(run, {}).values[load_angle]) - mean_of(measured));
-    }
     return bench;
 }
 

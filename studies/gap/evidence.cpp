@@ -9,8 +9,8 @@ namespace capstan::gap {
 
 namespace {
 
-// The constants were set on 59 recordings of the blind trial's simulator and scored on others
-// (studies/README.md, "How sure a diagnosis is"). Penalties and log priors are natural logarithms.
+// Penalties and log priors are natural logarithms. Those of visibility, of a bench without a cause, of
+// sensors, of further causes and of unknown ones were set on 59 recordings of the blind trial's simulator.
 
 // The model's floor is known only roughly. Below this mean square residual, a smaller one is therefore weak
 // evidence and counts with a reduced weight.
@@ -36,7 +36,7 @@ constexpr double unknown_penalty = 4.0;
 constexpr double floor_error = 0.25;
 constexpr double law_error = 0.1;
 // A discrepancy that is a cause of its own is visible.
-constexpr double least_unknown = 1.0;
+constexpr double min_unknown_size = 1.0;
 // A cause's law in the catalogue is an idealisation, good to about a tenth of what the cause does. A further
 // cause that is fainter than that only corrects the law of the clearest one.
 constexpr double faint = law_error;
@@ -45,7 +45,7 @@ constexpr double faint_penalty = 60.0;
 constexpr double anything_fraction = 0.02;
 
 // A number of the bench that is far from what was stated is named, but after the causes.
-constexpr double share_of_the_bench = 0.25;
+constexpr double bench_fraction = 0.25;
 
 using Effects = std::vector<std::string>;  // of a hypothesis, sorted
 
@@ -56,15 +56,15 @@ Effects effects_of(const CauseFit& fit) {
     return effects;
 }
 
-}  // namespace
-
 // The condition that the effect follows in an explanation; empty: none.
-static std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
+std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
     for (const CandidateCause* cause : hypothesis.fit->fit.causes) {
         if (cause->effect == effect && !cause->varies.empty()) return cause->varies;
     }
     return "";
 }
+
+}  // namespace
 
 std::vector<std::string> ScoredFit::of_the_bench() const {
     std::vector<std::string> effects;
@@ -89,7 +89,7 @@ double Evidence::of(const ScoredFit& fit) const {
 double Evidence::with_unknown(const ScoredFit& fit) const {
     const bool named = fit.fit.causes.front()->effect != "none";
     return priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior) +
-           marginal(fit, [](double size) { return size >= least_unknown ? 1.0 : 0.0; });
+           marginal(fit, [](double size) { return size >= min_unknown_size ? 1.0 : 0.0; });
 }
 
 // The logarithm of the likelihood's mean over the sizes of the discrepancy.
@@ -170,7 +170,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         std::map<std::string, double> shares;
         for (const std::string& effect : each.effects) shares[effect] = 1.0;
         if (!each.of_the_bench.empty()) shares.erase("none");
-        for (const std::string& effect : each.of_the_bench) shares.emplace(effect, share_of_the_bench);
+        for (const std::string& effect : each.of_the_bench) shares.emplace(effect, bench_fraction);
         double sum = 0.0;
         for (const auto& [effect, share] : shares) sum += share;
         for (const auto& [effect, share] : shares) {

@@ -88,7 +88,7 @@ class Evidence {
 std::size_t open_numbers(const CauseFit& fit);
 
 /// True if a fit leaves enough to look for a further cause: more than noise, and more than the law of its
-/// clearest cause may err.
+/// clearest cause may be wrong by.
 bool worth_a_further_cause(const ScoredFit& fit);
 
 }  // namespace capstan::gap

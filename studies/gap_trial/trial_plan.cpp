@@ -104,17 +104,21 @@ std::string trial_kind_name(TrialKind kind) {
     return kind == TrialKind::benches ? "benches" : "rigs";
 }
 
-std::string options_text(const TrialOptions& options) {
-    nlohmann::ordered_json json = {{"cases", options.cases},
-                                   {"seed", options.seed},
-                                   {"severity", severity_choice_name(options.severity)},
-                                   {"noise_factor", options.noise_factor},
-                                   {"length", length_name(options.length)},
-                                   {"nominal_error", options.nominal_error}};
+void add_options(nlohmann::ordered_json& json, const TrialOptions& options) {
+    json["seed"] = options.seed;
+    json["severity"] = severity_choice_name(options.severity);
+    json["noise_factor"] = options.noise_factor;
+    json["length"] = length_name(options.length);
+    json["nominal_error"] = options.nominal_error;
     if (options.kind != TrialKind::benches) json["kind"] = trial_kind_name(options.kind);
     if (options.visibility) json["visibility"] = {options.visibility->low, options.visibility->high};
     if (options.nuisances) json["nuisances"] = true;
     if (options.mixtures != TrialOptions().mixtures) json["mixtures"] = options.mixtures;
+}
+
+std::string options_text(const TrialOptions& options) {
+    nlohmann::ordered_json json = {{"cases", options.cases}};
+    add_options(json, options);
     if (options.only) json["only"] = truth_group_name(*options.only);
     return json.dump(1) + "\n";
 }

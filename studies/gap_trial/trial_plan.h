@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,6 +47,8 @@ struct TrialOptions {
     std::optional<TruthGroup> only = std::nullopt;
 };
 
+/// Adds what decides the recordings, but for the number of cases and `only`.
+void add_options(nlohmann::ordered_json& json, const TrialOptions& options);
 /// The options as trial.json states them.
 std::string options_text(const TrialOptions& options);
 std::string severity_choice_name(SeverityChoice choice);

@@ -33,4 +33,9 @@ int Recording::samples() const {
     return sum;
 }
 
+bool Recording::is_predicted(std::string_view channel_name) const {
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](const RecordedRun& run) { return !run.drives(channel_name); });
+}
+
 }  // namespace capstan

@@ -96,6 +96,8 @@ struct Recording {
     /// Index in `channels`, if the channel exists.
     std::optional<int> channel(std::string_view channel_name) const;
     int samples() const;
+    /// Whether a model has to say what the channel reads in some run, because the run does not drive it.
+    bool is_predicted(std::string_view channel_name) const;
 };
 
 }  // namespace capstan

@@ -59,6 +59,33 @@ TEST(BenchSimulations, ABenchIsIndependentOfItsNeighbours) {
     }
 }
 
+// A fit stops a bench that does not converge, so that it costs nothing more.
+TEST(BenchSimulations, AStoppedBenchStaysWhereItIsAndItsNeighboursGoOn) {
+    const std::vector<BenchDescription> descriptions = {bench_with(0.21), bench_with(0.15), bench_with(0.21)};
+    const std::vector<BenchEffects> effects = {{}, typical("stribeck", ""), {}};
+    BenchSimulations all(descriptions, effects);
+    BenchSimulations without(descriptions, effects);
+    constexpr int stopped = 1;
+    double tension_N = 0.0;
+    for (int step = 1; step <= 200; ++step) {
+        if (step == 101) {
+            without.stop(stopped);
+            tension_N = without.tension_at_N(stopped, 0, 1.3);
+        }
+        all.advance(hand_in_lanes_at(step));
+        const auto reports = without.advance(hand_in_lanes_at(step));
+        ASSERT_EQ(reports[stopped].converged, step <= 100) << step;
+        for (const int neighbour : {0, 2}) {
+            ASSERT_TRUE(reports[static_cast<std::size_t>(neighbour)].converged) << step;
+            ASSERT_EQ(all.pulleys(neighbour).load_torque_Nm(), without.pulleys(neighbour).load_torque_Nm())
+                << step;
+            ASSERT_EQ(all.tension_at_N(neighbour, 1, 1.3), without.tension_at_N(neighbour, 1, 1.3)) << step;
+        }
+    }
+    EXPECT_EQ(without.tension_at_N(stopped, 0, 1.3), tension_N);
+    EXPECT_NE(all.tension_at_N(stopped, 0, 1.3), tension_N);
+}
+
 // A rotor on two locked cables rings at sqrt(k / J), and Newmark's method keeps it ringing.
 TEST(BenchSimulations, AnUnmodelledRotorOscillates) {
     BenchDescription description = bench_with(1e-4);

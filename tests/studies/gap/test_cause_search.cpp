@@ -93,6 +93,20 @@ TEST(CauseSearch, LooksForAFurtherCauseOnlyWhereMoreThanNoiseAndLawsErrorIsLeft)
     EXPECT_TRUE(worth_a_further_cause(leaving(3.0, 4.0)));
 }
 
+TEST(CauseSearch, OutOfTimeItGivesTheNominalFitAndSaysSo) {
+    Recording recording = exact_session({}, coarse_twin);
+    recording.runs.resize(1);
+    CauseSearchOptions options;
+    options.segments = 10;
+    options.stride = 4;
+    options.time_limit_s = 0.0;
+    CauseSearch search(recording, options);
+    const FoundCauses found = search.run();
+    EXPECT_TRUE(found.cut_short);
+    ASSERT_EQ(found.fits.size(), 1u);
+    EXPECT_EQ(found.fits.front().fit.causes.front()->effect, "none");
+}
+
 TEST(CauseSearch, StartsWithTheNominalModelAndReportsGrowingProgress) {
     Recording recording = exact_session({}, coarse_twin);
     recording.runs.resize(1);
@@ -104,7 +118,8 @@ TEST(CauseSearch, StartsWithTheNominalModelAndReportsGrowingProgress) {
     options.on_progress = [&](const std::string&, double fraction_done) {
         fractions.push_back(fraction_done);
     };
-    const FoundCauses found = CauseSearch(recording, options).run();
+    CauseSearch search(recording, options);
+    const FoundCauses found = search.run();
     EXPECT_EQ(fractions.front(), 0.0);
     EXPECT_LT(found.nominal_misfit, 1.0);
     EXPECT_GT(found.evaluations, 0);

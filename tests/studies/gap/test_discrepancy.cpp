@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "capstan/gap/discrepancy.h"
+#include "session_with_effects.h"
+
+namespace capstan::gap {
+namespace {
+
+class OnASession : public testing::Test {
+  protected:
+    const Recording recording = exact_session({}, coarse_twin);
+    const CauseFitter fitter{recording, coarse_twin, 1};
+    const Discrepancy discrepancy{recording, fitter.series(), coarse_twin.stride,
+                                  fitter.independent_samples()};
+
+    Eigen::VectorXd residuals(
+        const std::function<double(const ResidualSeries&, std::size_t row)>& value) const {
+        Eigen::VectorXd all(static_cast<Eigen::Index>(fitter.data_rows()));
+        for (const ResidualSeries& series : fitter.series()) {
+            for (std::size_t row = 0; row < series.rows; ++row)
+                all[static_cast<Eigen::Index>(series.first_row + row)] = value(series, row);
+        }
+        return all;
+    }
+};
+
+// 8: as large as the sizes of an unknown cause.
+constexpr std::size_t large = 6;
+
+TEST_F(OnASession, NoDiscrepancyLeavesTheMeanSquareAndCostsNothing) {
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    const Eigen::VectorXd noise = residuals([&](const auto&, std::size_t) { return normal(random); });
+    const Marginals beside = discrepancy.of(noise);
+    EXPECT_NEAR(beside[0].misfit, noise.squaredNorm() / static_cast<double>(noise.size()), 1e-9);
+    EXPECT_EQ(beside[0].log_determinant, 0.0);
+}
+
+TEST_F(OnASession, ALargerOneLeavesLessAndCostsMore) {
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    const Marginals beside =
+        discrepancy.of(residuals([&](const auto&, std::size_t) { return normal(random); }));
+    for (std::size_t k = 1; k < beside.size(); ++k) {
+        EXPECT_LE(beside[k].misfit, beside[k - 1].misfit);
+        EXPECT_GT(beside[k].log_determinant, beside[k - 1].log_determinant);
+    }
+}
+
+TEST_F(OnASession, TakesInWhatIsAFunctionOfTheMotionButNotNoise) {
+    const Marginals function = discrepancy.of(residuals([&](const ResidualSeries& series, std::size_t row) {
+        const RecordedRun& run = recording.runs[series.run];
+        const auto driving = static_cast<std::size_t>(*recording.channel(run.driven.front()));
+        const std::size_t sample = (static_cast<std::size_t>(series.first_sample) + row) * coarse_twin.stride;
+        return 10.0 * run.values[driving][sample] - 3.0;
+    }));
+    EXPECT_LT(function[large].misfit, 0.05 * function[0].misfit);
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    const Marginals noise =
+        discrepancy.of(residuals([&](const auto&, std::size_t) { return normal(random); }));
+    EXPECT_GT(noise[large].misfit, 0.9 * noise[0].misfit);
+}
+
+}  // namespace
+}  // namespace capstan::gap
