@@ -191,14 +191,14 @@ void demand_channels_of(const Recording& recording) {
         demand_channels(recording, {"displacement", "tension_1", "tension_2"}, "a band");
 }
 
-bool is_described(const Recording& recording) {
-    return recording.mode != BenchMode::lumped_drive && recording.mode != BenchMode::capstan_band;
-}
-
 }  // namespace
 
+bool has_unknown_geometry(const Recording& recording) {
+    return recording.mode == BenchMode::lumped_drive || recording.mode == BenchMode::capstan_band;
+}
+
 BenchEquivalence fit_equivalence(const Recording& fitted_to) {
-    if (is_described(fitted_to)) throw InvalidInput({fitted_to.name + ": the geometry is known"});
+    if (!has_unknown_geometry(fitted_to)) throw InvalidInput({fitted_to.name + ": the geometry is known"});
     demand_channels_of(fitted_to);
     return fitted_to.mode == BenchMode::lumped_drive ? equivalence_of_drive(fitted_to)
                                                      : equivalence_of_band(fitted_to);
@@ -213,7 +213,7 @@ Recording as_bench(const Recording& recording, const BenchEquivalence& equivalen
 }
 
 Recording equivalent_bench(const Recording& recording, const Recording& fitted_to) {
-    return is_described(recording) ? recording : as_bench(recording, fit_equivalence(fitted_to));
+    return has_unknown_geometry(recording) ? as_bench(recording, fit_equivalence(fitted_to)) : recording;
 }
 
 }  // namespace capstan::gap

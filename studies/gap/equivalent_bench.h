@@ -14,6 +14,9 @@ struct BenchEquivalence {
     double pretension_over_stated_ratio = 1.0;  ///< of a band
 };
 
+/// Whether it is one of a drive or a band of unknown geometry.
+bool has_unknown_geometry(const Recording& recording);
+
 /// Signs, friction, stiffness and pretension, none of which is stated, as `fitted_to` shows them. A lumped
 /// drive becomes a pull-pull pair with one radian of wrap and a motor pulley of 20 mm; a band round a drum
 /// becomes a single cable whose ends move together. Throws InvalidInput if channels are missing, or where the
