@@ -86,6 +86,8 @@ std::vector<ChannelError> errors_of(const ModelPrediction& prediction, const Ben
 
 std::vector<std::string> notes_on(const BenchModel& model, const Recording& recording) {
     std::vector<std::string> notes;
+    if (model.recorded_mode == BenchMode::lumped_drive)
+        notes.push_back("The zero of the load angle is not known; it is set anew in each run.");
     for (const ModelFollowing& follows : model.follows) {
         for (const RecordedRun& run : recording.runs) {
             const auto stated = run.conditions.find(follows.condition);

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <sstream>
 
 #include "capstan/answers/recording_answers.h"
 #include "capstan/bench_model/model_file.h"
@@ -66,19 +64,6 @@ std::string corrected_model_text(const Recording& recording, const gap::Diagnosi
 }
 
 using gap::Diagnosis;
-
-std::vector<int> run_numbers(const std::string& listed) {
-    std::vector<int> numbers;
-    std::istringstream words(listed);
-    for (std::string word; std::getline(words, word, ',');) {
-        int number = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-        if (error != std::errc() || end != word.data() + word.size())
-            throw UsageError(fmt::format("'{}' is not a run number; write a list such as 1,2,5", word));
-        numbers.push_back(number);
-    }
-    return numbers;
-}
 
 // The runs to fit and to judge, as --fit and --hold say; all others where one of them is missing.
 model_comparison::RunSplit asked_split(const Invocation& invocation, const Recording& recording) {
