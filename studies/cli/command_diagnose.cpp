@@ -1,17 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <sstream>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/bench_model/model_file.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/program.h"
 #include "capstan/config/config_truth.h"
 #include "capstan/export/series.h"
 #include "capstan/gap/diagnosis.h"
-#include "capstan/gap/equivalent_bench.h"
 #include "capstan/model_comparison/model_comparison.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
@@ -66,24 +65,6 @@ std::string corrected_model_text(const Recording& recording, const gap::Diagnosi
 
 using gap::Diagnosis;
 
-std::vector<int> run_numbers(const std::string& listed) {
-    std::vector<int> numbers;
-    std::istringstream words(listed);
-    for (std::string word; std::getline(words, word, ',');) {
-        int number = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-        if (error != std::errc() || end != word.data() + word.size())
-            throw UsageError(fmt::format("'{}' is not a run number; write a list such as 1,2,5", word));
-        numbers.push_back(number);
-    }
-    return numbers;
-}
-
-// Keeps only the runs of a list such as 1,2,5.
-Recording only_runs(const Recording& recording, const std::string& listed) {
-    return model_comparison::runs_of(recording, run_numbers(listed));
-}
-
 // The runs to fit and to judge, as --fit and --hold say; all others where one of them is missing.
 model_comparison::RunSplit asked_split(const Invocation& invocation, const Recording& recording) {
     for (const char* other : {"runs", "calibrate-on"}) {
@@ -120,16 +101,13 @@ model_comparison::DiagnosedSplit diagnosed_runs(const Invocation& invocation, co
                                                 const gap::DiagnosisOptions& options) {
     if (has_split(invocation))
         return model_comparison::diagnose_split(recorded, asked_split(invocation, recorded), options);
-    model_comparison::DiagnosedSplit all;
-    all.recorded = invocation.has("runs") ? only_runs(recorded, invocation.text("runs")) : recorded;
-    // The recorded bench, or an equivalent bench where the geometry is unknown.
-    all.bench = gap::equivalent_bench(all.recorded, invocation.has("calibrate-on")
-                                                        ? only_runs(recorded, invocation.text("calibrate-on"))
-                                                        : all.recorded);
-    all.diagnosed = all.bench;
-    all.diagnosis = gap::diagnose(all.diagnosed, options);
-    for (const RecordedRun& run : all.recorded.runs) all.split.fit.push_back(run.number);
-    return all;
+    model_comparison::RunSplit all;
+    if (invocation.has("runs")) all.fit = run_numbers(invocation.text("runs"));
+    for (const RecordedRun& run : recorded.runs)
+        if (!invocation.has("runs")) all.fit.push_back(run.number);
+    return model_comparison::diagnose_split(
+        recorded, all, options,
+        invocation.has("calibrate-on") ? run_numbers(invocation.text("calibrate-on")) : std::vector<int>{});
 }
 
 // What the corrected model leaves of the runs that were diagnosed.
@@ -170,6 +148,13 @@ void store(const Invocation& invocation, const Recording& recording, const Diagn
         say(fmt::format("Stored as diagnosis {} in {}.", id, invocation.text("db")));
 }
 
+void save_model(const std::filesystem::path& file, const model_comparison::DiagnosedSplit& diagnosed,
+                const std::vector<model_comparison::LeftOver>& left, const gap::DiagnosisOptions& options) {
+    const bench_model::ModelOrigin origin{diagnosed.recorded.name, diagnosed.split.fit, program_version(),
+                                          answers::verdict_sentence(diagnosed.diagnosis)};
+    bench_model::write_model(file, bench_model::model_of(diagnosed, left, origin, options));
+}
+
 // The channels that the corrected model predicts.
 void write_prediction(const std::filesystem::path& file, Recording recording, const Diagnosis& diagnosis) {
     if (!exports::is_series_file(file) && file.extension() != ".csv")
@@ -195,6 +180,7 @@ void write_prediction(const std::filesystem::path& file, Recording recording, co
 }
 
 ExitCode run_diagnose(const Invocation& invocation) {
+    if (invocation.has("save")) bench_model::require_model_name(invocation.text("save"));
     const Recording recorded = read_recording(invocation.argument("LOG"));
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
@@ -224,8 +210,10 @@ ExitCode run_diagnose(const Invocation& invocation) {
         write_file(invocation.text("corrected"),
                    corrected_model_text(recording, diagnosis, answers::verdict_sentence(diagnosis)));
     if (invocation.has("prediction")) write_prediction(invocation.text("prediction"), recording, diagnosis);
+    const std::vector<model_comparison::LeftOver> left = left_over(diagnosed);
+    if (invocation.has("save")) save_model(invocation.text("save"), diagnosed, left, options);
     reports::Answer answer = answers::diagnosis_answer(recording, diagnosis);
-    answers::add_left_over(answer, left_over(diagnosed), diagnosed.recorded);
+    answers::add_left_over(answer, left, diagnosed.recorded);
     answers::add_comparison(answer, comparison);
     if (diagnosis.cut_short) answer.values["cut_short"] = true;
     deliver_answer(invocation, answer);
@@ -263,6 +251,12 @@ const Option keep_option{
         "Also store the diagnosis in this results database; `capstan query \"SELECT * FROM "
         "v_diagnosis\"` lists the stored diagnoses."};
 
+const Option save_model_option{
+    .name = "save",
+    .value = "FILE",
+    .meaning =
+        "Write what was found as a model (TOML): the bench, its effects and sensors with intervals, and the law of what "
+        "is left. `capstan simulate LOG --model FILE` judges it on other runs."};
 const Option corrected_option{
     .name = "corrected",
     .value = "FILE",
@@ -295,12 +289,13 @@ Command diagnose_command() {
             "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
         .arguments = {log_argument},
         .options = {runs_option, calibrate_on_option, fit_option, hold_option, baselines_option, keep_option,
-                    corrected_option, prediction_option, time_limit_option, jobs_option, output_option,
-                    format_option, json_option, page_option, progress_option, help_option},
+                    save_model_option, corrected_option, prediction_option, time_limit_option, jobs_option,
+                    output_option, format_option, json_option, page_option, progress_option, help_option},
         .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
                      "capstan diagnose bench.csv --html bench.html",
                      "capstan diagnose bench.csv --fit 1,3,5 --hold 2,4,6 --baselines",
                      "capstan diagnose bench.csv --db bench.db",
+                     "capstan diagnose bench.csv --fit 1,3 --save model.toml",
                      "capstan diagnose bench.csv --corrected corrected.toml"},
         .run = run_diagnose};
 }
