@@ -62,8 +62,9 @@ Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) 
                effects_.of<PulleyFriction>().motor, known_.motor_kg_m2, angle_rad, inputs.time_step_s);
     const Torque swing = swing_torque(inputs, angle_rad);
     const Torque cogging = effects_.of<MotorCogging>().torque(angle_rad);
-    Torque balance = {lost.value_Nm + swing.value_Nm + cogging.value_Nm,
-                      lost.per_rad + swing.per_rad + cogging.per_rad};
+    const Torque spring = effects_.of<PositionTorque>().torque(angle_rad);
+    Torque balance = {lost.value_Nm + swing.value_Nm + cogging.value_Nm + spring.value_Nm,
+                      lost.per_rad + swing.per_rad + cogging.per_rad + spring.per_rad};
     if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
         balance.value_Nm -= torque->torque_Nm;
     } else if (motor_is_free(inputs)) {
@@ -151,7 +152,8 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
                    effects_.of<PulleyFriction>().motor, effects_.of<Inertia>().motor_kg_m2, angles.motor_rad,
                    inputs.time_step_s)
                 .value_Nm +
-            effects_.of<MotorCogging>().torque(angles.motor_rad).value_Nm;
+            effects_.of<MotorCogging>().torque(angles.motor_rad).value_Nm +
+            effects_.of<PositionTorque>().torque(angles.motor_rad).value_Nm;
         motor_.encoder_rad = std::get<MotorAngle>(inputs.motor).angle_rad;
     }
     const auto* held = std::get_if<LoadAngle>(&inputs.load);

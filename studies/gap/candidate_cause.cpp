@@ -107,7 +107,8 @@ CandidateCause cause_of(const Effect& effect, double length_m, double normal_for
     return cause;
 }
 
-// Faults of one channel's sensor. `lattice`: the step on which all its values lie, where that shows.
+// Faults of one channel's sensor. `lattice`: the step on which all its values lie, where that shows; without
+// it readings are not coarse.
 std::vector<CandidateCause> sensor_causes(const std::string& channel, double span, double time_step_s,
                                           const std::optional<double>& lattice) {
     const auto kind_of_fault = [](SensorFault::Size size) {
@@ -134,14 +135,14 @@ std::vector<CandidateCause> sensor_causes(const std::string& channel, double spa
     };
     std::vector<CandidateCause> causes;
     for (const SensorFault& fault : sensor_fault_catalogue()) {
+        if (fault.size == SensorFault::Size::lattice && !lattice) continue;
         CandidateCause cause = plain(fault.name, "sensor:" + channel);
         cause.variant = channel;
         cause.numbers = {{"size", fault.unit, kind_of_fault(fault.size),
                           fault.typical * unit_of_typical(fault.typical_of), SensorFaults().*fault.value,
                           -1e3, 1e3}};
-        if (fault.size == SensorFault::Size::lattice && lattice) {
+        if (lattice && fault.size == SensorFault::Size::lattice)
             cause.numbers.front().low = cause.numbers.front().high = *lattice;
-        }
         cause.apply = [channel, value = fault.value](BenchNumbers& numbers, Values values) {
             numbers.sensor_faults[channel].*value = values[0];
         };

@@ -32,6 +32,11 @@ void remove_wrong_numbers(std::vector<CandidateCause>& causes) {
         causes, [](const CandidateCause& cause) { return cause.numbers.empty() && cause.effect != "none"; });
 }
 
+// Whoever states the numbers of a bench knows of a spring at its motor.
+void remove_undescribed_parts(std::vector<CandidateCause>& causes) {
+    std::erase_if(causes, [](const CandidateCause& cause) { return cause.effect == "position_torque"; });
+}
+
 // Zeros and bearings of an undescribed bench float by factors. Its radii and routing are not known, so the
 // gain of a sensor and a bend at a place are part of what was fitted.
 void remove_what_is_fitted(std::vector<CandidateCause>& causes) {
@@ -71,8 +76,13 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
       described_{recording.nominal_is_fitted ? undescribed_bench(recording) : measured_bench(),
                  candidate_causes(recording)},
       built_{built_bench(recording), candidate_causes(recording)} {
-    if (recording.nominal_is_fitted) remove_what_is_fitted(described_.causes);
+    if (recording.nominal_is_fitted) {
+        remove_what_is_fitted(described_.causes);
+    } else {
+        remove_undescribed_parts(described_.causes);
+    }
     remove_wrong_numbers(built_.causes);
+    remove_undescribed_parts(built_.causes);
 }
 
 FoundCauses CauseSearch::run() & {

@@ -38,23 +38,15 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     if (!level.bench.is_measured()) try_others(level, all);
 }
 
-// Others in the place of each cause of the best set, from where the set led the bench's own numbers: where
-// these float widely, several causes explain much the same, and each deserves the same start.
+// Others in the place of a single cause, from where it led the bench's own numbers: where these float widely,
+// several causes explain much the same, and each deserves the same start.
 void CauseSearch::try_others(const Level& level, Fits& all) {
-    constexpr int max_rounds = 2;
-    constexpr std::size_t max_exchanged = 3;
-    for (int round = 0; round < max_rounds && !is_out_of_time(); ++round) {
-        const Hypothesis best = all.front().fit.hypothesis();
-        if (best.causes.front()->effect == "none" || best.causes.size() > max_exchanged) return;
-        const double before = all.front().evidence;
-        Fits sets;
-        for (const CandidateCause* dropped : best.causes)
-            add_sets(level, only_causes(best, [&](const CandidateCause& cause) { return &cause != dropped; }),
-                     sets);
-        std::move(sets.begin(), sets.end(), std::back_inserter(all));
-        sort_by_evidence(all);
-        if (all.front().evidence == before) return;
-    }
+    const Hypothesis best = all.front().fit.hypothesis();
+    if (best.causes.front()->effect == "none" || best.causes.size() > 1 || is_out_of_time()) return;
+    Fits others;
+    add_sets(level, only_causes(best, [](const CandidateCause&) { return false; }), others);
+    std::move(others.begin(), others.end(), std::back_inserter(all));
+    sort_by_evidence(all);
 }
 
 // The best set without each of its causes in turn, from where the set led: a smaller set may have been left

@@ -66,6 +66,15 @@ TEST(Cogging, SlopeIsTheDerivative) {
     }
 }
 
+TEST(PositionTorque, SlopeIsTheDerivative) {
+    const PositionTorque spring{0.3, -0.2};
+    for (const double angle_rad : {-1.0, 0.05, 2.0}) {
+        EXPECT_NEAR(spring.torque(angle_rad).per_rad,
+                    by_differences([&](double a) { return spring.torque(a).value_Nm; }, angle_rad, 1e-6),
+                    1e-7);
+    }
+}
+
 TEST(Stribeck, FrictionFallsWithSpeedToCoulombs) {
     const Stribeck law{0.1, 0.05, 0.0};
     EXPECT_EQ(laws::added_friction(law, 0.0), 0.1);
