@@ -69,6 +69,13 @@ reports::Answer estimate_answer(const Recording& recording, const std::vector<es
                                 const std::vector<estimate::EstimatorTuning>& estimates,
                                 const estimate::TrackingOptions& options, Figures figures);
 
+/// What of a model an estimate used; `not_used`: what it could not.
+std::string model_use_sentence(const bench_model::BenchModel& model,
+                               const std::vector<std::string>& not_used);
+/// Adds that to an estimate.
+void add_model_of_estimate(reports::Answer& answer, const bench_model::BenchModel& model,
+                           const std::vector<std::string>& not_used);
+
 /// A recording beside its model; `modelled`: one for each run.
 reports::Answer recording_answer(const Recording& recording, const std::vector<gap::TwinRun>& modelled);
 

@@ -8,6 +8,7 @@ import unittest
 from capstan_program import CONFIGS, CapstanTest
 
 PAIR = CONFIGS / "recordings" / "viscous-pair.csv"  # two runs
+SINGLE = CONFIGS / "recordings" / "single-cable.csv"  # one run, five tension sensors
 DRIVE = CONFIGS / "recordings" / "lumped-drive.csv"
 
 
@@ -73,6 +74,23 @@ class BenchModel(CapstanTest):
         self.assertEqual((self.folder / study).read_text(), "[motion]\n")
         self.assertIn("ends in .toml", self.run_capstan("diagnose", PAIR, "--save", "model.json", expect=2).stderr)
         self.assertIn("bench_model_format = 1", text)
+
+    def test_the_estimator_takes_its_cable_from_the_model(self):
+        text, _ = self.saved_model(SINGLE, "1")
+        without = json.loads(self.run_capstan("estimate", SINGLE, "--leave-out", "tension_3", "--json").stdout)
+        # A model with twice the friction predicts worse, and the estimator takes it at its word.
+        line = next(line for line in text.splitlines() if line.startswith("friction_ratio = "))
+        self.write("model.toml", text.replace(line, "friction_ratio = 2.0") +
+                   "\n[effect.viscous_friction]\ndrag_N_s_per_m2 = 0.001\n")
+        told = json.loads(self.run_capstan("estimate", SINGLE, "--leave-out", "tension_3", "--model", "model.toml",
+                                           "--json").stdout)
+        self.assertEqual(told["model"]["recording"], "single-cable")
+        self.assertEqual(told["model"]["not_used"], ["viscous friction"])
+        self.assertGreater(told["channels"][0]["model_alone_rms_N"], 2 * without["channels"][0]["model_alone_rms_N"])
+        stated = self.run_capstan("estimate", SINGLE, "--model", "model.toml", "-o", "tensions.csv").stderr
+        self.assertIn("The estimator cannot use one part of the model: viscous friction.", stated)
+        self.assertIn("--model is for recordings", self.run_capstan("estimate", CONFIGS / "paper.toml", "--model",
+                                                                    "model.toml", expect=2).stderr)
 
     def test_wrong_models_are_rejected_with_file_line_and_key(self):
         text, _ = self.saved_model(PAIR, "1")
