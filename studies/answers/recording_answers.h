@@ -28,6 +28,9 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap::Diagnosis& diagnosis,
                                           const std::filesystem::path& log = {});
 
+/// What a model keeps of its diagnosis: the numbers, the causes and their probabilities.
+storage::DiagnosisRecord diagnosis_record(const bench_model::BenchModel& model);
+
 /// A diagnosis from what the database keeps of it. The samples are not kept, so that it has no curves.
 reports::Answer stored_diagnosis_answer(const storage::DiagnosisRecord& diagnosis);
 
