@@ -53,6 +53,9 @@ std::vector<reports::Table> diagnosis_curves(const Recording& recording, const g
 
 reports::Answer calibration_answer(const Recording& recording, const gap::Calibration& calibration);
 
+/// Adds what a model says of the parameters beside what was fitted.
+void add_model_of_calibration(reports::Answer& answer, const bench_model::BenchModel& model);
+
 /// How often the drive was in each motion regime.
 reports::Answer duty_answer(const Recording& recording, const duty::DutyCycle& duty);
 

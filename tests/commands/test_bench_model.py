@@ -121,6 +121,17 @@ class BenchModel(CapstanTest):
         self.assertIn("--model is for recordings", self.run_capstan("estimate", CONFIGS / "paper.toml", "--model",
                                                                     "model.toml", expect=2).stderr)
 
+    def test_a_calibration_starts_at_the_model_and_stands_beside_it(self):
+        self.saved_model(PAIR, "1")
+        told = json.loads(self.run_capstan("calibrate", PAIR, "--runs", "2", "--model", "model.toml", "--json").stdout)
+        self.assertEqual({row["run"] for row in told["channels"]}, {2})
+        rows = {row["name"]: row for row in told["model"]["parameters"]}
+        self.assertEqual(set(rows), {row["name"] for row in told["parameters"]})
+        low, high = rows["axial_stiffness"]["model_interval_95"]
+        self.assertTrue(low < rows["axial_stiffness"]["model"] < high)
+        self.assertIn("a model predicts recordings of its own bench",
+                      self.run_capstan("calibrate", DRIVE, "--model", "model.toml", expect=2).stderr)
+
     def test_worlds_lie_about_a_model_as_about_the_same_diagnosis_in_a_database(self):
         self.run_capstan("diagnose", PAIR, "--db", "pair.db", "--save", "model.toml", "--progress", "none")
         self.write("arm.toml", ARM)
