@@ -38,13 +38,16 @@ std::vector<ModelFollowing> following_of(const std::vector<BenchNumbers::Followi
                                          const Recording& bench) {
     std::vector<ModelFollowing> all;
     for (const BenchNumbers::Following& each : given) {
-        ModelFollowing follows{each.condition, each.middle, each.half_range, {}};
-        if (each.friction_log != 0.0) follows.changes.push_back({friction_change, "", each.friction_log});
-        if (each.pretension_log != 0.0)
-            follows.changes.push_back({pretension_change, "", each.pretension_log});
-        for (const auto& [channel, zero] : each.zero)
-            follows.changes.push_back({zero_change + channel, unit_of_channel(bench, channel), zero});
-        all.push_back(std::move(follows));
+        if (all.empty() || all.back().condition != each.condition)
+            all.push_back({each.condition, each.middle, each.half_range, {}});
+        std::vector<FittedNumber>& changes = all.back().changes;
+        const bool is_zero = each.what == BenchNumbers::Following::What::zero;
+        const std::string what = is_zero ? zero_change + each.channel
+                                 : each.what == BenchNumbers::Following::What::friction ? friction_change
+                                                                                        : pretension_change;
+        const std::string unit = is_zero ? unit_of_channel(bench, each.channel) : "";
+        changes.push_back({what, unit, each.linear});
+        if (each.squared != 0.0) changes.push_back({squared_change + what, unit, each.squared});
     }
     return all;
 }
@@ -94,7 +97,9 @@ class FittedNumbers {
             const std::string what = cause.effect == "param_mu"   ? friction_change
                                      : cause.effect == "param_T0" ? pretension_change
                                                                   : zero_change + first_word(cause.variant);
-            if (FittedNumber* number = named(follows.changes, what)) return number;
+            const bool is_squared = name.starts_with(squared_change);
+            if (FittedNumber* number = named(follows.changes, (is_squared ? squared_change : "") + what))
+                return number;
         }
         for (ModelEffect& effect : model_.effects)
             if (effect.name == cause.effect && effect.variant == cause.variant)
@@ -173,16 +178,23 @@ BenchNumbers BenchModel::numbers() const {
                     numbers.sensor_faults[sensor.channel].*fault.value = number.value;
     }
     for (const ModelFollowing& each : follows) {
-        BenchNumbers::Following follows_it{each.condition, each.middle, each.half_range};
         for (const FittedNumber& change : each.changes) {
-            if (change.name == friction_change)
-                follows_it.friction_log = change.value;
-            else if (change.name == pretension_change)
-                follows_it.pretension_log = change.value;
-            else
-                follows_it.zero[change.name.substr(std::string_view(zero_change).size())] = change.value;
+            if (change.name.starts_with(squared_change)) continue;
+            using What = BenchNumbers::Following::What;
+            BenchNumbers::Following follows_it;
+            follows_it.what = change.name == friction_change     ? What::friction
+                              : change.name == pretension_change ? What::pretension
+                                                                 : What::zero;
+            if (follows_it.what == What::zero)
+                follows_it.channel = change.name.substr(std::string_view(zero_change).size());
+            follows_it.condition = each.condition;
+            follows_it.middle = each.middle;
+            follows_it.half_range = each.half_range;
+            follows_it.linear = change.value;
+            for (const FittedNumber& other : each.changes)
+                if (other.name == squared_change + change.name) follows_it.squared = other.value;
+            numbers.follows.push_back(std::move(follows_it));
         }
-        numbers.follows.push_back(std::move(follows_it));
     }
     return numbers;
 }

@@ -30,5 +30,7 @@ const std::vector<FaultKey>& fault_keys();
 inline constexpr const char* friction_change = "friction_log";
 inline constexpr const char* pretension_change = "pretension_log";
 inline constexpr const char* zero_change = "zero_of_";  ///< and a channel
+/// Before each of them: its change with the square of the condition.
+inline constexpr const char* squared_change = "squared_";
 
 }  // namespace capstan::bench_model

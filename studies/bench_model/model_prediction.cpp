@@ -132,7 +132,9 @@ gap::BenchNumbers numbers_for(const BenchModel& model, const Recording& recordin
     gap::BenchNumbers numbers = model.numbers();
     const auto is_missing = [&](const auto& of_channel) { return !recording.channel(of_channel.first); };
     std::erase_if(numbers.sensor_faults, is_missing);
-    for (gap::BenchNumbers::Following& each : numbers.follows) std::erase_if(each.zero, is_missing);
+    std::erase_if(numbers.follows, [&](const gap::BenchNumbers::Following& each) {
+        return each.what == gap::BenchNumbers::Following::What::zero && !recording.channel(each.channel);
+    });
     return numbers;
 }
 

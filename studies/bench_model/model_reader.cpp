@@ -106,6 +106,10 @@ std::vector<ModelSensor> sensors_in(TableReader table) {
     return sensors;
 }
 
+std::string_view without_prefix(std::string_view key, std::string_view prefix) {
+    return key.starts_with(prefix) ? key.substr(prefix.size()) : key;
+}
+
 std::vector<ModelFollowing> follows_in(TableReader& root) {
     std::vector<ModelFollowing> all;
     for (TableReader& row : root.rows("follows")) {
@@ -115,11 +119,12 @@ std::vector<ModelFollowing> follows_in(TableReader& root) {
         follows.half_range = row.number("condition_half_range", Range::positive);
         for (const std::string& key : row.keys()) {
             if (key.ends_with(interval_ending)) continue;
-            if (key == friction_change || key == pretension_change)
+            const std::string_view what = without_prefix(key, squared_change);
+            if (what == friction_change || what == pretension_change)
                 follows.changes.push_back(row.fitted(key, "", Range::finite));
             // Behind the name of the channel stands its unit.
             const std::size_t last = key.rfind('_');
-            if (key.starts_with(zero_change) && last >= std::string_view(zero_change).size())
+            if (what.starts_with(zero_change) && last >= std::string_view(zero_change).size())
                 follows.changes.push_back(
                     row.fitted(key.substr(0, last), unit_in_words(key.substr(last + 1)), Range::finite));
         }

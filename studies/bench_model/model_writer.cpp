@@ -143,7 +143,7 @@ void write_fitted(ModelText& text, const BenchModel& model) {
         text.comment(
             "Numbers that follow a condition of the runs: `friction_log`, "
             "`pretension_log` and zeros change by so much from the middle to the end of its range, "
-            "which are in the condition's own unit.");
+            "which are in the condition's own unit; those with `squared_` by so much to either end.");
     for (const ModelFollowing& follows : model.follows) {
         text.row_of("follows");
         text.value("condition", follows.condition);

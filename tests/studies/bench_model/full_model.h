@@ -30,12 +30,15 @@ inline model_comparison::DiagnosedSplit full_split() {
     bend = {odd_number(0.5), odd_number(0.3), odd_number(0.1), BentCables::only_b};
     found.corrected.sensor_faults["load_torque"].offset = odd_number(-0.02);
     found.corrected.sensor_faults["load_torque"].gain = odd_number(0.8);
-    found.corrected.follows.push_back({"roll_deg",
-                                       odd_number(-10.0),
-                                       odd_number(45.0),
-                                       odd_number(0.1),
-                                       0.0,
-                                       {{"load_torque", odd_number(1e-3)}}});
+    using Following = gap::BenchNumbers::Following;
+    Following follows{Following::What::friction, "", "roll_deg", odd_number(-10.0), odd_number(45.0),
+                      odd_number(0.1),           0.0};
+    found.corrected.follows.push_back(follows);
+    follows.what = Following::What::zero;
+    follows.channel = "load_torque";
+    follows.linear = odd_number(1e-3);
+    follows.squared = odd_number(-2e-3);
+    found.corrected.follows.push_back(follows);
     found.causes = {{"local_bend",
                      "cable B",
                      "conduit",

@@ -78,6 +78,7 @@ TEST(ModelFile, GivesAnIntervalToWhatWasFittedAndToNothingElse) {
     for (const FittedNumber& fault : read.sensors.at(0).faults)
         EXPECT_EQ(fault.interval.has_value(), fault.name == "offset") << fault.name;
     ASSERT_EQ(read.follows.size(), 1u);
+    EXPECT_EQ(read.follows[0].changes.size(), 3u);
     for (const FittedNumber& change : read.follows[0].changes)
         EXPECT_EQ(change.interval.has_value(), change.name == "zero_of_load_torque") << change.name;
 }
