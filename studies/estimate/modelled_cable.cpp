@@ -73,7 +73,7 @@ bool has_bend(const LocalBend& bend, const std::string& cable) {
            (bend.cables == BentCables::both || (bend.cables == BentCables::only_a) == (cable == "A"));
 }
 
-std::vector<std::string> unused_parts(const BenchModel& model) {
+std::vector<std::string> unused_parts(const BenchModel& model, double sample_rate_Hz) {
     std::vector<std::string> unused;
     const auto add = [&](const std::string& words) {
         if (std::find(unused.begin(), unused.end(), words) == unused.end()) unused.push_back(words);
@@ -83,6 +83,8 @@ std::vector<std::string> unused_parts(const BenchModel& model) {
     for (const bench_model::ModelSensor& sensor : model.sensors) {
         for (const FittedNumber& fault : sensor.faults) {
             if (fault.name == "gain" || fault.name == "offset") continue;
+            // Within a sample no estimate of a sample changes.
+            if (fault.name == "time_misalignment" && std::abs(fault.value) * sample_rate_Hz < 1.0) continue;
             const std::string cause = find_cause(fault.name) != nullptr ? fault.name : "sensor_" + fault.name;
             add(fmt::format("{} ({})", cause_title(cause), channel_words(sensor.channel)));
         }
@@ -122,7 +124,8 @@ ModelledCables modelled_cables(const Recording& recording, const BenchModel& mod
     const Recording corrected = corrected_recording(recording, model);
     const BenchNumbers numbers = numbers_for(model, corrected);
     const LocalBend& bend = numbers.effects.of<LocalBend>();
-    ModelledCables modelled{sensed_cables(corrected, segments), unused_parts(model)};
+    ModelledCables modelled{sensed_cables(corrected, segments),
+                            unused_parts(model, recording.sample_rate_Hz)};
     for (SensedCable& cable : modelled.cables) {
         if (has_bend(bend, cable.name))
             cable.specification.curvature = with_bend(cable.specification.curvature, bend.stretch().from_m,

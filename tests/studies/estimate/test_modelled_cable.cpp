@@ -73,7 +73,8 @@ TEST_F(ModelledCable, NamesWhatTheEstimatorCannotUse) {
 
 TEST_F(ModelledCable, ReadsItsSensorsWithoutTheirZeroAndGain) {
     bench_model::BenchModel faulty = model;
-    faulty.sensors = {{"tension_1", {{"offset", "N", 2.0}, {"gain", "", 0.5}, {"lag", "s", 0.1}}}};
+    faulty.sensors = {{"tension_1", {{"offset", "N", 2.0}, {"gain", "", 0.5}, {"lag", "s", 0.1}}},
+                      {"load_torque", {{"time_misalignment", "s", 0.5 / recording.sample_rate_Hz}}}};
     const ModelledCables read = modelled_cables(recording, faulty, 20);
     for (std::size_t k = 0; k < 10; ++k)
         EXPECT_NEAR(read.cables[0].runs[0].reading_N[0][k], (nominal[0].runs[0].reading_N[0][k] - 2.0) / 0.5,
