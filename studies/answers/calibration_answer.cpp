@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "capstan/answers/recording_answers.h"
+#include "capstan/bench_model/calibration_numbers.h"
+#include "capstan/effects/known_causes.h"
 
 namespace capstan::answers {
 
@@ -99,6 +103,58 @@ reports::Answer calibration_answer(const Recording& recording, const Calibration
              " The intervals treat residuals within a second as dependent, and are at least as wide as the "
              "runs disagree."}};
     return answer;
+}
+
+void add_model_of_calibration(reports::Answer& answer, const bench_model::BenchModel& model) {
+    Data rows = Data::list();
+    const std::vector<gap::FittedNumber> numbers = calibration_numbers(model);
+    for (const Data& fitted : answer.values["parameters"].items()) {
+        for (const gap::FittedNumber& number : numbers) {
+            if (*fitted.find("name")->text() != number.name) continue;
+            Data agree;  // nothing where one of the two has no interval
+            if (number.interval && !fitted.find("interval_95")->is_nothing())
+                agree = number.interval->low <= *fitted.find("high")->number() &&
+                        *fitted.find("low")->number() <= number.interval->high;
+            rows.push_back(
+                {{"name", number.name},
+                 {"unit", number.unit},
+                 {"known_value", *fitted.find("known_value")},
+                 {"interval_95", *fitted.find("interval_95")},
+                 {"model", number.value},
+                 {"model_interval_95",
+                  number.interval ? Data::list({number.interval->low, number.interval->high}) : Data()},
+                 {"agree", agree},
+                 {"agree_words", agree.is_nothing() ? Data() : Data(*agree.boolean() ? "yes" : "no")}});
+        }
+    }
+    std::vector<std::string> effects;
+    for (const bench_model::ModelEffect& effect : model.effects) {
+        const std::string title = cause_title(effect.name);
+        if (std::find(effects.begin(), effects.end(), title) == effects.end()) effects.push_back(title);
+    }
+    answer.values["model"] = {{"recording", model.origin.recording},
+                              {"runs", model.origin.runs},
+                              {"parameters", rows},
+                              {"effects", effects}};
+    std::string note = "The search started at the model's numbers. They agree where the intervals overlap.";
+    if (!effects.empty())
+        note += fmt::format(
+            " The calibrated bench has none of the model's effects ({}), and its numbers may stand in for them.",
+            fmt::join(effects, ", "));
+    answer.sections.insert(answer.sections.begin() + 1,
+                           {.id = "model",
+                            .heading = fmt::format("Beside the model of {}", model.origin.recording),
+                            .tables = {{"model",
+                                        "",
+                                        {{"name", "parameter"},
+                                         {"unit", "unit"},
+                                         {"known_value", "fitted", "", ".5g"},
+                                         {"interval_95", "95% interval", "", ".5g"},
+                                         {"model", "model", "", ".5g"},
+                                         {"model_interval_95", "95% interval", "", ".5g"},
+                                         {"agree_words", "agree"}},
+                                        rows}},
+                            .note = note});
 }
 
 }  // namespace capstan::answers

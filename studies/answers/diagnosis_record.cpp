@@ -5,6 +5,7 @@
 
 #include "capstan/answers/recording_answers.h"
 #include "capstan/blind_trial/sealed_labels.h"
+#include "capstan/effects/effect_catalogue.h"
 #include "capstan/effects/known_causes.h"
 #include "capstan/gap/gap_map.h"
 #include "capstan/platform/files.h"
@@ -28,16 +29,45 @@ std::string hash_of(const std::filesystem::path& log) {
     return gap_trial::sha256(read_file(log));
 }
 
-storage::DiagnosisCauseRecord cause_record(const gap::FittedCause& cause) {
-    storage::DiagnosisCauseRecord record{cause.effect, cause.variant,    cause.component,
-                                         cause.end,    cause.position_m, {}};
-    for (const gap::FittedNumber& number : cause.numbers)
-        record.numbers.push_back({number.name, number.value, number.unit,
-                                  number.interval ? std::optional(number.interval->low) : std::nullopt,
-                                  number.interval ? std::optional(number.interval->high) : std::nullopt});
-    std::sort(record.numbers.begin(), record.numbers.end(),  // as they come back
+std::vector<storage::DiagnosisNumberRecord> number_records(const std::vector<gap::FittedNumber>& numbers) {
+    std::vector<storage::DiagnosisNumberRecord> records;
+    for (const gap::FittedNumber& number : numbers)
+        records.push_back({number.name, number.value, number.unit,
+                           number.interval ? std::optional(number.interval->low) : std::nullopt,
+                           number.interval ? std::optional(number.interval->high) : std::nullopt});
+    std::sort(records.begin(), records.end(),  // as they come back
               [](const auto& a, const auto& b) { return a.name < b.name; });
-    return record;
+    return records;
+}
+
+storage::DiagnosisCauseRecord cause_record(const gap::FittedCause& cause) {
+    return {cause.effect, cause.variant,    cause.component,
+            cause.end,    cause.position_m, number_records(cause.numbers)};
+}
+
+// The causes of a verdict with the numbers that the model has now, and every other effect of its cable.
+std::vector<storage::DiagnosisCauseRecord> cause_records(const bench_model::BenchModel& model) {
+    std::vector<storage::DiagnosisCauseRecord> records;
+    for (const bench_model::ModelCause& cause : model.causes)
+        records.push_back({cause.effect, cause.variant, cause.component, cause.end, {}, {}});
+    for (const bench_model::ModelEffect& effect : model.effects) {
+        const auto named = std::find_if(records.begin(), records.end(), [&](const auto& each) {
+            return each.effect == effect.name && each.variant == effect.variant;
+        });
+        if (named != records.end()) {
+            named->numbers = number_records(effect.numbers);
+            continue;
+        }
+        for (const Effect& each : effect_catalogue())
+            if (each.changes_the_cable && each.name == effect.name && each.variant == effect.variant)
+                records.push_back({effect.name,
+                                   effect.variant,
+                                   each.component,
+                                   each.end,
+                                   {},
+                                   number_records(effect.numbers)});
+    }
+    return records;
 }
 
 storage::DiagnosisChannelRecord channel_record(const gap::ChannelGap& channel) {
@@ -147,6 +177,30 @@ storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap:
         record.channels.push_back(channel_record(each));
     for (const gap::GapFraction& each : diagnosis.gap.map)
         record.gap.push_back({each.by, each.name, each.fraction, each.low, each.high, each.of_samples});
+    return record;
+}
+
+storage::DiagnosisRecord diagnosis_record(const bench_model::BenchModel& model) {
+    storage::DiagnosisRecord record;
+    record.recording = model.origin.recording;
+    record.program_version = model.origin.program_version;
+    record.sentence = model.origin.verdict;
+    const auto take = [](const gap::FittedNumber& ratio, double& value, std::optional<double>& low,
+                         std::optional<double>& high) {
+        value = ratio.value;
+        if (!ratio.interval) return;
+        low = ratio.interval->low;
+        high = ratio.interval->high;
+    };
+    take(model.friction_ratio, record.friction_ratio, record.friction_low_ratio, record.friction_high_ratio);
+    take(model.stiffness_ratio, record.stiffness_ratio, record.stiffness_low_ratio,
+         record.stiffness_high_ratio);
+    take(model.pretension_ratio, record.pretension_ratio, record.pretension_low_ratio,
+         record.pretension_high_ratio);
+    for (const gap::RankedEffect& each : model.ranked)
+        record.effects.push_back({each.effect, each.probability, each.present, each.varies});
+    if (!model.ranked.empty()) record.confidence_fraction = model.ranked.front().probability;
+    record.causes = cause_records(model);
     return record;
 }
 

@@ -33,15 +33,13 @@ Table estimate_table() {
 void draw(Table& table, const SensedCable& cable, const ChannelSet& used, const ChannelSet& drawn,
           const ModelTrust& trust, double widening, const estimate::TrackingOptions& options,
           std::size_t limit) {
-    CableSpecification specification = cable.specification;
-    specification.pretension_N = cable.runs.front().pretension_N;
-    const Cable cut(specification);
+    const Cable cut(cable.specification_in(cable.runs.front()));
     track(cable, used, trust, options, [&](const TrackedSample& at) {
         const SensedRun& run = cable.runs[at.run];
         if (at.sample % reports::drawn_every(run.time_s.size(), limit) != 0) return;
         for (const std::size_t channel : drawn) {
             const estimate::SensedChannel& sensed = cable.channels[channel];
-            const auto moments = at.estimator.at(spot_at(cut, sensed.position_m));
+            const auto moments = at.at(spot_at(cut, sensed.position_m));
             const double half_N =
                 std::hypot(estimate::band_N(moments, widening), two_sided_95 * sensed.noise_N);
             table.rows.push_back({std::int64_t{run.number},
@@ -175,6 +173,26 @@ reports::Answer estimate_answer(const Recording& recording, const std::vector<Se
              "Each channel went into the estimate that is drawn over it; `--leave-out each` is the harder test."}};
     answer.drawn = {run_table(recording), std::move(drawn)};
     return answer;
+}
+
+std::string model_use_sentence(const bench_model::BenchModel& model,
+                               const std::vector<std::string>& not_used) {
+    std::string text = fmt::format(
+        "The cables are those of the model of {}, and its intervals widen the band.", model.origin.recording);
+    if (!not_used.empty())
+        text += fmt::format(" The estimator cannot use {} of the model: {}.",
+                            not_used.size() == 1 ? "one part" : "these parts", fmt::join(not_used, ", "));
+    return text;
+}
+
+void add_model_of_estimate(reports::Answer& answer, const bench_model::BenchModel& model,
+                           const std::vector<std::string>& not_used) {
+    answer.values["model"] = {{"recording", model.origin.recording},
+                              {"runs", model.origin.runs},
+                              {"verdict", model.origin.verdict},
+                              {"not_used", not_used}};
+    std::string& prose = answer.sections.front().prose;
+    prose += (prose.empty() ? "" : " ") + model_use_sentence(model, not_used);
 }
 
 }  // namespace capstan::answers

@@ -78,7 +78,7 @@ std::string headline_of(const BenchModel& model, const std::vector<ErrorGroup>& 
                         const Recording& recording) {
     if (groups.empty())
         return "The model predicts no channel of these runs, or all are shorter than a second.";
-    // A force or torque says more of a bench than an angle that hardly differs from the driven one.
+    // A force or a torque says more of a bench than an angle, most of which is the driven motion.
     const auto force = std::find_if(groups.begin(), groups.end(), [&](const ErrorGroup& each) {
         return each.was_fitted == groups.front().was_fitted && recording.channels[each.channel].unit != "rad";
     });

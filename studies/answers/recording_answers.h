@@ -28,6 +28,9 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap::Diagnosis& diagnosis,
                                           const std::filesystem::path& log = {});
 
+/// What a model keeps of its diagnosis: the numbers, the causes and their probabilities.
+storage::DiagnosisRecord diagnosis_record(const bench_model::BenchModel& model);
+
 /// A diagnosis from what the database keeps of it. The samples are not kept, so that it has no curves.
 reports::Answer stored_diagnosis_answer(const storage::DiagnosisRecord& diagnosis);
 
@@ -50,6 +53,9 @@ std::vector<reports::Table> diagnosis_curves(const Recording& recording, const g
 
 reports::Answer calibration_answer(const Recording& recording, const gap::Calibration& calibration);
 
+/// Adds what a model says of the parameters beside what was fitted.
+void add_model_of_calibration(reports::Answer& answer, const bench_model::BenchModel& model);
+
 /// How often the drive was in each motion regime.
 reports::Answer duty_answer(const Recording& recording, const duty::DutyCycle& duty);
 
@@ -68,6 +74,13 @@ reports::Answer left_out_answer(const Recording& recording, const std::vector<Le
 reports::Answer estimate_answer(const Recording& recording, const std::vector<estimate::SensedCable>& cables,
                                 const std::vector<estimate::EstimatorTuning>& estimates,
                                 const estimate::TrackingOptions& options, Figures figures);
+
+/// What of a model an estimate used; `not_used`: what it could not.
+std::string model_use_sentence(const bench_model::BenchModel& model,
+                               const std::vector<std::string>& not_used);
+/// Adds that to an estimate.
+void add_model_of_estimate(reports::Answer& answer, const bench_model::BenchModel& model,
+                           const std::vector<std::string>& not_used);
 
 /// A recording beside its model; `modelled`: one for each run.
 reports::Answer recording_answer(const Recording& recording, const std::vector<gap::TwinRun>& modelled);

@@ -69,24 +69,37 @@ class FittedNumbers {
             if (FittedNumber* number = number_of(cause, fitted.name)) number->interval = fitted.interval;
     }
 
-    // A number of the bench that floated stands for whatever it changes.
+    // A number of the bench that floated stands for whatever changes with it, in that one's own unit.
     void take(const gap::FloatingNumber& floating, const FittedNumber& fitted) {
-        BenchNumbers changed;
-        floating.apply(changed, fitted.value);
+        if (!fitted.interval) return;
+        const auto with = [&](double value) {
+            BenchNumbers numbers;
+            floating.apply(numbers, value);
+            return numbers;
+        };
+        BenchNumbers low = with(fitted.interval->low);
+        BenchNumbers high = with(fitted.interval->high);
+        BenchNumbers present = with(fitted.value);
+        const auto take = [](FittedNumber& number, double value, double one_end, double other_end) {
+            if (!number.interval && number.value == value && one_end != other_end)
+                number.interval = {std::min(one_end, other_end), std::max(one_end, other_end)};
+        };
         for (ModelSensor& sensor : model_.sensors) {
             for (const FaultKey& fault : fault_keys()) {
-                FittedNumber* number = named(sensor.faults, fault.name);
-                if (number != nullptr && !number->interval &&
-                    changed.sensor_faults[sensor.channel].*fault.value == number->value)
-                    number->interval = fitted.interval;
+                const auto of = [&](BenchNumbers& numbers) {
+                    return numbers.sensor_faults[sensor.channel].*fault.value;
+                };
+                if (FittedNumber* number = named(sensor.faults, fault.name))
+                    take(*number, of(present), of(low), of(high));
             }
         }
         for (ModelEffect& effect : model_.effects) {
-            // A size comes first in its group; a shape that is given with it has no interval.
-            FittedNumber& size = effect.numbers.front();
-            const auto values = find_effect(effect.name, effect.variant)->values_in(changed.effects);
-            if (!size.interval && size.value == fitted.value && values && values->front() == fitted.value)
-                size.interval = fitted.interval;
+            const EffectNumbers& group = *find_effect(effect.name, effect.variant);
+            const auto values = group.values_in(present.effects);
+            const auto at_low = group.values_in(low.effects);
+            const auto at_high = group.values_in(high.effects);
+            for (std::size_t k = 0; values && at_low && at_high && k < values->size(); ++k)
+                take(effect.numbers[k], (*values)[k], (*at_low)[k], (*at_high)[k]);
         }
     }
 

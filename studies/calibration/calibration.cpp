@@ -21,6 +21,9 @@ constexpr double min_known_factor = 2.0;
 // From this correlation on, two estimates are reported as trading with each other.
 constexpr double trading_correlation = 0.95;
 
+// Wherever a search goes, the bench can still be built.
+constexpr double max_log = 3.5;
+
 // Logarithms of the fitted parameters over their nominal values, and how they spread.
 struct LogFit {
     LeastSquaresFit fit;
@@ -32,7 +35,8 @@ std::vector<double> values_of(const std::vector<TwinParameter>& parameters, cons
     std::vector<double> values;
     for (const TwinParameter& parameter : parameters) values.push_back(parameter.nominal);
     for (std::size_t k = 0; k < fitted.size(); ++k)
-        values[static_cast<std::size_t>(fitted[k])] *= std::exp(logs[static_cast<Eigen::Index>(k)]);
+        values[static_cast<std::size_t>(fitted[k])] *=
+            std::exp(std::clamp(logs[static_cast<Eigen::Index>(k)], -max_log, max_log));
     return values;
 }
 
@@ -108,7 +112,8 @@ class Calibrator {
         : recording_(recording),
           twin_(make_twin(recording, options.segments)),
           residuals_(recording, *twin_, options.threads),
-          fitted_(indices_of(twin_->parameters(), options.fitted)) {
+          fitted_(indices_of(twin_->parameters(), options.fitted)),
+          given_start_(options.start) {
         for (const TwinParameter& parameter : twin_->parameters()) {
             ParameterEstimate estimate;
             estimate.parameter = parameter;
@@ -121,7 +126,7 @@ class Calibrator {
 
     Calibration run() {
         const std::vector<RunPart> all = residuals_.complete_runs();
-        start_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted_.size()));
+        start_ = start_of_search();
         const std::vector<double> nominal = nominal_values(*twin_);
         residuals_.set_scales(nominal);
         LogFit all_runs = fit(all);
@@ -148,6 +153,17 @@ class Calibrator {
         return calibration_.parameters[static_cast<std::size_t>(index)];
     }
 
+    Eigen::VectorXd start_of_search() const {
+        Eigen::VectorXd logs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted_.size()));
+        for (std::size_t k = 0; k < fitted_.size(); ++k) {
+            const TwinParameter& parameter = twin_->parameters()[static_cast<std::size_t>(fitted_[k])];
+            const auto given = given_start_.find(parameter.name);
+            if (given != given_start_.end())
+                logs[static_cast<Eigen::Index>(k)] = std::log(given->second / parameter.nominal);
+        }
+        return logs;
+    }
+
     LogFit fit(const std::vector<RunPart>& parts) {
         LogFit log_fit = fit_logs(residuals_, twin_->parameters(), fitted_, parts, start_);
         calibration_.evaluations += log_fit.fit.evaluations;
@@ -163,7 +179,7 @@ class Calibrator {
         estimate(index).identifiable = false;
         estimate(index).reason = why_unknown(all_runs, worst);
         fitted_.erase(fitted_.begin() + worst);
-        start_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted_.size()));
+        start_ = start_of_search();
         return true;
     }
 
@@ -237,7 +253,8 @@ class Calibrator {
     std::unique_ptr<Twin> twin_;
     TwinResiduals residuals_;
     std::vector<int> fitted_;  // indices of the twin's parameters
-    Eigen::VectorXd start_;    // fitted: logarithms at which a fit starts
+    std::map<std::string, double> given_start_;
+    Eigen::VectorXd start_;  // fitted: logarithms at which a fit starts
     Calibration calibration_;
 };
 

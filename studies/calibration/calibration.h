@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct CalibrationOptions {
     std::vector<std::string> fitted;  ///< names of parameters to fit; empty: all of the twin's
     int segments = twin_segments;
     int threads = 0;  ///< 0: as many as the machine has
+    /// Where the search starts, by the names of parameters; positive. Others start at their nominal values.
+    std::map<std::string, double> start{};
 };
 
 /// The estimate of one parameter from a recording.

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/bench_model/calibration_numbers.h"
+#include "capstan/bench_model/model_file.h"
+#include "capstan/bench_model/model_prediction.h"
+#include "capstan/calibration/calibration.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/duty/duty_cycle.h"
-#include "capstan/calibration/calibration.h"
 #include "capstan/platform/files.h"
 #include "capstan/recording/recording_reader.h"
 
@@ -24,12 +27,22 @@ std::vector<std::string> split_at_commas(const std::string& text) {
 }
 
 ExitCode run_calibrate(const Invocation& invocation) {
-    const Recording recording = read_recording(invocation.argument("LOG"));
+    Recording recording = read_recording(invocation.argument("LOG"));
+    if (invocation.has("runs"))
+        recording = model_comparison::runs_of(recording, run_numbers(invocation.text("runs")));
     gap::CalibrationOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
     options.segments = static_cast<int>(invocation.integer("segments"));
     if (invocation.has("fit")) options.fitted = split_at_commas(invocation.text("fit"));
-    const reports::Answer answer = answers::calibration_answer(recording, gap::calibrate(recording, options));
+    std::optional<bench_model::BenchModel> model;
+    if (invocation.has("model")) {
+        model = bench_model::read_model(invocation.text("model"));
+        bench_model::recording_of_bench(*model, recording);  // throws where it is of another bench
+        for (const gap::FittedNumber& number : calibration_numbers(*model))
+            options.start[number.name] = number.value;
+    }
+    reports::Answer answer = answers::calibration_answer(recording, gap::calibrate(recording, options));
+    if (model) answers::add_model_of_calibration(answer, *model);
     if (invocation.has("save")) write_file(invocation.text("save"), reports::answer_json(answer));
     deliver_answer(invocation, answer);
     return ExitCode::success;
@@ -54,6 +67,13 @@ Command calibrate_command() {
             {Option{.name = "fit",
                     .value = "NAMES",
                     .meaning = "Fit only these parameters, separated by commas; the others stay nominal."},
+             Option{.name = "runs", .value = "LIST", .meaning = "Fit to these runs only, for example 1,3."},
+             Option{
+                 .name = "model",
+                 .value = "FILE",
+                 .meaning =
+                     "Start from the numbers of a model that `capstan diagnose --save` wrote, and print them beside "
+                     "the fitted ones."},
              segments_option,
              Option{.name = "save",
                     .value = "FILE",
@@ -61,7 +81,8 @@ Command calibrate_command() {
                         "Also write the parameters to FILE, for `capstan simulate LOG --parameters FILE`."},
              jobs_option, output_option, json_option, help_option},
         .examples = {"capstan calibrate bench.csv",
-                     "capstan calibrate bench.csv --fit dynamic_friction,pretension --json"},
+                     "capstan calibrate bench.csv --fit dynamic_friction,pretension --json",
+                     "capstan calibrate later.csv --runs 1,3 --model model.toml"},
         .run = run_calibrate};
 }
 

@@ -4,13 +4,16 @@
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
+#include "capstan/bench_model/model_file.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/estimate/cycle_trial.h"
+#include "capstan/estimate/modelled_cable.h"
 #include "capstan/export/series.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/recording/recording_reader.h"
 
 namespace capstan::cli {
@@ -63,11 +66,9 @@ void append_cable(std::string& text, const SensedCable& cable, const estimate::E
     track(cable, all_but(cable, {}), tuned.trust, options, [&](const TrackedSample& at) {
         const estimate::SensedRun& run = cable.runs[at.run];
         fmt::format_to(out, "{},{},{}", run.number, run.time_s[at.sample], cable.name);
-        for (std::size_t node = 0; node < at.estimator.mean_N().size(); ++node) {
-            const double mean_N = at.estimator.mean_N()[node];
-            const double band_N =
-                estimate::band_N({mean_N, at.estimator.deviation_N()[node]}, tuned.widening);
-            fmt::format_to(out, ",{:.6g},{:.4g}", mean_N, band_N);
+        for (std::size_t node = 0; node < at.nodes(); ++node) {
+            const RecursiveEstimator::Moments moments = at.at_node(node);
+            fmt::format_to(out, ",{:.6g},{:.4g}", moments.mean_N, estimate::band_N(moments, tuned.widening));
         }
         text += "\n";
     });
@@ -93,11 +94,10 @@ std::vector<exports::Series> estimated_series(const std::vector<SensedCable>& ca
         track(cables[c], all_but(cables[c], {}), tuned[c].trust, options, [&](const TrackedSample& at) {
             exports::Series& series = all[first + at.run];
             series.time_s.push_back(cables[c].runs[at.run].time_s[at.sample]);
-            for (std::size_t node = 0; node < at.estimator.mean_N().size(); ++node) {
-                const double mean_N = at.estimator.mean_N()[node];
-                series.channels[2 * node].values.push_back(mean_N);
-                series.channels[2 * node + 1].values.push_back(
-                    estimate::band_N({mean_N, at.estimator.deviation_N()[node]}, tuned[c].widening));
+            for (std::size_t node = 0; node < at.nodes(); ++node) {
+                const RecursiveEstimator::Moments moments = at.at_node(node);
+                series.channels[2 * node].values.push_back(moments.mean_N);
+                series.channels[2 * node + 1].values.push_back(estimate::band_N(moments, tuned[c].widening));
             }
         });
     }
@@ -108,6 +108,8 @@ ExitCode score_layouts(const Invocation& invocation) {
     if (invocation.has("leave-out"))
         throw UsageError(
             "capstan estimate: --leave-out is for recordings; CONFIG is a study, whose layouts are scored");
+    if (invocation.has("model"))
+        throw UsageError("capstan estimate: --model is for recordings; a study states its cable in CONFIG");
     StudyPlan plan = config::read_config(invocation.argument("LOG")).plan;
     if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     estimate::CycleOptions options;
@@ -122,8 +124,13 @@ ExitCode score_layouts(const Invocation& invocation) {
 ExitCode run_estimate(const Invocation& invocation) {
     if (!names_a_recording(invocation.argument("LOG"))) return score_layouts(invocation);
     const Recording recording = read_recording(invocation.argument("LOG"));
-    std::vector<SensedCable> cables =
-        estimate::sensed_cables(recording, static_cast<int>(invocation.integer("segments")));
+    const int segments = static_cast<int>(invocation.integer("segments"));
+    std::optional<bench_model::BenchModel> model;
+    if (invocation.has("model")) model = bench_model::read_model(invocation.text("model"));
+    const estimate::ModelledCables modelled =
+        model ? estimate::modelled_cables(recording, *model, segments)
+              : estimate::ModelledCables{estimate::sensed_cables(recording, segments), {}};
+    const std::vector<SensedCable>& cables = modelled.cables;
     estimate::TrackingOptions options;
     options.members = static_cast<int>(invocation.integer("members"));
     if (invocation.has("seed")) options.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
@@ -131,12 +138,15 @@ ExitCode run_estimate(const Invocation& invocation) {
     const auto figures = invocation.has("html") ? answers::Figures::drawn : answers::Figures::none;
     if (invocation.has("leave-out")) {
         const auto results = left_out_cables(cables, invocation.text("leave-out"), options);
-        deliver_answer(invocation, answers::left_out_answer(recording, results, options, figures));
+        reports::Answer answer = answers::left_out_answer(recording, results, options, figures);
+        if (model) answers::add_model_of_estimate(answer, *model, modelled.not_used);
+        deliver_answer(invocation, answer);
         return ExitCode::success;
     }
     std::vector<estimate::EstimatorTuning> tuned;
     for (const SensedCable& cable : cables) tuned.push_back(tune_estimator(cable, options));
-    const reports::Answer answer = answers::estimate_answer(recording, cables, tuned, options, figures);
+    reports::Answer answer = answers::estimate_answer(recording, cables, tuned, options, figures);
+    if (model) answers::add_model_of_estimate(answer, *model, modelled.not_used);
     deliver_page(invocation, answer);
     if (invocation.has("json")) {
         deliver(invocation, reports::answer_json(answer));
@@ -146,6 +156,7 @@ ExitCode run_estimate(const Invocation& invocation) {
         exports::write_series(file, estimated_series(cables, tuned, options));
         return ExitCode::success;
     }
+    if (model) say(answers::model_use_sentence(*model, modelled.not_used));
     std::string text = head_line(cables);
     for (std::size_t c = 0; c < cables.size(); ++c) append_cable(text, cables[c], tuned[c], options);
     deliver(invocation, text);
@@ -158,6 +169,13 @@ const Option leave_out_option{
     .meaning =
         "Predict this channel from all others and compare the prediction with its readings; `each` "
         "does this for every channel in turn."};
+
+const Option estimate_model_option{
+    .name = "model",
+    .value = "FILE",
+    .meaning =
+        "Take friction, stiffness, pretension, bends and zeros, with their intervals, from a model that "
+        "`capstan diagnose --save` wrote."};
 
 const Option cut_option{.name = "segments",
                         .kind = OptionKind::integer,
@@ -191,17 +209,19 @@ Command estimate_command() {
             "With --leave-out, predicts the named channels from all others and prints the error, the "
             "channel's noise, how often the reading was within the 95% band, and the errors of the model "
             "alone and of the paper's estimators, started from their own estimates, on the same samples. "
+            "With --model, the cables are those of a model that a diagnosis saved; what its intervals leave open widens the band. "
             "With a study's configuration: simulates its complete motion and scores each of its layouts "
             "by the mean error of this estimator and of the paper's estimators over the motion "
             "(--repetitions draws of noise, 20 by default).",
         .arguments = {Argument{
             "LOG", "A recording (NAME.csv with NAME.json beside it), or a study's configuration (TOML)."}},
-        .options = {leave_out_option, cut_option, members_option, repetitions_option, seed_option,
-                    jobs_option, output_option, json_option, page_option, help_option},
+        .options = {leave_out_option, estimate_model_option, cut_option, members_option, repetitions_option,
+                    seed_option, jobs_option, output_option, json_option, page_option, help_option},
         .examples = {"capstan estimate bench.csv -o tensions.csv --html tensions.html",
                      "capstan estimate bench.csv -o tensions.mat",
                      "capstan estimate bench.csv --leave-out each",
                      "capstan estimate bench.csv --leave-out tension_2 --json",
+                     "capstan estimate bench.csv --leave-out each --model model.toml",
                      "capstan estimate configs/paper.toml"},
         .run = run_estimate};
 }

@@ -6,6 +6,8 @@
 #include <charconv>
 
 #include "capstan/answers/placement_answers.h"
+#include "capstan/answers/recording_answers.h"
+#include "capstan/bench_model/model_file.h"
 #include "capstan/cli/command.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -177,25 +179,35 @@ void require_one_of_worlds(const std::vector<StudyPlan>& plans) {
 
 const Option from_diagnosis_option{
     .name = "from-diagnosis",
-    .value = "ID",
+    .value = "ID|FILE",
     .meaning =
-        "The worlds of a CONFIG with [uncertainty] lie about what this diagnosis in the results database found: its "
-        "friction, stiffness and pretension, and its causes with their probability, drawn from the intervals of the fit."};
+        "The worlds of a CONFIG with [uncertainty] lie about what this diagnosis found, in the results database or in a "
+        "model.toml of `capstan diagnose --save`: its friction, stiffness and pretension, and its causes with their "
+        "probability, drawn from the intervals of the fit."};
+
+namespace {
+
+storage::DiagnosisRecord named_diagnosis(const Invocation& invocation) {
+    const std::string& text = invocation.text("from-diagnosis");
+    if (bench_model::names_a_model(text)) return answers::diagnosis_record(bench_model::read_model(text));
+    std::int64_t id = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (problem != std::errc{} || end != text.data() + text.size())
+        throw UsageError(fmt::format(
+            "capstan: --from-diagnosis is '{}', but must be the number of a diagnosis, which `capstan query "
+            "\"SELECT * FROM v_diagnosis\"` lists, or a model.toml of `capstan diagnose --save`",
+            text));
+    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
+    return storage::load_diagnosis(database, id);
+}
+
+}  // namespace
 
 void take_diagnosis(const Invocation& invocation, StudyPlan& plan) {
     if (!plan.uncertainty.is_stated)
         throw UsageError(
             "capstan: --from-diagnosis needs a CONFIG with [uncertainty], whose worlds it changes");
-    const std::string& text = invocation.text("from-diagnosis");
-    std::int64_t id = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
-    if (problem != std::errc{} || end != text.data() + text.size())
-        throw UsageError(fmt::format(
-            "capstan: --from-diagnosis is '{}', but must be the number of a diagnosis; `capstan query "
-            "\"SELECT * FROM v_diagnosis\"` lists them",
-            text));
-    storage::Database database = storage::Database::open_read_only(invocation.text("db"));
-    const DiagnosedWorld found = world_of(storage::load_diagnosis(database, id));
+    const DiagnosedWorld found = world_of(named_diagnosis(invocation));
     for (const std::string& cause : found.left_out)
         say(fmt::format("Note: {} is not of the cable and is left out.", cause));
     plan.truth = found.truth;

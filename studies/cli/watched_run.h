@@ -56,7 +56,8 @@ void refuse_worlds(const StudyPlan& plan, const std::string& what);
 void require_one_of_worlds(const std::vector<StudyPlan>& plans);
 
 extern const Option from_diagnosis_option;
-/// The truth of the plan's worlds is what the diagnosis of --from-diagnosis found, in the database of --db.
+/// The truth of the plan's worlds is what the diagnosis of --from-diagnosis found, in the database of --db or
+/// in a model's file.
 void take_diagnosis(const Invocation& invocation, StudyPlan& plan);
 
 /// The same, and gives the answer; `study_id` is 0 without a database.

@@ -17,14 +17,10 @@ namespace {
 void add_needed(const SensedCable& cable, const ChannelSet& used, std::size_t predicted,
                 const ModelTrust& trust, const TrackingOptions& options, std::vector<double>& needed) {
     const SensedChannel& channel = cable.channels[predicted];
-    const Cable cut([&] {
-        CableSpecification specification = cable.specification;
-        specification.pretension_N = cable.runs.front().pretension_N;
-        return specification;
-    }());
+    const Cable cut(cable.specification_in(cable.runs.front()));
     const SensorSpot spot = spot_at(cut, channel.position_m);
     track(cable, used, trust, options, [&](const TrackedSample& at) {
-        const RecursiveEstimator::Moments moments = at.estimator.at(spot);
+        const RecursiveEstimator::Moments moments = at.at(spot);
         const double error_N = cable.runs[at.run].reading_N[predicted][at.sample] - moments.mean_N;
         const double within = std::pow(error_N / two_sided_95, 2) - std::pow(moments.deviation_N, 2) -
                               std::pow(channel.noise_N, 2);
@@ -49,8 +45,7 @@ double model_alone_rms_N(const SensedCable& cable, std::size_t predicted, const 
     TrackingOptions one_is_enough;
     one_is_enough.members = 8;
     track(cable, {}, {0.0, 0.0}, one_is_enough, [&](const TrackedSample& at) {
-        squares +=
-            std::pow(cable.runs[at.run].reading_N[predicted][at.sample] - at.estimator.at(spot).mean_N, 2);
+        squares += std::pow(cable.runs[at.run].reading_N[predicted][at.sample] - at.at(spot).mean_N, 2);
         ++samples;
     });
     return std::sqrt(squares / static_cast<double>(samples));
@@ -73,15 +68,13 @@ LeftOutChannel left_out(const SensedCable& cable, std::size_t predicted, const T
     result.widening = widening_of(std::move(needed));
 
     const SensedChannel& channel = cable.channels[predicted];
-    CableSpecification specification = cable.specification;
-    specification.pretension_N = cable.runs.front().pretension_N;
-    const SensorSpot spot = spot_at(Cable(specification), channel.position_m);
+    const SensorSpot spot = spot_at(Cable(cable.specification_in(cable.runs.front())), channel.position_m);
     long samples = 0;
     long within = 0;
     long within_plain = 0;
     double squares = 0.0;
     const TrackingSummary summary = track(cable, used, result.trust, options, [&](const TrackedSample& at) {
-        const RecursiveEstimator::Moments moments = at.estimator.at(spot);
+        const RecursiveEstimator::Moments moments = at.at(spot);
         const double error_N = std::abs(cable.runs[at.run].reading_N[predicted][at.sample] - moments.mean_N);
         const double noise_N = two_sided_95 * channel.noise_N;
         const double half_N = std::hypot(band_N(moments, result.widening), noise_N);

@@ -32,9 +32,8 @@ double paper_rms_N(const SensedCable& cable, const ChannelSet& used, std::size_t
     double squares = 0.0;
     double samples = 0.0;
     for (const SensedRun& run : cable.runs) {
-        CableSpecification specification = cable.specification;
+        CableSpecification specification = cable.specification_in(run);
         specification.segments = paper_segments;
-        specification.pretension_N = run.pretension_N;
         const QuasiStaticStep model(Cable(specification), ModelRules::consistent());
         const auto node_of = [&](std::size_t channel) {
             return model.cable().nearest_node(cable.channels[channel].position_m);

@@ -118,6 +118,14 @@ SensedRun sensed_run(const Recording& recording, const RecordedRun& run, CableNa
 
 }  // namespace
 
+CableSpecification SensedCable::specification_in(const SensedRun& run) const {
+    CableSpecification in_run = specification;
+    in_run.pretension_N = run.pretension_N;
+    in_run.dynamic_friction *= run.friction_ratio;
+    in_run.static_friction *= run.friction_ratio;
+    return in_run;
+}
+
 std::vector<SensedCable> sensed_cables(const Recording& as_recorded, int segments) {
     demand_what_it_takes(as_recorded);
     const Recording recording = with_estimated_noise(as_recorded);

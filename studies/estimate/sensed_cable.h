@@ -22,6 +22,14 @@ struct SensedRun {
     std::vector<double> time_s;                  // samples
     std::vector<KnownEnds> ends;                 // samples
     std::vector<std::vector<double>> reading_N;  // channels x samples
+    double friction_ratio = 1.0;                 ///< on the cable's friction, in this run
+};
+
+/// A cable with one of its numbers a standard deviation off: factors on what is believed.
+struct ShiftedCable {
+    double friction_ratio = 1.0;
+    double stiffness_ratio = 1.0;
+    double pretension_ratio = 1.0;
 };
 
 /// One cable of a recorded bench: the motion of its ends and the readings of its tension.
@@ -30,6 +38,11 @@ struct SensedCable {
     CableSpecification specification;
     std::vector<SensedChannel> channels;
     std::vector<SensedRun> runs;
+    /// One for each uncertain number; none: the numbers are taken for exact.
+    std::vector<ShiftedCable> uncertain{};
+
+    /// The cable in one of its runs.
+    CableSpecification specification_in(const SensedRun& run) const;
 };
 
 /// Every cable of a recording that carries a tension sensor, cut into `segments`. Both ends move with the

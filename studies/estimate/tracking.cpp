@@ -1,6 +1,7 @@
 #include "capstan/estimate/tracking.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace capstan::estimate {
@@ -32,6 +33,42 @@ void choose(const SensedCable& cable, const ChannelSet& used, const TrackingOpti
     trust = chosen;
 }
 
+// The cable of a run with its numbers off, one after the other.
+class ShiftedModels {
+  public:
+    ShiftedModels(const SensedCable& cable, const SensedRun& run, const std::vector<ShiftedCable>& shifts) {
+        models_.reserve(shifts.size());
+        for (const ShiftedCable& shift : shifts) {
+            CableSpecification specification = cable.specification_in(run);
+            specification.dynamic_friction *= shift.friction_ratio;
+            specification.static_friction *= shift.friction_ratio;
+            specification.axial_stiffness_N *= shift.stiffness_ratio;
+            specification.pretension_N *= shift.pretension_ratio;
+            models_.emplace_back(Cable(specification), ModelRules::consistent());
+            rests_.push_back(pretensioned(models_.back().cable()));
+        }
+    }
+
+    std::vector<RecursiveEstimator> estimators(const RecursiveSettings& settings) const {
+        std::vector<RecursiveEstimator> all;
+        all.reserve(models_.size());
+        for (std::size_t k = 0; k < models_.size(); ++k) all.emplace_back(models_[k], rests_[k], settings);
+        return all;
+    }
+
+    // The same motion from the rest of another cable.
+    KnownEnds ends(std::size_t model, const CableState& rest, const KnownEnds& known) const {
+        return {
+            known.proximal_displacement_m + rests_[model].displacement_m.front() -
+                rest.displacement_m.front(),
+            known.distal_displacement_m + rests_[model].displacement_m.back() - rest.displacement_m.back()};
+    }
+
+  private:
+    std::vector<QuasiStaticStep> models_;
+    std::vector<CableState> rests_;
+};
+
 }  // namespace
 
 ChannelSet all_but(const SensedCable& cable, std::span<const std::size_t> left_out) {
@@ -40,6 +77,22 @@ ChannelSet all_but(const SensedCable& cable, std::span<const std::size_t> left_o
         if (std::find(left_out.begin(), left_out.end(), channel) == left_out.end()) used.push_back(channel);
     }
     return used;
+}
+
+RecursiveEstimator::Moments TrackedSample::at_node(std::size_t node) const {
+    const double mean_N = estimator.mean_N()[node];
+    double squares = std::pow(estimator.deviation_N()[node], 2);
+    for (const RecursiveEstimator& each : shifted) squares += std::pow(each.mean_N()[node] - mean_N, 2);
+    return {mean_N, shifted.empty() ? estimator.deviation_N()[node] : std::sqrt(squares)};
+}
+
+RecursiveEstimator::Moments TrackedSample::at(const SensorSpot& spot) const {
+    RecursiveEstimator::Moments moments = estimator.at(spot);
+    double squares = std::pow(moments.deviation_N, 2);
+    for (const RecursiveEstimator& each : shifted)
+        squares += std::pow(each.at(spot).mean_N - moments.mean_N, 2);
+    if (!shifted.empty()) moments.deviation_N = std::sqrt(squares);
+    return moments;
 }
 
 TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const ModelTrust& trust,
@@ -51,10 +104,12 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
     settings.wander = {trust.wander_m, trust.wander_m};
     for (std::size_t r = 0; r < cable.runs.size(); ++r) {
         const SensedRun& run = cable.runs[r];
-        CableSpecification specification = cable.specification;
-        specification.pretension_N = run.pretension_N;
-        const QuasiStaticStep model(Cable(specification), ModelRules::consistent());
-        RecursiveEstimator estimator(model, pretensioned(model.cable()), settings);
+        const QuasiStaticStep model(Cable(cable.specification_in(run)), ModelRules::consistent());
+        const CableState rest = pretensioned(model.cable());
+        RecursiveEstimator estimator(model, rest, settings);
+        // Only a band needs them.
+        const ShiftedModels others(cable, run, show ? cable.uncertain : std::vector<ShiftedCable>{});
+        std::vector<RecursiveEstimator> shifted = others.estimators(settings);
         std::vector<TensionReading> readings;
         for (const std::size_t channel : used) {
             TensionReading reading;
@@ -66,10 +121,12 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
         for (std::size_t k = 0; k < run.ends.size(); ++k) {
             for (std::size_t i = 0; i < used.size(); ++i) readings[i].value_N = run.reading_N[used[i]][k];
             const RecursiveReport report = estimator.step(run.ends[k], readings);
+            for (std::size_t s = 0; s < shifted.size(); ++s)
+                shifted[s].step(others.ends(s, rest, run.ends[k]), readings);
             summary.log_evidence += report.log_evidence;
             summary.unverified += report.unverified;
             ++summary.steps;
-            if (show) show({r, k, estimator});
+            if (show) show({r, k, estimator, shifted});
         }
     }
     return summary;

@@ -25,6 +25,13 @@ struct TrackedSample {
     std::size_t run = 0;
     std::size_t sample = 0;
     const RecursiveEstimator& estimator;
+    /// The same estimator on cables with one number a standard deviation off.
+    const std::vector<RecursiveEstimator>& shifted;
+
+    std::size_t nodes() const { return estimator.mean_N().size(); }
+    /// With what the uncertain numbers of the cable add to the deviation, each by its own difference.
+    RecursiveEstimator::Moments at_node(std::size_t node) const;
+    RecursiveEstimator::Moments at(const SensorSpot& spot) const;
 };
 
 /// Which channels of a cable the estimator reads, by index.

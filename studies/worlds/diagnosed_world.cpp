@@ -21,6 +21,18 @@ double deviation_of(const storage::DiagnosisNumberRecord& number) {
     return std::max(*number.high_in_unit - *number.low_in_unit, 0.0) / (2.0 * deviations_of_95);
 }
 
+// The ratios of friction, stiffness and pretension hold it already.
+bool is_a_wrong_ratio(const storage::DiagnosisCauseRecord& cause) {
+    return cause.effect.starts_with("param_") && cause.variant.empty();
+}
+
+// That an effect is there, whatever else is. `confidence_fraction` is shared among causes that act together.
+double present_probability(const storage::DiagnosisRecord& diagnosis, const std::string& effect) {
+    for (const storage::DiagnosisEffectRecord& each : diagnosis.effects)
+        if (each.effect == effect && each.present_fraction) return *each.present_fraction;
+    return diagnosis.confidence_fraction;
+}
+
 }  // namespace
 
 DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis) {
@@ -34,7 +46,9 @@ DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis) {
     world.truth.pretension_fraction =
         fraction_of(diagnosis.pretension_low_ratio, diagnosis.pretension_high_ratio);
     const auto& catalogue = effect_catalogue();
+    double probability = 1.0;
     for (const storage::DiagnosisCauseRecord& cause : diagnosis.causes) {
+        if (is_a_wrong_ratio(cause)) continue;
         // What one cable of a pair has, a single cable can have.
         const std::string variant = cause.variant == "cable B" ? "cable A" : cause.variant;
         const auto effect = std::find_if(catalogue.begin(), catalogue.end(), [&](const Effect& each) {
@@ -45,6 +59,7 @@ DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis) {
                                                            : cause.effect + ", " + cause.variant);
             continue;
         }
+        probability = std::min(probability, present_probability(diagnosis, cause.effect));
         const auto at = static_cast<std::size_t>(effect - catalogue.begin());
         std::vector<double>& deviations = world.truth.effect_deviations[at];
         deviations.assign(effect->parameters.size(), 0.0);
@@ -56,7 +71,7 @@ DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis) {
             }
         }
     }
-    if (world.truth.has_effects()) world.probability = diagnosis.confidence_fraction;
+    if (world.truth.has_effects()) world.probability = probability;
     return world;
 }
 

@@ -9,9 +9,9 @@
 namespace capstan {
 
 /// What a diagnosis found, as the truth that worlds lie about: the fitted nominal numbers, and the causes
-/// that are of the cable with the probability of the verdict. Where intervals are stored, the worlds are
-/// drawn from them: in a world with a cause its numbers, and in every world that is as the diagnosis says the
-/// nominal numbers, in place of what [uncertainty] states of them.
+/// that are of the cable with the probability that they are present (the smallest of theirs). Where intervals
+/// are stored, the worlds are drawn from them: in a world with a cause its numbers, and in every world that
+/// is as the diagnosis says the nominal numbers, in place of what [uncertainty] states of them.
 struct DiagnosedWorld {
     TrueCable truth;
     double probability = 1.0;

@@ -8,7 +8,37 @@ import unittest
 from capstan_program import CONFIGS, CapstanTest
 
 PAIR = CONFIGS / "recordings" / "viscous-pair.csv"  # two runs
+SINGLE = CONFIGS / "recordings" / "single-cable.csv"  # one run, five tension sensors
 DRIVE = CONFIGS / "recordings" / "lumped-drive.csv"
+
+ARM = """
+name = "arm"
+repetitions = 24
+[transmission]
+segments = 8
+axial_stiffness_N = 9000
+dynamic_friction = 0.12
+static_friction = 0.16
+pretension_N = 15
+[[transmission.curvature]]
+length_m = 0.8
+bend_radius_m = 0.3
+[motion]
+sample_rate_Hz = 100
+samples = 60
+[motion.proximal]
+amplitude_m = 0.002
+[uncertainty]
+far_end_range_m = 0.001
+members = 32
+[[sensor]]
+kind = "tension"
+noise_ratio = 0.03
+noise_N = 0.1
+[layouts]
+families = "all"
+counts = [1, 2]
+"""
 
 
 class BenchModel(CapstanTest):
@@ -73,6 +103,47 @@ class BenchModel(CapstanTest):
         self.assertEqual((self.folder / study).read_text(), "[motion]\n")
         self.assertIn("ends in .toml", self.run_capstan("diagnose", PAIR, "--save", "model.json", expect=2).stderr)
         self.assertIn("bench_model_format = 1", text)
+
+    def test_the_estimator_takes_its_cable_from_the_model(self):
+        text, _ = self.saved_model(SINGLE, "1")
+        without = json.loads(self.run_capstan("estimate", SINGLE, "--leave-out", "tension_3", "--json").stdout)
+        # A model with twice the friction predicts worse, and the estimator takes it at its word.
+        line = next(line for line in text.splitlines() if line.startswith("friction_ratio = "))
+        self.write("model.toml", text.replace(line, "friction_ratio = 2.0") +
+                   "\n[effect.viscous_friction]\ndrag_N_s_per_m2 = 0.001\n")
+        told = json.loads(self.run_capstan("estimate", SINGLE, "--leave-out", "tension_3", "--model", "model.toml",
+                                           "--json").stdout)
+        self.assertEqual(told["model"]["recording"], "single-cable")
+        self.assertEqual(told["model"]["not_used"], ["viscous friction"])
+        self.assertGreater(told["channels"][0]["model_alone_rms_N"], 2 * without["channels"][0]["model_alone_rms_N"])
+        stated = self.run_capstan("estimate", SINGLE, "--model", "model.toml", "-o", "tensions.csv").stderr
+        self.assertIn("The estimator cannot use one part of the model: viscous friction.", stated)
+        self.assertIn("--model is for recordings", self.run_capstan("estimate", CONFIGS / "paper.toml", "--model",
+                                                                    "model.toml", expect=2).stderr)
+
+    def test_a_calibration_starts_at_the_model_and_stands_beside_it(self):
+        self.saved_model(PAIR, "1")
+        told = json.loads(self.run_capstan("calibrate", PAIR, "--runs", "2", "--model", "model.toml", "--json").stdout)
+        self.assertEqual({row["run"] for row in told["channels"]}, {2})
+        rows = {row["name"]: row for row in told["model"]["parameters"]}
+        self.assertEqual(set(rows), {row["name"] for row in told["parameters"]})
+        low, high = rows["axial_stiffness"]["model_interval_95"]
+        self.assertTrue(low < rows["axial_stiffness"]["model"] < high)
+        self.assertIn("a model predicts recordings of its own bench",
+                      self.run_capstan("calibrate", DRIVE, "--model", "model.toml", expect=2).stderr)
+
+    def test_worlds_lie_about_a_model_as_about_the_same_diagnosis_in_a_database(self):
+        self.run_capstan("diagnose", PAIR, "--db", "pair.db", "--save", "model.toml", "--progress", "none")
+        self.write("arm.toml", ARM)
+        words = ("place", "arm.toml", "--json", "--from-diagnosis")
+        stored = self.run_capstan(*words, "1", "--db", "pair.db").stdout
+        self.assertEqual(self.run_capstan(*words, "model.toml").stdout, stored)
+        text = (self.folder / "model.toml").read_text()
+        line = next(line for line in text.splitlines() if line.startswith("friction_ratio = "))
+        self.write("model.toml", text.replace(line, "friction_ratio = 1.5"))
+        self.assertNotEqual(self.run_capstan(*words, "model.toml").stdout, stored)
+        self.assertIn("a model.toml", self.run_capstan(*words, "pair", expect=2).stderr)
+        self.assertIn("is not a model of a bench", self.run_capstan(*words, "arm.toml", expect=2).stderr)
 
     def test_wrong_models_are_rejected_with_file_line_and_key(self):
         text, _ = self.saved_model(PAIR, "1")

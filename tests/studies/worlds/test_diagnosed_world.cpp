@@ -113,6 +113,23 @@ TEST(DiagnosedWorld, AWiderIntervalGivesAWiderWorldAndALargerError) {
     }
 }
 
+TEST(DiagnosedWorld, IsAsProbableAsItsLeastProbableCauseIsPresent) {
+    storage::DiagnosisRecord diagnosis = drag_diagnosis();
+    diagnosis.causes[0].numbers[0].name = "drag";
+    EXPECT_EQ(world_of(diagnosis).probability, 0.9);
+    diagnosis.confidence_fraction = 0.49;  // two that are certain share it
+    diagnosis.causes.push_back({"bending_stiffness", "", "conduit", "", {}, {{"drag", 0.2, "N/m", {}, {}}}});
+    diagnosis.effects = {{"viscous_friction", 0.49, 0.98}, {"bending_stiffness", 0.48, 0.96}};
+    EXPECT_EQ(world_of(diagnosis).probability, 0.96);
+}
+
+TEST(DiagnosedWorld, DoesNotLeaveOutAWrongFrictionThatItsRatioHolds) {
+    storage::DiagnosisRecord diagnosis = drag_diagnosis();
+    diagnosis.causes = {{"param_mu", "", "parameter", "", {}, {}},
+                        {"sensor_offset", "load_torque", "sensor:load_torque", "", {}, {}}};
+    EXPECT_EQ(world_of(diagnosis).left_out, std::vector<std::string>{"sensor_offset, load_torque"});
+}
+
 TEST(DiagnosedWorld, CalibratedFrictionIsThatOfTheTruth) {
     StudyPlan plan = arm_plan(30);
     plan.truth.friction_ratio = 1.6;

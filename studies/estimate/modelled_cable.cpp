@@ -1,0 +1,140 @@
+#include "capstan/estimate/modelled_cable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "capstan/bench_model/model_prediction.h"
+#include "capstan/cable/invalid_input.h"
+#include "capstan/effects/known_causes.h"
+#include "capstan/platform/statistics.h"
+#include "capstan/rig/channel_names.h"
+
+namespace capstan::estimate {
+
+namespace {
+
+using bench_model::BenchModel;
+using bench_model::FittedNumber;
+using gap::BenchNumbers;
+
+// The factor by which a ratio is off at one standard deviation.
+double deviation_factor(const FittedNumber& ratio) {
+    if (!ratio.interval || !(ratio.interval->low > 0.0)) return 1.0;
+    return std::exp(std::log(ratio.interval->high / ratio.interval->low) / (2.0 * two_sided_95));
+}
+
+std::vector<ShiftedCable> uncertain_numbers(const BenchModel& model) {
+    const std::vector<ShiftedCable> all = {{.friction_ratio = deviation_factor(model.friction_ratio)},
+                                           {.stiffness_ratio = deviation_factor(model.stiffness_ratio)},
+                                           {.pretension_ratio = deviation_factor(model.pretension_ratio)}};
+    std::vector<ShiftedCable> uncertain;
+    for (const ShiftedCable& each : all)
+        if (each.friction_ratio * each.stiffness_ratio * each.pretension_ratio > 1.0)
+            uncertain.push_back(each);
+    return uncertain;
+}
+
+// What the sensors would have read without their zero and gain.
+void correct_readings(Recording& recording, std::size_t run, const BenchNumbers& in_run) {
+    for (const auto& [name, fault] : in_run.sensor_faults) {
+        const auto channel = recording.channel(name);
+        if (!channel) continue;
+        for (double& value : recording.runs[run].values[static_cast<std::size_t>(*channel)])
+            value = (value - fault.offset) / fault.gain;
+    }
+}
+
+// The recording of a bench with the model's stiffness, and each run's pretension. Friction follows by run.
+Recording corrected_recording(const Recording& recording, const BenchModel& model) {
+    Recording corrected = recording_of_bench(model, recording);
+    const BenchNumbers numbers = numbers_for(model, corrected);
+    corrected.nominal->axial_stiffness_N *= numbers.stiffness_ratio;
+    for (std::size_t k = 0; k < corrected.runs.size(); ++k) {
+        RecordedRun& run = corrected.runs[k];
+        const BenchNumbers in_run = numbers.in_run(run);
+        run.pretension_N = *run.pretension_N * in_run.pretension_ratio *
+                           numbers.effects.of<PretensionDrift>().ratio(run.session_start_s);
+        correct_readings(corrected, k, in_run);
+    }
+    for (const auto& [name, fault] : numbers.sensor_faults) {
+        const auto channel = corrected.channel(name);
+        if (!channel) continue;
+        Channel& described = corrected.channels[static_cast<std::size_t>(*channel)];
+        if (described.noise_std) *described.noise_std /= std::abs(fault.gain);
+        if (described.step) *described.step /= std::abs(fault.gain);
+    }
+    return corrected;
+}
+
+bool has_bend(const LocalBend& bend, const std::string& cable) {
+    return bend.extra_angle_rad != 0.0 &&
+           (bend.cables == BentCables::both || (bend.cables == BentCables::only_a) == (cable == "A"));
+}
+
+std::vector<std::string> unused_parts(const BenchModel& model, double sample_rate_Hz) {
+    std::vector<std::string> unused;
+    const auto add = [&](const std::string& words) {
+        if (std::find(unused.begin(), unused.end(), words) == unused.end()) unused.push_back(words);
+    };
+    for (const bench_model::ModelEffect& effect : model.effects)
+        if (effect.name != "local_bend" && effect.name != "pretension_drift") add(cause_title(effect.name));
+    for (const bench_model::ModelSensor& sensor : model.sensors) {
+        for (const FittedNumber& fault : sensor.faults) {
+            if (fault.name == "gain" || fault.name == "offset") continue;
+            // Within a sample no estimate of a sample changes.
+            if (fault.name == "time_misalignment" && std::abs(fault.value) * sample_rate_Hz < 1.0) continue;
+            const std::string cause = find_cause(fault.name) != nullptr ? fault.name : "sensor_" + fault.name;
+            add(fmt::format("{} ({})", cause_title(cause), channel_words(sensor.channel)));
+        }
+    }
+    return unused;
+}
+
+}  // namespace
+
+std::vector<CurvaturePiece> with_bend(const std::vector<CurvaturePiece>& path, double from_m, double to_m,
+                                      double extra_angle_rad) {
+    const double extra_curvature = extra_angle_rad / (to_m - from_m);
+    std::vector<CurvaturePiece> bent;
+    const auto add = [&](double begin_m, double end_m, double curvature) {
+        if (end_m > begin_m) bent.push_back({end_m - begin_m, curvature > 0.0 ? 1.0 / curvature : straight});
+    };
+    double begin_m = 0.0;
+    for (const CurvaturePiece& piece : path) {
+        const double end_m = begin_m + piece.length_m;
+        const double low_m = std::clamp(from_m, begin_m, end_m);
+        const double high_m = std::clamp(to_m, begin_m, end_m);
+        const double curvature = 1.0 / piece.bend_radius_m;
+        add(begin_m, low_m, curvature);
+        add(low_m, high_m, curvature + extra_curvature);
+        add(high_m, end_m, curvature);
+        begin_m = end_m;
+    }
+    return bent;
+}
+
+ModelledCables modelled_cables(const Recording& recording, const BenchModel& model, int segments) {
+    if (model.is_of_unknown_geometry())
+        throw InvalidInput({fmt::format(
+            "{}: the model is of a bench of unknown geometry, so a sensor has no place on its cable; estimating "
+            "needs a model of a pull_pull or single_cable bench",
+            recording.name)});
+    const Recording corrected = corrected_recording(recording, model);
+    const BenchNumbers numbers = numbers_for(model, corrected);
+    const LocalBend& bend = numbers.effects.of<LocalBend>();
+    ModelledCables modelled{sensed_cables(corrected, segments),
+                            unused_parts(model, recording.sample_rate_Hz)};
+    for (SensedCable& cable : modelled.cables) {
+        if (has_bend(bend, cable.name))
+            cable.specification.curvature = with_bend(cable.specification.curvature, bend.stretch().from_m,
+                                                      bend.stretch().to_m, bend.extra_angle_rad);
+        for (std::size_t run = 0; run < cable.runs.size(); ++run)
+            cable.runs[run].friction_ratio = numbers.in_run(corrected.runs[run]).friction_ratio;
+        cable.uncertain = uncertain_numbers(model);
+    }
+    return modelled;
+}
+
+}  // namespace capstan::estimate
