@@ -114,6 +114,12 @@ class Answers(unittest.TestCase):
             self.assertIn(words, str(refused.exception))
             self.assertTrue(refused.exception.problems)
 
+    def test_a_cable_can_be_sent_to_another_process(self) -> None:
+        cable = pickle.loads(pickle.dumps(small_cable(static_friction=0.2)))
+        self.assertEqual(repr(cable), repr(small_cable(static_friction=0.2)))
+        one, two = (each.simulate(motor_m=[0.001, 0.003]) for each in (cable, small_cable(static_friction=0.2)))
+        self.assertEqual(one.tension_N.tobytes(), two.tension_N.tobytes())
+
     def test_an_error_can_be_sent_to_another_process(self) -> None:
         error = pickle.loads(pickle.dumps(cp.Error(["one", "two"])))
         self.assertEqual(error.problems, ["one", "two"])

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from capstan import _core
+from capstan.errors import Error
 
 Numbers = Union[npt.ArrayLike, Sequence[float]]
 """An array of one dimension, of any stride, byte order and kind of real number; or a sequence of numbers."""
@@ -149,6 +150,10 @@ class Cable:
         )
         return Path(tension_N, displacement_m, self.places_m, unverified)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        names = ("length_m", "bends", "axial_stiffness_N", "friction", "static_friction", "pretension_N", "segments")
+        return _made, ({name: getattr(self, name) for name in names},)
+
     def __repr__(self) -> str:
         more = "".join(
             f", {name}={value}"
@@ -164,6 +169,10 @@ class Cable:
         )
 
 
+def _made(numbers: dict[str, Any]) -> Cable:
+    return Cable(**numbers)
+
+
 def _load(load: Load) -> tuple[str, Any]:
     match load:
         case Blocked():
@@ -174,10 +183,4 @@ def _load(load: Load) -> tuple[str, Any]:
             return "weight", tension_N
         case Moved(displacement_m):
             return "moved", displacement_m
-    raise _core_error(load)
-
-
-def _core_error(load: object) -> Exception:
-    from capstan.errors import Error
-
-    return Error([f"load: is {load!r:.80}, but must be Blocked(), Spring(...), Weight(...) or Moved(...)"])
+    raise Error([f"load: is {load!r:.80}, but must be Blocked(), Spring(...), Weight(...) or Moved(...)"])

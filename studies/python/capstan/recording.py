@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from capstan import _core
+from capstan.errors import Error
 from capstan.progress import Progress, shown
 
 FileName = Union[str, "os.PathLike[str]"]
@@ -123,8 +124,6 @@ def read_recording(
 
 
 def _one(files: Sequence[FileName]) -> FileName:
-    from capstan.errors import Error
-
     if len(files) != 1:
         raise Error([f"file: is a list of {len(files)} files, but only an import by a mapping takes several"])
     return files[0]
