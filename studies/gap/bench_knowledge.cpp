@@ -47,11 +47,12 @@ double half_span(const Recording& recording, std::size_t channel) {
 
 // A sensor's zero as a part of its span, bearings' friction as a part of the torque at their end.
 void add_zeros_and_bearings(const Recording& recording, double zero_part, double bearing_part,
-                            double presliding_rad, BenchKnowledge& bench) {
+                            BenchKnowledge& bench) {
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
         const std::string& unit = recording.channels[channel].unit;
-        if (unit == "rad" || !recording.is_predicted(name)) continue;
+        // The zero of a drive's angle is fitted with its other numbers.
+        if ((unit == "rad" && recording.nominal_is_fitted) || !recording.is_predicted(name)) continue;
         bench.numbers.push_back({.name = "zero of " + name,
                                  .unit = unit,
                                  .kind = FloatingNumber::Kind::zero,
@@ -63,6 +64,25 @@ void add_zeros_and_bearings(const Recording& recording, double zero_part, double
                                  .component = "sensor:" + name,
                                  .apply = [name](BenchNumbers& numbers, double value) {
                                      numbers.sensor_faults[name].offset = value;
+                                 }});
+    }
+    // Channels are sampled one after the other, and an encoder holds its last count: their times agree to
+    // about half a sample.
+    for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+        const std::string& name = recording.channels[channel].name;
+        if (!recording.is_predicted(name)) continue;
+        bench.numbers.push_back({.name = "time of " + name,
+                                 .unit = "s",
+                                 .kind = FloatingNumber::Kind::zero,
+                                 .scale = 1.0 / recording.sample_rate_Hz,
+                                 .prior_std = 0.5,
+                                 .of_a_sensor = true,
+                                 .usual = 1.0,
+                                 .effect = "time_misalignment",
+                                 .variant = name,
+                                 .component = "sensor:" + name,
+                                 .apply = [name](BenchNumbers& numbers, double value) {
+                                     numbers.sensor_faults[name].delay_s += value;
                                  }});
     }
     const auto add_bearing = [&](const char* torque, const char* name, const char* component, const char* end,
@@ -78,10 +98,8 @@ void add_zeros_and_bearings(const Recording& recording, double zero_part, double
                                  .variant = end,
                                  .component = component,
                                  .end = end,
-                                 .apply = [at, presliding_rad](BenchNumbers& numbers, double value) {
-                                     BearingFriction& bearing = numbers.effects.of<PulleyFriction>().*at;
-                                     bearing.coulomb_Nm = value;
-                                     bearing.presliding_rad = presliding_rad;
+                                 .apply = [at](BenchNumbers& numbers, double value) {
+                                     (numbers.effects.of<PulleyFriction>().*at).coulomb_Nm = value;
                                  }});
     };
     add_bearing(channel::motor_torque, "friction of the motor's bearing", "motor", "motor",
@@ -89,6 +107,19 @@ void add_zeros_and_bearings(const Recording& recording, double zero_part, double
     if (recording.mode == BenchMode::pull_pull)
         add_bearing(channel::load_torque, "friction of the load's bearing", "load_pulley", "load",
                     &PulleyFriction::load);
+}
+
+// The friction of a bearing builds up while its balls, seal and gears wind up: over a hundredth of a degree
+// in a plain bearing, over a degree behind a gear.
+FloatingNumber presliding_of_bearings() {
+    constexpr double usual_rad = 2e-3;
+    constexpr double by_a_factor_of_three = 1.2;
+    return {.name = "presliding of the bearings",
+            .prior_std = by_a_factor_of_three,
+            .apply = [](BenchNumbers& numbers, double value) {
+                PulleyFriction& bearings = numbers.effects.of<PulleyFriction>();
+                bearings.motor.presliding_rad = bearings.load.presliding_rad = usual_rad * value;
+            }};
 }
 
 }  // namespace
@@ -117,7 +148,7 @@ BenchKnowledge built_bench(const Recording& recording) {
     constexpr double zero_part = 0.03;
     constexpr double bearing_part = 0.03;
     BenchKnowledge bench{ratios(friction_and_wrap, stiffness, pretension, true)};
-    add_zeros_and_bearings(recording, zero_part, bearing_part, 0.0, bench);
+    add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
     return bench;
 }
 
@@ -127,10 +158,9 @@ BenchKnowledge undescribed_bench(const Recording& recording) {
     // torque.
     constexpr double zero_part = 0.1;
     constexpr double bearing_part = 0.3;
-    // Not fitted: a bearing's friction builds up over about half a degree.
-    constexpr double presliding_rad = 0.01;
     BenchKnowledge bench{ratios(by_factors, by_factors, by_factors, false)};
-    add_zeros_and_bearings(recording, zero_part, bearing_part, presliding_rad, bench);
+    add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
+    bench.numbers.push_back(presliding_of_bearings());
     return bench;
 }
 

@@ -23,6 +23,8 @@ struct FloatingNumber {
     double scale = 1.0;
     double prior_std = 1.0;  ///< of the coordinate; its prior mean is 0
     bool of_a_sensor = false;
+    /// Up to here the coordinate is usual, either way, and the number is not named as a cause.
+    double usual = 0.0;
     /// The cause that it stands for where it is far from what was stated; no effect: none.
     std::string effect{};
     std::string variant{};

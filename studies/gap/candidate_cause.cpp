@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "capstan/effects/effect_catalogue.h"
@@ -24,6 +25,7 @@ CandidateCause plain(const std::string& effect, const std::string& component) {
     cause.family = known != nullptr ? known->family : effect;
     cause.component = component;
     cause.apply = [](BenchNumbers&, Values) {};
+    cause.is_exact = effect.starts_with("param_") || effect == "sensor_offset" || effect == "sensor_gain";
     cause.friction_std = cause.stiffness_std = cause.pretension_std = nominal_log_std;
     return cause;
 }
@@ -54,7 +56,23 @@ double usual_normal_force_N_per_m(const Recording& recording) {
     return pretension_N / radius_m;
 }
 
-CandidateCause cause_of(const Effect& effect, double length_m, double normal_force_N_per_m) {
+double span_of(const Recording& recording, std::size_t channel) {
+    double span = 0.0;
+    for (const RecordedRun& run : recording.runs) {
+        const auto [low, high] = std::minmax_element(run.values[channel].begin(), run.values[channel].end());
+        span = std::max(span, *high - *low);
+    }
+    return span;
+}
+
+// How far the motor turns in the recording [rad].
+double turned_rad(const Recording& recording) {
+    const auto channel = recording.channel(channel::motor_angle);
+    return channel ? span_of(recording, static_cast<std::size_t>(*channel)) : 0.0;
+}
+
+CandidateCause cause_of(const Effect& effect, double length_m, double normal_force_N_per_m,
+                        double turned_rad) {
     CandidateCause cause = plain(effect.name, effect.component);
     cause.variant = effect.variant;
     cause.end = effect.end;
@@ -73,6 +91,9 @@ CandidateCause cause_of(const Effect& effect, double length_m, double normal_for
                           parameter.typical, effect.absent[k], parameter.low,
                           parameter.high};
         if (number.kind == OpenNumber::Kind::place) number.typical = length_m;
+        // A ripple of which less than half a period was seen is any function of the position.
+        if (number.kind == OpenNumber::Kind::periods && turned_rad > 0.0)
+            number.low = std::clamp(std::ceil(std::numbers::pi / turned_rad), number.low, number.high);
         cause.numbers.push_back(number);
         open.push_back(k);
     }
@@ -129,62 +150,80 @@ std::vector<CandidateCause> sensor_causes(const std::string& channel, double spa
     return causes;
 }
 
-double span_of(const Recording& recording, std::size_t channel) {
-    double span = 0.0;
+// The different values of a condition over the runs, in order.
+std::vector<double> values_of(const Recording& recording, const std::string& condition) {
+    std::vector<double> values;
     for (const RecordedRun& run : recording.runs) {
-        const auto [low, high] = std::minmax_element(run.values[channel].begin(), run.values[channel].end());
-        span = std::max(span, *high - *low);
+        const auto stated = run.conditions.find(condition);
+        if (stated != run.conditions.end()) values.push_back(stated->second);
     }
-    return span;
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
 }
 
-// Friction, pretension or the zero of a sensor that follows a condition with different values in the runs.
+CandidateCause following(const CandidateCause& number, const BenchNumbers::Following& follows, bool curved,
+                         const std::string& unit, double typical) {
+    CandidateCause cause = number;
+    cause.variant += (cause.variant.empty() ? "with " : " with ") + follows.condition;
+    cause.varies = follows.condition;
+    const auto add = [&](const char* name) {
+        cause.numbers.push_back(
+            {name, unit, OpenNumber::Kind::signed_size, typical, 0.0, -100.0 * typical, 100.0 * typical});
+    };
+    add("change_over_half_range");
+    if (curved) add("squared_change_over_half_range");
+    cause.apply = [follows, curved](BenchNumbers& numbers, Values values) {
+        numbers.follows.push_back(follows);
+        numbers.follows.back().linear = values[0];
+        if (curved) numbers.follows.back().squared = values[1];
+    };
+    return cause;
+}
+
+// Friction, pretension or the zero of a sensor that follows a condition with different values in the runs: in
+// proportion to it, and with three values also curved, as the friction of a joint that bends either way.
 std::vector<CandidateCause> following_causes(const Recording& recording) {
     constexpr double typical_log = 0.1;
     constexpr double typical_zero = 0.05;  // of the channel's span
     std::vector<CandidateCause> causes;
     for (const auto& [condition, first] : recording.runs.front().conditions) {
-        double low = first;
-        double high = first;
-        for (const RecordedRun& run : recording.runs) {
-            const auto stated = run.conditions.find(condition);
-            if (stated == run.conditions.end()) continue;
-            low = std::min(low, stated->second);
-            high = std::max(high, stated->second);
-        }
-        if (!(high > low)) continue;
-        const auto add = [&](CandidateCause cause, const std::string& unit, double typical,
-                             const auto& change) {
-            cause.variant += (cause.variant.empty() ? "with " : " with ") + condition;
-            cause.varies = condition;
-            cause.numbers = {{"change_over_half_range", unit, OpenNumber::Kind::signed_size, typical, 0.0,
-                              -100.0 * typical, 100.0 * typical}};
-            cause.apply = [=](BenchNumbers& numbers, Values values) {
-                BenchNumbers::Following follows{condition, 0.5 * (low + high), 0.5 * (high - low)};
-                change(follows, values[0]);
-                numbers.follows.push_back(follows);
-            };
-            causes.push_back(std::move(cause));
-        };
-        using Following = BenchNumbers::Following;
-        add(plain("param_mu", "parameter"), "", typical_log,
-            [](Following& follows, double value) { follows.friction_log = value; });
-        add(plain("param_T0", "parameter"), "", typical_log,
-            [](Following& follows, double value) { follows.pretension_log = value; });
+        const std::vector<double> values = values_of(recording, condition);
+        if (values.size() < 2) continue;
+        const bool curved = values.size() > 2;
+        BenchNumbers::Following follows;
+        follows.condition = condition;
+        follows.middle = 0.5 * (values.front() + values.back());
+        follows.half_range = 0.5 * (values.back() - values.front());
+        using What = BenchNumbers::Following::What;
+        follows.what = What::friction;
+        causes.push_back(following(plain("param_mu", "parameter"), follows, curved, "", typical_log));
+        follows.what = What::pretension;
+        causes.push_back(following(plain("param_T0", "parameter"), follows, curved, "", typical_log));
+        follows.what = What::zero;
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
             const Channel& described = recording.channels[channel];
             if (described.unit == "rad" || !recording.is_predicted(described.name)) continue;
             CandidateCause zero = plain("sensor_offset", "sensor:" + described.name);
             zero.family = "sensor";
-            zero.variant = described.name;
-            add(zero, described.unit, typical_zero * span_of(recording, channel),
-                [name = described.name](Following& follows, double value) { follows.zero[name] = value; });
+            zero.variant = follows.channel = described.name;
+            causes.push_back(
+                following(zero, follows, curved, described.unit, typical_zero * span_of(recording, channel)));
         }
     }
     return causes;
 }
 
 }  // namespace
+
+std::string in_words(const std::vector<const CandidateCause*>& causes) {
+    std::string words;
+    for (const CandidateCause* cause : causes) {
+        words += (words.empty() ? "" : " with ") + cause_title(cause->effect);
+        if (!cause->variant.empty()) words += " (" + channel_words(cause->variant) + ")";
+    }
+    return words;
+}
 
 std::optional<double> unstated_step(const Recording& recording, std::size_t channel) {
     constexpr double tolerance = 0.02;  // of a step, for what the file rounds
@@ -262,9 +301,9 @@ std::vector<double> OpenNumber::starts() const {
         case Kind::shape:
             return {0.0};
         case Kind::periods: {
-            constexpr int max_periods = 36;
+            constexpr int tried = 36;
             std::vector<double> starts;
-            for (int periods = 1; periods <= max_periods; ++periods) starts.push_back(periods);
+            for (int k = 0; k < tried && low + k <= high; ++k) starts.push_back(low + k);
             return starts;
         }
         case Kind::step: {
@@ -293,7 +332,8 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
     causes.insert(causes.end(), {friction, stiffness, pretension});
     for (const Effect& effect : effect_catalogue()) {
         if (effect.needs_pair && recording.mode == BenchMode::single_cable) continue;
-        causes.push_back(cause_of(effect, length_m, usual_normal_force_N_per_m(recording)));
+        causes.push_back(
+            cause_of(effect, length_m, usual_normal_force_N_per_m(recording), turned_rad(recording)));
     }
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;

@@ -53,6 +53,8 @@ struct CandidateCause {
     };
     std::vector<GivenNumber> given;  ///< parameters of the effect that the recording itself decides
     std::function<void(BenchNumbers&, std::span<const double> values)> apply;
+    /// A wrong number, a zero or a gain: nothing of its law is an idealisation.
+    bool is_exact = false;
     std::string varies;  ///< the condition of the runs that the numbers follow; empty: none
     /// How far friction, stiffness and pretension may be from their nominal values (logarithms, standard
     /// deviation): one of them far, if that is the cause.
@@ -65,6 +67,9 @@ struct CandidateCause {
         return number == 0 ? friction_std : number == 1 ? stiffness_std : number == 2 ? pretension_std : 0.0;
     }
 };
+
+/// The titles of causes that act together, for a message.
+std::string in_words(const std::vector<const CandidateCause*>& causes);
 
 /// The step on which all values of a channel lie, if it is coarser than the noise and step that the sidecar
 /// states; none if the values lie anywhere.

@@ -24,11 +24,14 @@ double prior_std(const std::vector<FloatingNumber>& numbers, Eigen::Index number
 CauseFitter::CauseFitter(const Recording& recording, const EffectsTwinOptions& options, int threads)
     : recording_(recording), twin_(recording, options), threads_(threads) {
     series_ = residual_series(recording, twin_);
-    for (const ResidualSeries& series : series_) data_rows_ += series.rows;
+    for (const ResidualSeries& series : series_) {
+        data_rows_ += series.rows;
+        determined_rows_ += static_cast<double>(series.determined_rows());
+    }
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel)
         lattice_.push_back(unstated_step(recording, channel));
     // Priors weigh against independent samples, not against all of them.
-    prior_weight_ = std::sqrt(static_cast<double>(data_rows_) / independent_samples());
+    prior_weight_ = std::sqrt(determined_rows_ / independent_samples());
 }
 
 double CauseFitter::independent_samples() const {
@@ -49,6 +52,10 @@ void CauseFitter::write_residuals(std::size_t run, const TwinRun& twin,
         const bool coarse = lattice_[series.channel] && faulty != faults.end() && faulty->second.step > 0.0;
         const double reach = coarse ? 0.5 * *lattice_[series.channel] : 0.0;
         for (std::size_t row = 0; row < series.rows; ++row) {
+            if (!series.determines(row)) {
+                all[static_cast<Eigen::Index>(series.first_row + row)] = 0.0;
+                continue;
+            }
             const std::size_t sample = static_cast<std::size_t>(series.first_sample) + row;
             const double off =
                 measured[sample * static_cast<std::size_t>(twin_.stride())] - predicted[sample];
@@ -133,17 +140,16 @@ double CauseFitter::clearest_change(const Eigen::VectorXd& change) const {
             change
                 .segment(static_cast<Eigen::Index>(series.first_row), static_cast<Eigen::Index>(series.rows))
                 .squaredNorm();
-        rows += static_cast<double>(series.rows);
+        rows += static_cast<double>(series.determined_rows());
     }
     double clearest = 0.0;
     for (const auto& [channel, sums] : by_channel)
-        clearest = std::max(clearest, std::sqrt(sums.first / sums.second));
+        clearest = std::max(clearest, std::sqrt(sums.first / std::max(1.0, sums.second)));
     return clearest;
 }
 
 double CauseFitter::misfit(const CauseFit& fit) const {
-    return fit.residuals.head(static_cast<Eigen::Index>(data_rows_)).squaredNorm() /
-           static_cast<double>(data_rows_);
+    return fit.residuals.head(static_cast<Eigen::Index>(data_rows_)).squaredNorm() / determined_rows_;
 }
 
 double CauseFitter::nominal_penalty(const CauseFit& fit) const {

@@ -21,6 +21,12 @@ struct ResidualSeries {
     double scale = 1.0;         ///< noise and the model's floor together, in the channel's unit
     std::size_t first_row = 0;  // in a vector of all residuals
     std::size_t rows = 0;
+    /// By row; empty: all. A driven angle that rests within a step of its encoder does not determine the
+    /// friction, and residuals there count as zero.
+    std::vector<bool> is_determined{};
+
+    bool determines(std::size_t row) const { return is_determined.empty() || is_determined[row]; }
+    std::size_t determined_rows() const;
 };
 
 /// The series of every channel that the twin predicts, run by run.
@@ -69,6 +75,8 @@ class CauseFitter {
 
     const std::vector<ResidualSeries>& series() const { return series_; }
     std::size_t data_rows() const { return data_rows_; }
+    /// Of those rows the ones that count.
+    double determined_rows() const { return determined_rows_; }
 
     struct FitOptions {
         std::optional<LeftOut> left_out;  ///< residuals there count as zero
@@ -116,6 +124,7 @@ class CauseFitter {
     std::vector<ResidualSeries> series_;
     std::vector<std::optional<double>> lattice_;  // channels: unstated steps on which all their values lie
     std::size_t data_rows_ = 0;
+    double determined_rows_ = 0.0;
     double prior_weight_ = 1.0;
 };
 

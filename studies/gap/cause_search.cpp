@@ -13,46 +13,13 @@ namespace capstan::gap {
 
 namespace {
 
-// How many causes get a full fit after the screening, alone and beside others.
+// How many causes get a full fit after the screening.
 constexpr std::size_t max_fitted = 8;
-constexpr std::size_t max_fitted_further = 3;
-// How many of the best sets of one size are extended.
-constexpr std::size_t max_extended = 2;
-constexpr std::size_t max_causes = 5;
-// A search is pruned if its linear model promises more than this many times the best misfit so far.
-constexpr double pruned_factor = 2.5;
 // The screening uses fewer segments and samples.
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
 // Fits that a search usually makes; progress is stated in parts of it.
 constexpr double usual_fits = 30.0;
-
-double min_sum(const std::vector<ScoredFit>& fits) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const ScoredFit& each : fits) least = std::min(least, each.fit.sum_of_squares);
-    return least;
-}
-
-std::string in_words(const CandidateCause& cause) {
-    const std::string title = cause_title(cause.effect);
-    return cause.variant.empty() ? title : title + " (" + channel_words(cause.variant) + ")";
-}
-
-std::string in_words(const std::vector<const CandidateCause*>& causes) {
-    std::string words;
-    for (const CandidateCause* cause : causes) words += (words.empty() ? "" : " with ") + in_words(*cause);
-    return words;
-}
-
-// A wrong nominal number beside a cause that lets the same number go far already.
-bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
-    if (!cause.numbers.empty()) return false;
-    for (Eigen::Index number = 0; number < nominal_coordinates; ++number) {
-        if (cause.nominal_std(number) > nominal_log_std && first.nominal_std(number) > nominal_log_std)
-            return true;
-    }
-    return false;
-}
 
 bool has_effect(const ScoredFit& fit, const std::string& effect) {
     return std::any_of(fit.fit.causes.begin(), fit.fit.causes.end(),
@@ -83,6 +50,14 @@ void sort_by_evidence(std::vector<ScoredFit>& fits) {
                      [](const ScoredFit& a, const ScoredFit& b) { return a.evidence > b.evidence; });
 }
 
+// A search is pruned if its linear model promises more than this many times the best misfit so far.
+double CauseSearch::pruned_at(const Fits& fits) {
+    constexpr double factor = 2.5;
+    double least = std::numeric_limits<double>::infinity();
+    for (const ScoredFit& each : fits) least = std::min(least, each.fit.sum_of_squares);
+    return factor * least;
+}
+
 CauseSearch::Model::Model(const Recording& recording, const EffectsTwinOptions& options, int threads)
     : fitter(recording, options, threads),
       discrepancy(recording, fitter.series(), options.stride, fitter.independent_samples()) {}
@@ -103,8 +78,8 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
 FoundCauses CauseSearch::run() & {
     report("nominal model");
     const Hypothesis nominal = nominal_hypothesis(described_.bench);
-    nominal_misfit_ = fine_.fitter.data_residuals({&nominal, 1}).squaredNorm() /
-                      static_cast<double>(fine_.fitter.data_rows());
+    nominal_misfit_ =
+        fine_.fitter.data_residuals({&nominal, 1}).squaredNorm() / fine_.fitter.determined_rows();
     FoundCauses found;
     const bool is_measured = described_.bench.is_measured();
     found.fits = search_one(described_);
@@ -153,64 +128,6 @@ bool CauseSearch::is_better_when_built(const ScoredFit& best) {
     return scored(fine_, fine_.fitter.fit(built, options)).evidence > best.evidence + clearly;
 }
 
-// The mean square of the residuals of each run with the numbers fitted to the others.
-double CauseSearch::held_out_misfit(const Hypothesis& hypothesis) {
-    const CauseFitter& fitter = coarse_.fitter;
-    double squares = 0.0;
-    for (std::size_t run = 0; run < run_count_; ++run) {
-        CauseFitter::FitOptions options;
-        options.left_out = LeftOut{run};
-        options.any_size = false;
-        const Hypothesis without = fitter.fit(hypothesis, options).hypothesis();
-        const Eigen::VectorXd residuals = fitter.data_residuals({&without, 1});
-        for (const ResidualSeries& series : fitter.series()) {
-            if (series.run != run) continue;
-            squares += residuals
-                           .segment(static_cast<Eigen::Index>(series.first_row),
-                                    static_cast<Eigen::Index>(series.rows))
-                           .squaredNorm();
-        }
-    }
-    return squares / static_cast<double>(fitter.data_rows());
-}
-
-// A cause that does not help to predict runs which the fit did not see has only fitted these. The set without
-// it then goes before the set with it.
-void CauseSearch::drop_unearned_causes(Fits& fits) {
-    constexpr std::size_t enough_runs = 3;
-    constexpr double unearned_penalty = 4.0;
-    if (run_count_ < enough_runs) return;
-    while (fits.front().fit.causes.size() > 1 && !is_out_of_time()) {
-        report("predicting each run from the others");
-        const Hypothesis all = fits.front().fit.hypothesis();
-        double least = held_out_misfit(all);
-        std::optional<Hypothesis> earned;
-        for (const CandidateCause* dropped : all.causes) {
-            const Hypothesis fewer =
-                only_causes(all, [&](const CandidateCause& cause) { return &cause != dropped; });
-            const double misfit = held_out_misfit(fewer);
-            if (misfit > least) continue;
-            least = misfit;
-            earned = fewer;
-        }
-        if (!earned) return;
-        CauseFitter::FitOptions options;
-        options.any_size = false;
-        ScoredFit fewer = scored(fine_, fine_.fitter.fit(*earned, options));
-        for (ScoredFit& each : fits) {
-            const auto is_in = [&](const CandidateCause* cause) {
-                return std::find(each.fit.causes.begin(), each.fit.causes.end(), cause) !=
-                       each.fit.causes.end();
-            };
-            if (each.fit.bench == fewer.fit.bench && each.fit.causes.size() > fewer.fit.causes.size() &&
-                std::all_of(fewer.fit.causes.begin(), fewer.fit.causes.end(), is_in))
-                each.evidence = std::min(each.evidence, fewer.evidence - unearned_penalty);
-        }
-        fits.push_back(std::move(fewer));
-        sort_by_evidence(fits);
-    }
-}
-
 CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const Hypothesis start = nominal_hypothesis(level.bench);
     Fits singles = {fitted(level, with_cause(start, &level.causes.front(), {}), {})};
@@ -233,18 +150,6 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     if (!worth_a_further_cause(singles.front()) && !is_out_of_time())
         add_confusable(level, screened, nothing, singles);
     return singles;
-}
-
-void CauseSearch::search_several(const Level& level, Fits& all) {
-    Fits sets = all;
-    for (std::size_t causes = 2; causes <= max_causes; ++causes) {
-        sets = larger_sets(level, sets);
-        if (sets.empty()) return;
-        const bool better = sets.front().evidence > all.front().evidence;
-        std::copy(sets.begin(), sets.end(), std::back_inserter(all));
-        sort_by_evidence(all);
-        if (!better) return;
-    }
 }
 
 bool CauseSearch::is_out_of_time() {
@@ -291,8 +196,11 @@ ScoredFit CauseSearch::scored(const Model& model, CauseFit fit) {
     scored.visibility = visibility.of_causes;
     constexpr double visible = 2.0;
     for (std::size_t k = 0; k < visibility.of_the_bench.size(); ++k) {
-        const std::string& effect = scored.fit.bench->numbers[k].effect;
-        if (visibility.of_the_bench[k] > visible && !effect.empty()) scored.far_numbers.push_back(k);
+        const FloatingNumber& number = scored.fit.bench->numbers[k];
+        const double coordinate = scored.fit.coordinates[static_cast<Eigen::Index>(k)];
+        if (visibility.of_the_bench[k] > visible && !number.effect.empty() &&
+            std::abs(coordinate) > number.usual)
+            scored.far_numbers.push_back(k);
     }
     scored.beside = model.discrepancy.of(scored.fit.residuals);
     scored.evidence = evidence_.of(scored);
@@ -301,9 +209,9 @@ ScoredFit CauseSearch::scored(const Model& model, CauseFit fit) {
 
 void CauseSearch::add_single(const Level& level, const Screened& screened, const Hypothesis& nothing,
                              Fits& singles) {
-    report("fitting " + in_words(*screened.cause));
+    report("fitting " + in_words({screened.cause}));
     CauseFitter::FitOptions options;
-    options.pruned_sum_of_squares = pruned_factor * min_sum(singles);
+    options.pruned_sum_of_squares = pruned_at(singles);
     singles.push_back(fitted(level, with_cause(nothing, screened.cause, screened.start), options));
 }
 
@@ -321,56 +229,6 @@ void CauseSearch::add_confusable(const Level& level, const std::vector<Screened>
         if (found != screened.end()) add_single(level, *found, nothing, singles);
     }
     sort_by_evidence(singles);
-}
-
-// The best of the smaller sets, each with one cause more; then without each of its former causes in turn, for
-// the first cause may have stood for two others.
-CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& smaller) {
-    Fits sets;
-    if (!worth_a_further_cause(smaller.front())) return sets;
-    std::vector<std::string> firsts;
-    for (const ScoredFit& each : smaller) {
-        const std::string& first = each.fit.causes.front()->effect;
-        if (first == "none" || firsts.size() == max_extended ||
-            (each.fit.causes.size() == 1 && std::find(firsts.begin(), firsts.end(), first) != firsts.end()))
-            continue;
-        if (each.fit.causes.size() > 1 && !firsts.empty()) break;
-        firsts.push_back(first);
-        if (worth_a_further_cause(each)) add_sets(level, each.fit.hypothesis(), sets);
-    }
-    sort_by_evidence(sets);
-    if (sets.empty() || sets.front().fit.causes.size() > 2) return sets;
-    if (!worth_a_further_cause(sets.front())) return sets;
-    const Hypothesis best = sets.front().fit.hypothesis();
-    for (const CandidateCause* kept : best.causes)
-        add_sets(level, only_causes(best, [&](const CandidateCause& cause) { return &cause == kept; }), sets);
-    sort_by_evidence(sets);
-    return sets;
-}
-
-void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, Fits& sets) {
-    std::size_t further = 0;
-    for (const Screened& each : screen(coarse_.fitter, level.causes, hypothesis)) {
-        if (further == max_fitted_further || is_out_of_time()) break;
-        const bool known =
-            std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), [&](const CandidateCause* cause) {
-                return (cause->effect == each.cause->effect && cause->variant == each.cause->variant) ||
-                       is_part_of(*each.cause, *cause);
-            });
-        if (known) continue;
-        ++further;
-        std::vector<const CandidateCause*> set = hypothesis.causes;
-        set.push_back(each.cause);
-        const auto same = [&](const ScoredFit& other) {
-            return other.fit.causes.size() == set.size() &&
-                   std::is_permutation(set.begin(), set.end(), other.fit.causes.begin());
-        };
-        if (std::any_of(sets.begin(), sets.end(), same)) continue;
-        report("fitting " + in_words(set));
-        CauseFitter::FitOptions options;
-        options.pruned_sum_of_squares = pruned_factor * min_sum(sets);
-        sets.push_back(fitted(level, with_cause(hypothesis, each.cause, each.start), options));
-    }
 }
 
 }  // namespace capstan::gap

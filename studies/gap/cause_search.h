@@ -73,9 +73,12 @@ class CauseSearch {
     bool is_better_when_built(const ScoredFit& best);
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);
+    void try_fewer(const Level& level, Fits& all);
+    void try_others(const Level& level, Fits& all);
     void add_single(const Level& level, const Screened& screened, const Hypothesis& nothing, Fits& singles);
     void add_confusable(const Level& level, const std::vector<Screened>& screened, const Hypothesis& nothing,
                         Fits& singles);
+    static double pruned_at(const Fits& fits);
     Fits larger_sets(const Level& level, const Fits& smaller);
     void add_sets(const Level& level, const Hypothesis& hypothesis, Fits& sets);
 

@@ -90,12 +90,16 @@ Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualS
     std::vector<Features> features;
     for (const RecordedRun& run : recording.runs)
         features.push_back(features_of(recording, run, driving, stride));
-    std::size_t all_rows = 0;
-    for (const ResidualSeries& each : series_) all_rows += each.rows;
+    double all_determined = 0.0;
+    for (const ResidualSeries& each : series_) all_determined += static_cast<double>(each.determined_rows());
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         Eigen::Index rows = 0;
-        for (const ResidualSeries& each : series_)
-            rows += each.channel == channel ? static_cast<Eigen::Index>(each.rows) : 0;
+        double determined = 0.0;
+        for (const ResidualSeries& each : series_) {
+            if (each.channel != channel) continue;
+            rows += static_cast<Eigen::Index>(each.rows);
+            determined += static_cast<double>(each.determined_rows());
+        }
         if (rows == 0) continue;
         const auto count = static_cast<Eigen::Index>(features.front().size());
         Eigen::MatrixXd all(rows, count);
@@ -106,16 +110,16 @@ Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualS
                 const std::vector<double>& feature = features[each.run][static_cast<std::size_t>(k)];
                 for (std::size_t row = 0; row < each.rows; ++row)
                     all(next + static_cast<Eigen::Index>(row), k) =
-                        feature[static_cast<std::size_t>(each.first_sample) + row];
+                        each.determines(row) ? feature[static_cast<std::size_t>(each.first_sample) + row]
+                                             : 0.0;
             }
             next += static_cast<Eigen::Index>(each.rows);
         }
         for (Eigen::Index k = 0; k < count; ++k) {
-            const double mean_square = all.col(k).squaredNorm() / static_cast<double>(rows);
+            const double mean_square = all.col(k).squaredNorm() / determined;
             if (mean_square > 0.0) all.col(k) /= std::sqrt(mean_square * static_cast<double>(count));
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(all.transpose() * all /
-                                                                   static_cast<double>(rows));
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(all.transpose() * all / determined);
         std::vector<Eigen::Index> kept;
         constexpr double negligible = 1e-9;
         for (Eigen::Index k = 0; k < count; ++k) {
@@ -123,7 +127,8 @@ Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualS
         }
         ChannelFeatures of_channel;
         of_channel.channel = channel;
-        of_channel.part = static_cast<double>(rows) / static_cast<double>(all_rows);
+        of_channel.rows = determined;
+        of_channel.part = determined / all_determined;
         of_channel.samples = independent_samples * of_channel.part;
         of_channel.variances = parts.eigenvalues()(kept);
         of_channel.directions = all * parts.eigenvectors()(Eigen::all, kept) *
@@ -143,9 +148,8 @@ Marginals Discrepancy::of(const Eigen::VectorXd& residuals) const {
             own.segment(next, rows) = residuals.segment(static_cast<Eigen::Index>(each.first_row), rows);
             next += rows;
         }
-        const auto rows = static_cast<double>(own.size());
-        const double mean_square = own.squaredNorm() / rows;
-        const Eigen::ArrayXd along = (channel.directions.transpose() * own / rows).array().square();
+        const double mean_square = own.squaredNorm() / channel.rows;
+        const Eigen::ArrayXd along = (channel.directions.transpose() * own / channel.rows).array().square();
         for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
             // Samples of a direction add up; its prior variance is that of one sample.
             const Eigen::ArrayXd gained =

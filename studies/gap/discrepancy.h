@@ -36,8 +36,9 @@ class Discrepancy {
   private:
     struct ChannelFeatures {
         std::size_t channel = 0;
+        double rows = 0.0;           // that count
         double samples = 0.0;        // independent ones
-        double part = 0.0;           // of all rows
+        double part = 0.0;           // of all rows that count
         Eigen::MatrixXd directions;  // rows of the channel x features: orthogonal, mean square of the rows 1
         Eigen::VectorXd variances;   // of each direction under a discrepancy of size 1
     };

@@ -59,9 +59,18 @@ BenchNumbers BenchNumbers::in_run(const RecordedRun& run) const {
         const auto stated = run.conditions.find(each.condition);
         if (stated == run.conditions.end()) continue;
         const double part = (stated->second - each.middle) / each.half_range;
-        numbers.friction_ratio *= std::exp(part * each.friction_log);
-        numbers.pretension_ratio *= std::exp(part * each.pretension_log);
-        for (const auto& [channel, zero] : each.zero) numbers.sensor_faults[channel].offset += part * zero;
+        const double change = part * (each.linear + part * each.squared);
+        switch (each.what) {
+            case Following::What::friction:
+                numbers.friction_ratio *= std::exp(change);
+                break;
+            case Following::What::pretension:
+                numbers.pretension_ratio *= std::exp(change);
+                break;
+            case Following::What::zero:
+                numbers.sensor_faults[each.channel].offset += change;
+                break;
+        }
     }
     numbers.follows.clear();
     return numbers;

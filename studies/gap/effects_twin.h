@@ -23,14 +23,21 @@ struct BenchNumbers {
     double pretension_ratio = 1.0;
     BenchEffects effects;
     std::map<std::string, SensorFaults> sensor_faults;  // by channel
-    /// What follows a condition of the runs: changes at the end of its range, the opposite at the other end.
+    /// A number that follows a condition of the runs: it changes by `linear c + squared c^2`, where c goes
+    /// from -1 to 1 over the range of the condition.
     struct Following {
-        std::string condition;
+        enum class What {
+            friction,    ///< logarithm of the friction
+            pretension,  ///< logarithm of the pretension
+            zero,        ///< zero of a channel's sensor, in its unit
+        };
+        What what = What::friction;
+        std::string channel{};
+        std::string condition{};
         double middle = 0.0;
         double half_range = 1.0;
-        double friction_log = 0.0;
-        double pretension_log = 0.0;
-        std::map<std::string, double> zero{};  // by channel
+        double linear = 0.0;
+        double squared = 0.0;
     };
     std::vector<Following> follows;
 

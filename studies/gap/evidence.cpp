@@ -56,6 +56,19 @@ Effects effects_of(const CauseFit& fit) {
     return effects;
 }
 
+// The visibility of the clearest cause whose law is an idealisation, apart from one of them.
+double clearest_law(const ScoredFit& fit, std::size_t apart_from) {
+    double clearest = 0.0;
+    for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
+        if (k != apart_from && !fit.fit.causes[k]->is_exact) clearest = std::max(clearest, fit.visibility[k]);
+    }
+    return clearest;
+}
+
+double clearest_law(const ScoredFit& fit) {
+    return clearest_law(fit, fit.fit.causes.size());
+}
+
 // The condition that the effect follows in an explanation; empty: none.
 std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
     for (const CandidateCause* cause : hypothesis.fit->fit.causes) {
@@ -80,8 +93,7 @@ double Evidence::of(double misfit, std::size_t open_numbers) const {
 }
 
 double Evidence::of(const ScoredFit& fit) const {
-    const double clearest = *std::max_element(fit.visibility.begin(), fit.visibility.end());
-    const double law = std::hypot(floor_error, law_error * clearest);
+    const double law = std::hypot(floor_error, law_error * clearest_law(fit));
     return priors(fit) +
            marginal(fit, [&](double size) { return std::exp(-0.5 * size * size / (law * law)); });
 }
@@ -123,10 +135,13 @@ double Evidence::priors(const ScoredFit& fit) const {
         if (cause.family == "sensor") evidence -= sensor_fault_penalty;
     }
     if (fit.fit.causes.size() < 2) return evidence;
-    const auto [least, most] = std::minmax_element(fit.visibility.begin(), fit.visibility.end());
-    const double relative = *most > 0.0 ? *least / *most : 0.0;
+    double faintest = 1.0;  // relative to the clearest law beside it
+    for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
+        const double law = clearest_law(fit, k);
+        if (law > 0.0) faintest = std::min(faintest, fit.visibility[k] / law);
+    }
     return evidence - further_cause_penalty * static_cast<double>(fit.fit.causes.size() - 1) -
-           faint_penalty * std::max(0.0, 1.0 - relative / faint);
+           faint_penalty * std::max(0.0, 1.0 - faintest / faint);
 }
 
 std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fits) const {
@@ -202,8 +217,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
 
 bool worth_a_further_cause(const ScoredFit& fit) {
     constexpr double close_to_noise = 1.1;
-    const double clearest = *std::max_element(fit.visibility.begin(), fit.visibility.end());
-    return fit.misfit > std::max(close_to_noise, 1.0 + std::pow(law_error * clearest, 2));
+    return fit.misfit > std::max(close_to_noise, 1.0 + std::pow(law_error * clearest_law(fit), 2));
 }
 
 std::size_t open_numbers(const CauseFit& fit) {

@@ -34,7 +34,7 @@ struct Known {
 constexpr double step = 1e-2;  // of a coordinate
 
 Known known_of(const CauseFitter& fitter, const CauseFit& fit) {
-    const double weight = std::sqrt(fitter.independent_samples() / static_cast<double>(fitter.data_rows()));
+    const double weight = std::sqrt(fitter.independent_samples() / fitter.determined_rows());
     const Eigen::MatrixXd residuals =
         weight * fitter.residuals(fit.hypothesis(), moved_a_little(fit.coordinates, step));
     return {fit.hypothesis(), residuals.col(0), differences(residuals, step)};
@@ -47,7 +47,7 @@ double min_sum(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals
 
 // The chi-square that an explanation leaves on data that another one generated.
 double unexplained_by(const Known& rival, const CauseFitter& planned, const Hypothesis& truth) {
-    const double weight = std::sqrt(planned.independent_samples() / static_cast<double>(planned.data_rows()));
+    const double weight = std::sqrt(planned.independent_samples() / planned.determined_rows());
     const Eigen::MatrixXd moved = moved_a_little(rival.hypothesis.coordinates, step);
     std::vector<Hypothesis> all = {truth};
     for (Eigen::Index column = 0; column < moved.cols(); ++column)

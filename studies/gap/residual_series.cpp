@@ -50,7 +50,70 @@ int end_of_first_loading(const Recording& recording, const RecordedRun& run) {
     return half;
 }
 
+// Samples at which an encoder has stayed within a step and a half for 50 ms: the angle may have turned round
+// within the step, and the friction with it.
+std::vector<bool> at_rest(const std::vector<double>& angle_rad, double step_rad, double sample_rate_Hz) {
+    constexpr double steps = 1.5;
+    constexpr double duration_s = 0.05;
+    std::vector<bool> rests(angle_rad.size(), false);
+    std::size_t moved = 0;  // the last sample that was clearly elsewhere
+    bool has_moved = false;
+    for (std::size_t sample = 0; sample < angle_rad.size(); ++sample) {
+        for (std::size_t earlier = sample; earlier > (has_moved ? moved : 0); --earlier) {
+            if (std::abs(angle_rad[earlier - 1] - angle_rad[sample]) <= steps * step_rad) continue;
+            moved = earlier - 1;
+            has_moved = true;
+            break;
+        }
+        const auto since = static_cast<double>(sample - moved);
+        rests[sample] = !has_moved || since > duration_s * sample_rate_Hz;
+    }
+    return rests;
+}
+
+// What one step of the encoder of a driven angle changes in a torque or tension, through the cables' own
+// stiffness.
+double change_by_a_step(const Recording& recording, const std::string& driven, double step_rad,
+                        const Channel& channel) {
+    const NominalBench& bench = *recording.nominal;
+    double length_m = 0.0;
+    for (const CurvaturePiece& piece : bench.curvature) length_m += piece.length_m;
+    const auto radius_m = [&](bool motor) { return motor ? bench.motor_radius_m : bench.load_radius_m; };
+    const double tension_N =
+        bench.axial_stiffness_N / length_m * radius_m(driven == channel::motor_angle) * step_rad;
+    if (channel.unit == "N") return tension_N;
+    const double cables = recording.mode == BenchMode::pull_pull ? 2.0 : 1.0;
+    return cables * tension_N * radius_m(channel.name == channel::motor_torque);
+}
+
+// Of the samples of a series. Empty: all.
+std::vector<bool> determined_rows(const Recording& recording, const ResidualSeries& series, int stride) {
+    std::vector<bool> determined;
+    const RecordedRun& run = recording.runs[series.run];
+    const Channel& predicted = recording.channels[series.channel];
+    if (predicted.unit == "rad") return determined;
+    for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
+        const Channel& driven = recording.channels[channel];
+        if (!run.drives(driven.name) || driven.unit != "rad" || !driven.step) continue;
+        if (change_by_a_step(recording, driven.name, *driven.step, predicted) < series.scale) continue;
+        const std::vector<bool> rests = at_rest(run.values[channel], *driven.step, recording.sample_rate_Hz);
+        determined.resize(series.rows, true);
+        for (std::size_t row = 0; row < series.rows; ++row) {
+            if (rests[(static_cast<std::size_t>(series.first_sample) + row) *
+                      static_cast<std::size_t>(stride)])
+                determined[row] = false;
+        }
+    }
+    if (std::find(determined.begin(), determined.end(), true) == determined.end()) determined.clear();
+    return determined;
+}
+
 }  // namespace
+
+std::size_t ResidualSeries::determined_rows() const {
+    if (is_determined.empty()) return rows;
+    return static_cast<std::size_t>(std::count(is_determined.begin(), is_determined.end(), true));
+}
 
 std::vector<ResidualSeries> residual_series(const Recording& recording, const EffectsTwin& twin) {
     std::vector<ResidualSeries> all;
@@ -66,6 +129,7 @@ std::vector<ResidualSeries> residual_series(const Recording& recording, const Ef
             const int first = end_of_first_loading(recording, recording.runs[run]) / twin.stride();
             const std::size_t rows = nominal.values[channel].size() - static_cast<std::size_t>(first);
             all.push_back({run, channel, first, scale > 0.0 ? scale : 1.0, next_row, rows});
+            all.back().is_determined = determined_rows(recording, all.back(), twin.stride());
             next_row += rows;
         }
     }

@@ -80,17 +80,22 @@ TEST(CauseSearch, SortsByEvidenceAndKeepsTheOrderOfEqualFits) {
     EXPECT_EQ(fits[2].misfit, 7.0);
 }
 
-ScoredFit leaving(double misfit, double visibility) {
+ScoredFit leaving(double misfit, double visibility, const CandidateCause& cause) {
     ScoredFit fit;
+    fit.fit.causes = {&cause};
     fit.misfit = misfit;
     fit.visibility = {visibility};
     return fit;
 }
 
 TEST(CauseSearch, LooksForAFurtherCauseOnlyWhereMoreThanNoiseAndLawsErrorIsLeft) {
-    EXPECT_FALSE(worth_a_further_cause(leaving(1.05, 2.0)));  // little beyond noise
-    EXPECT_FALSE(worth_a_further_cause(leaving(3.0, 30.0)));  // what a law that is good to a tenth may leave
-    EXPECT_TRUE(worth_a_further_cause(leaving(3.0, 4.0)));
+    ThreeCauses known;
+    EXPECT_FALSE(worth_a_further_cause(leaving(1.05, 2.0, known.bend)));  // little beyond noise
+    // What a law that is good to a tenth may leave. A wrong number is no law.
+    EXPECT_FALSE(worth_a_further_cause(leaving(3.0, 30.0, known.bend)));
+    known.friction.is_exact = true;
+    EXPECT_TRUE(worth_a_further_cause(leaving(3.0, 30.0, known.friction)));
+    EXPECT_TRUE(worth_a_further_cause(leaving(3.0, 4.0, known.bend)));
 }
 
 TEST(CauseSearch, OutOfTimeItGivesTheNominalFitAndSaysSo) {

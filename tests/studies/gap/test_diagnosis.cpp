@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "capstan/effects/effect_catalogue.h"
@@ -75,12 +76,28 @@ TEST(Diagnosis, FindsViscousFrictionAndItsSize) {
 
 TEST(Diagnosis, NamesFrictionThatFollowsAConditionOfTheRuns) {
     BenchNumbers numbers;
-    numbers.follows = {{"roll_deg", 0.0, 45.0, 0.3}};
+    numbers.follows = {{.condition = "roll_deg", .half_range = 45.0, .linear = 0.3}};
     const Diagnosis diagnosis = diagnosed(session_of(numbers, {-45.0, 45.0}));
     EXPECT_EQ(diagnosis.ranked.front().effect, "param_mu");
     EXPECT_EQ(diagnosis.ranked.front().varies, "roll_deg");
     ASSERT_EQ(diagnosis.causes.size(), 1u);
     EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, 0.3, 0.05);
+}
+
+// A joint that bends either way from straight: the same at both ends of the range.
+TEST(BenchNumbers, ANumberMayFollowTheSquareOfACondition) {
+    BenchNumbers numbers;
+    numbers.follows = {
+        {.condition = "roll_deg", .middle = 10.0, .half_range = 40.0, .linear = 0.1, .squared = 0.2}};
+    const auto friction_at = [&](double roll_deg) {
+        RecordedRun run;
+        run.conditions["roll_deg"] = roll_deg;
+        return std::log(numbers.in_run(run).friction_ratio);
+    };
+    EXPECT_NEAR(friction_at(10.0), 0.0, 1e-12);
+    EXPECT_NEAR(friction_at(50.0), 0.3, 1e-12);
+    EXPECT_NEAR(friction_at(-30.0), 0.1, 1e-12);
+    EXPECT_NEAR(std::log(numbers.in_run({}).friction_ratio), 0.0, 1e-12) << "a run without the condition";
 }
 
 TEST(Diagnosis, AConditionThatChangesNothingIsNotNamed) {

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "capstan/gap/cause_search.h"
+
+namespace capstan::gap {
+
+// The mean square of the residuals of each run with the numbers fitted to the others.
+double CauseSearch::held_out_misfit(const Hypothesis& hypothesis) {
+    const CauseFitter& fitter = coarse_.fitter;
+    double squares = 0.0;
+    for (std::size_t run = 0; run < run_count_; ++run) {
+        CauseFitter::FitOptions options;
+        options.left_out = LeftOut{run};
+        options.any_size = false;
+        const Hypothesis without = fitter.fit(hypothesis, options).hypothesis();
+        const Eigen::VectorXd residuals = fitter.data_residuals({&without, 1});
+        for (const ResidualSeries& series : fitter.series()) {
+            if (series.run != run) continue;
+            squares += residuals
+                           .segment(static_cast<Eigen::Index>(series.first_row),
+                                    static_cast<Eigen::Index>(series.rows))
+                           .squaredNorm();
+        }
+    }
+    return squares / fitter.determined_rows();
+}
+
+// A cause that does not help to predict runs which the fit did not see has only fitted these. The set without
+// it then goes before the set with it.
+void CauseSearch::drop_unearned_causes(Fits& fits) {
+    constexpr std::size_t enough_runs = 3;
+    constexpr double unearned_penalty = 4.0;
+    if (run_count_ < enough_runs) return;
+    while (fits.front().fit.causes.size() > 1 && !is_out_of_time()) {
+        report("predicting each run from the others");
+        const Hypothesis all = fits.front().fit.hypothesis();
+        double least = held_out_misfit(all);
+        std::optional<Hypothesis> earned;
+        for (const CandidateCause* dropped : all.causes) {
+            const Hypothesis fewer =
+                only_causes(all, [&](const CandidateCause& cause) { return &cause != dropped; });
+            const double misfit = held_out_misfit(fewer);
+            if (misfit > least) continue;
+            least = misfit;
+            earned = fewer;
+        }
+        if (!earned) return;
+        CauseFitter::FitOptions options;
+        options.any_size = false;
+        ScoredFit fewer = scored(fine_, fine_.fitter.fit(*earned, options));
+        for (ScoredFit& each : fits) {
+            const auto is_in = [&](const CandidateCause* cause) {
+                return std::find(each.fit.causes.begin(), each.fit.causes.end(), cause) !=
+                       each.fit.causes.end();
+            };
+            if (each.fit.bench == fewer.fit.bench && each.fit.causes.size() > fewer.fit.causes.size() &&
+                std::all_of(fewer.fit.causes.begin(), fewer.fit.causes.end(), is_in))
+                each.evidence = std::min(each.evidence, fewer.evidence - unearned_penalty);
+        }
+        fits.push_back(std::move(fewer));
+        sort_by_evidence(fits);
+    }
+}
+
+}  // namespace capstan::gap
