@@ -30,8 +30,8 @@ RunSplit asked_split(const DiagnosisRequest& request, const Recording& recording
             throw InvalidInput({"run " + std::to_string(number) +
                                 " is both in fit and in hold; a run is either fitted or held out"});
     }
-    const RunSplit split{request.fit.empty() ? all_but(request.hold, recording) : request.fit,
-                         request.hold.empty() ? all_but(request.fit, recording) : request.hold};
+    RunSplit split{request.fit.empty() ? all_but(request.hold, recording) : request.fit,
+                   request.hold.empty() ? all_but(request.fit, recording) : request.hold};
     if (split.fit.empty()) throw InvalidInput({"hold leaves no run to fit"});
     return split;
 }

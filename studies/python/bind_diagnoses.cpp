@@ -23,7 +23,7 @@ std::shared_ptr<PythonDiagnosis> diagnose(const std::shared_ptr<PythonRecording>
     if (!time_limit_s.is_none()) options.time_limit_s = number_of(time_limit_s, "time_limit_s");
     if (!(options.time_limit_s > 0.0)) throw InvalidInput({"time_limit_s: must be above 0"});
     const model_comparison::DiagnosisRequest request{runs, calibrate_on, fit, hold, with_simple_models};
-    const auto found = std::make_shared<PythonDiagnosis>();
+    auto found = std::make_shared<PythonDiagnosis>();
     run_long_call(on_progress, [=](CallWatch& watch) mutable {
         options.on_progress = [&](const std::string& activity, double fraction) {
             watch.tell(activity, fraction);

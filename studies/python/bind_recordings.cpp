@@ -17,7 +17,7 @@ namespace {
 using std::filesystem::path;
 
 std::shared_ptr<PythonRecording> read(const path& file) {
-    const auto held = std::make_shared<PythonRecording>();
+    auto held = std::make_shared<PythonRecording>();
     run_long_call(py::none(), [held, file](CallWatch&) { held->recording = read_recording(file); });
     return held;
 }

@@ -146,7 +146,7 @@ std::shared_ptr<reports::Answer> place(const ReadConfig& config,
                                        const py::handle& resolve_to_N, const py::handle& seed,
                                        const py::handle& repetitions, const py::handle& jobs,
                                        const py::object& on_progress) {
-    const auto answer = std::make_shared<reports::Answer>();
+    auto answer = std::make_shared<reports::Answer>();
     const ReadConfig asked = with_settings(config, seed, repetitions);
     const bool of_worlds = asked.plan.uncertainty.is_stated;
     if (of_worlds && (noise || !resolve_to_N.is_none()))

@@ -2,6 +2,7 @@
 // arguments, defaults and documentation.
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
@@ -28,7 +29,7 @@ void raise_error(const std::vector<std::string>& problems) {
 void bind_errors(py::module_&) {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
-            std::rethrow_exception(thrown);
+            std::rethrow_exception(std::move(thrown));
         } catch (const InvalidInput& error) {
             raise_error(error.problems());
         } catch (const py::builtin_exception&) {
