@@ -18,6 +18,13 @@ Effect effect_of(const EffectRow<E>& row) {
         if (row.choose_variant) row.choose_variant(applied);
         for (std::size_t k = 0; k < row.parameters.size(); ++k) row.parameters[k].field(applied) = values[k];
     };
+    effect.values_in = [row](const BenchEffects& effects) -> std::optional<std::vector<double>> {
+        E present = effects.of<E>();
+        if (row.is_variant && !row.is_variant(present)) return {};
+        std::vector<double> values;
+        for (const auto& parameter : row.parameters) values.push_back(parameter.field(present));
+        return values;
+    };
     return effect;
 }
 
@@ -38,8 +45,8 @@ const std::vector<Effect>& effect_catalogue() {
     return all;
 }
 
-// Built when the program starts. g++ 12 destroys members that do not exist yet when an allocation fails within
-// the nested braces of a row, so the rows must not be built where a lack of memory is to be reported.
+// Built when the program starts. g++ 12 destroys members that do not exist yet when an allocation fails
+// within the nested braces of a row, so the rows must not be built where a lack of memory is to be reported.
 [[maybe_unused]] static const std::vector<Effect>& built_at_start = effect_catalogue();
 
 EffectValues absent_effects() {

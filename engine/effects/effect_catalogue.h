@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ struct Effect : EffectDescription {
     std::vector<EffectParameter> parameters;
     std::vector<double> absent;  ///< parameters without the effect
     std::function<void(BenchEffects&, std::span<const double> parameters)> apply;
+    /// The parameters as a bench has them; none where it has another variant of the effect.
+    std::function<std::optional<std::vector<double>>(const BenchEffects&)> values_in;
 };
 
 /// All of them, grouped by family: the rows of every effect in BenchEffects.

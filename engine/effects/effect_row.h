@@ -59,6 +59,7 @@ struct EffectRow {
     };
     std::vector<Parameter> parameters;
     std::function<void(Effect&)> choose_variant{};
+    std::function<bool(const Effect&)> is_variant{};  ///< where choose_variant decides more than parameters
 };
 
 }  // namespace capstan

@@ -48,7 +48,8 @@ struct LocalBend {
                                  .typical = 0.15,
                                  .role = ParameterRole::shape},
                                 &LocalBend::length_m}},
-                .choose_variant = [cables](LocalBend& bend) { bend.cables = cables; }};
+                .choose_variant = [cables](LocalBend& bend) { bend.cables = cables; },
+                .is_variant = [cables](const LocalBend& bend) { return bend.cables == cables; }};
     }
 };
 

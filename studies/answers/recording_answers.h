@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "capstan/bench_model/model_prediction.h"
 #include "capstan/blind_trial/trial_score.h"
 #include "capstan/calibration/calibration.h"
 #include "capstan/calibration/twin.h"
@@ -76,6 +77,10 @@ reports::Answer estimate_answer(const Recording& recording, const std::vector<es
 
 /// A recording beside its model; `modelled`: one for each run.
 reports::Answer recording_answer(const Recording& recording, const std::vector<gap::TwinRun>& modelled);
+
+/// A recording beside what a model of its bench predicts, with the errors of both.
+reports::Answer model_answer(const Recording& recording, const bench_model::BenchModel& model,
+                             const bench_model::ModelPrediction& prediction);
 
 /// How a blind trial of the diagnosis ended.
 reports::Answer trial_score_answer(const gap_trial::TrialOptions& options, const std::string& seal,

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <sstream>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/bench_model/model_file.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/cli/program.h"
 #include "capstan/export/series.h"
 #include "capstan/model_comparison/diagnosed_runs.h"
 #include "capstan/platform/progress.h"
@@ -22,19 +22,6 @@ namespace capstan::cli {
 namespace {
 
 using gap::Diagnosis;
-
-std::vector<int> run_numbers(const std::string& listed) {
-    std::vector<int> numbers;
-    std::istringstream words(listed);
-    for (std::string word; std::getline(words, word, ',');) {
-        int number = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-        if (error != std::errc() || end != word.data() + word.size())
-            throw UsageError(fmt::format("'{}' is not a run number; write a list such as 1,2,5", word));
-        numbers.push_back(number);
-    }
-    return numbers;
-}
 
 // Which runs are fitted, judged and compared, as the options say.
 model_comparison::DiagnosisRequest asked_runs(const Invocation& invocation) {
@@ -55,6 +42,13 @@ void store(const Invocation& invocation, const Recording& recording, const Diagn
         database, answers::diagnosis_record(recording, diagnosis, invocation.argument("LOG")));
     if (invocation.text("progress") != "none")
         say(fmt::format("Stored as diagnosis {} in {}.", id, invocation.text("db")));
+}
+
+void save_model(const std::filesystem::path& file, const model_comparison::DiagnosedSplit& diagnosed,
+                const std::vector<model_comparison::LeftOver>& left, const gap::DiagnosisOptions& options) {
+    const bench_model::ModelOrigin origin{diagnosed.recorded.name, diagnosed.split.fit, program_version(),
+                                          answers::verdict_sentence(diagnosed.diagnosis)};
+    bench_model::write_model(file, bench_model::model_of(diagnosed, left, origin, options));
 }
 
 // The channels that the corrected model predicts.
@@ -82,6 +76,7 @@ void write_prediction(const std::filesystem::path& file, Recording recording, co
 }
 
 ExitCode run_diagnose(const Invocation& invocation) {
+    if (invocation.has("save")) bench_model::require_model_name(invocation.text("save"));
     const Recording recorded = read_recording(invocation.argument("LOG"));
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
@@ -104,6 +99,8 @@ ExitCode run_diagnose(const Invocation& invocation) {
     if (invocation.has("corrected"))
         write_file(invocation.text("corrected"), answers::corrected_model_text(recording, diagnosis));
     if (invocation.has("prediction")) write_prediction(invocation.text("prediction"), recording, diagnosis);
+    if (invocation.has("save"))
+        save_model(invocation.text("save"), diagnosed.split, diagnosed.left_over, options);
     deliver_answer(invocation, answers::diagnosed_runs_answer(diagnosed));
     return ExitCode::success;
 }
@@ -139,6 +136,12 @@ const Option keep_option{
         "Also store the diagnosis in this results database; `capstan query \"SELECT * FROM "
         "v_diagnosis\"` lists the stored diagnoses."};
 
+const Option save_model_option{
+    .name = "save",
+    .value = "FILE",
+    .meaning =
+        "Write what was found as a model (TOML): the bench, its effects and sensors with intervals, and the law of what "
+        "is left. `capstan simulate LOG --model FILE` judges it on other runs."};
 const Option corrected_option{
     .name = "corrected",
     .value = "FILE",
@@ -171,12 +174,13 @@ Command diagnose_command() {
             "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
         .arguments = {log_argument},
         .options = {runs_option, calibrate_on_option, fit_option, hold_option, baselines_option, keep_option,
-                    corrected_option, prediction_option, time_limit_option, jobs_option, output_option,
-                    format_option, json_option, page_option, progress_option, help_option},
+                    save_model_option, corrected_option, prediction_option, time_limit_option, jobs_option,
+                    output_option, format_option, json_option, page_option, progress_option, help_option},
         .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
                      "capstan diagnose bench.csv --html bench.html",
                      "capstan diagnose bench.csv --fit 1,3,5 --hold 2,4,6 --baselines",
                      "capstan diagnose bench.csv --db bench.db",
+                     "capstan diagnose bench.csv --fit 1,3 --save model.toml",
                      "capstan diagnose bench.csv --corrected corrected.toml"},
         .run = run_diagnose};
 }

@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <set>
 
 #include "capstan/answers/paper_answers.h"
 #include "capstan/answers/recording_answers.h"
 #include "capstan/bench/bench_recording.h"
+#include "capstan/bench_model/model_file.h"
+#include "capstan/bench_model/prediction_csv.h"
 #include "capstan/cable/motion_name.h"
+#include "capstan/calibration/parameter_file.h"
+#include "capstan/calibration/twin.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/config/config_file.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/export/series.h"
-#include "capstan/calibration/parameter_file.h"
-#include "capstan/calibration/twin.h"
+#include "capstan/model_comparison/model_comparison.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/recording/driven_inputs.h"
 #include "capstan/recording/recording_keys.h"
@@ -124,6 +128,25 @@ ExitCode simulate_recording(const Invocation& invocation) {
     return ExitCode::success;
 }
 
+// A model that a diagnosis saved, judged on a recording.
+ExitCode judge_model(const Invocation& invocation) {
+    const std::set<std::string_view> its_options = {"model", "runs", "csv", "jobs", "output", "html", "json"};
+    for (const Option& other : invocation.command().options) {
+        if (!its_options.contains(other.name) && invocation.has(other.name) &&
+            invocation.text(other.name) != other.default_value)
+            throw UsageError(fmt::format("capstan simulate: --{} does not go with --model", other.name));
+    }
+    const bench_model::BenchModel model = bench_model::read_model(invocation.text("model"));
+    Recording recording = read_recording(invocation.repeated_argument().front());
+    if (invocation.has("runs"))
+        recording = model_comparison::runs_of(recording, run_numbers(invocation.text("runs")));
+    const bench_model::ModelPrediction prediction =
+        bench_model::predict(model, recording, static_cast<int>(invocation.integer("jobs")));
+    if (invocation.has("csv")) write_file(invocation.text("csv"), prediction_csv(recording, prediction));
+    deliver_answer(invocation, answers::model_answer(recording, model, prediction));
+    return ExitCode::success;
+}
+
 std::string head_line(int nodes) {
     std::string line =
         "sample,time_s,motion,regime,proximal_moving_nodes,distal_moving_nodes,proximal_direction,distal_direction,"
@@ -149,6 +172,17 @@ void append_line(std::string& text, const TrueSample& sample, double sample_rate
 ExitCode run_simulate(const Invocation& invocation) {
     const std::string& first = invocation.repeated_argument().front();
     const bool several = invocation.repeated_argument().size() > 1;
+    if (!invocation.has("model")) {
+        for (const char* option : {"runs", "csv", "json"})
+            if (invocation.has(option))
+                throw UsageError(fmt::format(
+                    "capstan simulate: --{} goes with --model, which judges a model on a recording", option));
+    } else if (!names_a_recording(first)) {
+        throw UsageError(
+            "capstan simulate: --model needs a recording to be judged on, NAME.csv or NAME.json");
+    } else if (!several) {
+        return judge_model(invocation);
+    }
     if (!names_a_recording(first) && config::content_of_config(first) == config::ConfigContent::bench)
         return simulate_bench_files(invocation);
     if (several)
@@ -180,6 +214,19 @@ const Option parameters_option{
     .name = "parameters",
     .value = "FILE",
     .meaning = "Recordings only: the model's parameters, in a file written by `capstan calibrate --save`."};
+
+const Option judged_model_option{
+    .name = "model",
+    .value = "FILE",
+    .meaning = "Recordings only: judge this model, written by `capstan diagnose --save`, on the recording."};
+
+const Option judged_runs_option{
+    .name = "runs", .value = "LIST", .meaning = "With --model: only these runs, for example 2,4."};
+
+const Option predicted_csv_option{
+    .name = "csv",
+    .value = "FILE",
+    .meaning = "With --model: write the predicted channels beside the measured ones to FILE."};
 
 const Option as_recording_option{
     .name = "recording",
@@ -228,14 +275,16 @@ Command simulate_command() {
             "between pulleys and writes a recording, NAME.csv with NAME.json, each bench a run; --html plots the first with the tension "
             "along the cables. With a recording: drives the bench's model with the recording's driven channels and writes, as a recording "
             "again, the inputs (with the noise removed) and the model's prediction of the other channels; --html plots the prediction over "
-            "the measurement. A recording is also written as MATLAB file (-o NAME.mat: a struct for each run with t, the channels and units) "
+            "the measurement. With a recording and --model: drives the model that a diagnosis saved with the recording's inputs, and prints "
+            "the error of each predicted channel in each run, beside that of the bench without the diagnosis. A recording is also written as MATLAB file (-o NAME.mat: a struct for each run with t, the channels and units) "
             "or MCAP (-o NAME.mcap: a topic for each channel, its unit in the metadata).",
         .arguments = {Argument{
             "CONFIG",
             "A study (TOML), a recording (CSV with its JSON sidecar), or one or more benches (TOML).",
             ArgumentNeed::one_or_more}},
-        .options = {parameters_option, segments_option, as_recording_option, sensors_option,
-                    sensor_noise_option, simulated_kind_option, seed_option, output_option, page_option,
+        .options = {judged_model_option, judged_runs_option, predicted_csv_option, parameters_option,
+                    segments_option, as_recording_option, sensors_option, sensor_noise_option,
+                    simulated_kind_option, seed_option, jobs_option, output_option, page_option, json_option,
                     help_option},
         .examples =
             {"capstan simulate configs/paper.toml -o motion.csv",
@@ -244,7 +293,8 @@ Command simulate_command() {
              "capstan simulate configs/bench-ramps.toml --sensors 3 --sensor-noise 0.002 -o bench.csv",
              "capstan simulate configs/paper.toml --recording --sensors 5 -o cable.csv",
              "capstan simulate bench.csv --parameters fitted.json -o model.csv --html model.html",
-             "capstan simulate bench.csv -o model.mcap"},
+             "capstan simulate bench.csv -o model.mcap",
+             "capstan simulate later.csv --model model.toml --html judged.html"},
         .run = run_simulate};
 }
 

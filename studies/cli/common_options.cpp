@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <sstream>
+
 #include "capstan/config/config_truth.h"
 #include "capstan/config/far_end_log.h"
 #include "capstan/platform/nearest_name.h"
@@ -119,6 +122,19 @@ int noise_index_of(const StudyPlan& plan, const Invocation& invocation) {
 const Argument log_argument{
     "LOG",
     "A recording: NAME.csv with NAME.json beside it, which says what the columns are; either name is taken."};
+
+std::vector<int> run_numbers(const std::string& listed) {
+    std::vector<int> numbers;
+    std::istringstream words(listed);
+    for (std::string word; std::getline(words, word, ',');) {
+        int number = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (error != std::errc() || end != word.data() + word.size())
+            throw UsageError(fmt::format("'{}' is not a run number; write a list such as 1,2,5", word));
+        numbers.push_back(number);
+    }
+    return numbers;
+}
 
 bool names_a_recording(const std::filesystem::path& path) {
     return path.extension() == ".csv" || path.extension() == ".json";

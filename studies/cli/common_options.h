@@ -2,6 +2,8 @@
 // Options that mean the same wherever they appear.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "capstan/cli/command.h"
 #include "capstan/config/config_reader.h"
@@ -37,6 +39,9 @@ extern const Option noise_option;
 int noise_index_of(const StudyPlan& plan, const Invocation& invocation);
 
 extern const Argument log_argument;
+
+/// The numbers in a list such as 1,2,5. Throws UsageError for what is not a number.
+std::vector<int> run_numbers(const std::string& listed);
 
 /// True if a file's name is that of a recording (CSV or its JSON sidecar) rather than of a configuration.
 bool names_a_recording(const std::filesystem::path& path);

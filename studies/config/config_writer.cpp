@@ -10,8 +10,6 @@
 
 namespace capstan::config {
 
-namespace {
-
 std::string toml_string(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {
@@ -27,6 +25,8 @@ std::string toml_string(std::string_view text) {
     }
     return result + "\"";
 }
+
+namespace {
 
 template <class Item, class Text>
 std::string list_text(const std::vector<Item>& items, Text text) {

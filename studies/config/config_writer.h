@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "capstan/bench/bench_plan.h"
 #include "capstan/plan/study_plan.h"
@@ -16,6 +17,9 @@ std::string config_text(const Plan& plan, Comments comments);
 
 /// The shortest text that reads back as the same number and marks it as a real number.
 std::string toml_number(double value);
+
+/// The text in quotes, with what cannot stand in them escaped.
+std::string toml_string(std::string_view text);
 
 /// The plan of an empty configuration: all defaults.
 StudyPlan default_plan();

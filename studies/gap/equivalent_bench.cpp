@@ -59,33 +59,38 @@ void fit_nominal_numbers(Recording& bench) {
     for (RecordedRun& run : bench.runs) run.pretension_N = *run.pretension_N * numbers.pretension_ratio;
 }
 
-Recording bench_of_drive(const Recording& recording, const Recording& fitted_to) {
+BenchEquivalence equivalence_of_drive(const Recording& fitted_to) {
     const std::vector<double> fitted = calibrate(fitted_to, {}).values();
     const double exponent = fitted[0];
     const double stiffness_Nm_per_rad = fitted[1];
     const double pretension_Nm = fitted[2];
     const double speed_ratio = fitted[3];
     const DriveOrientation orientation = drive_orientation(fitted_to);
-    const double way = orientation.load_per_motor_angle < 0.0 ? -1.0 : 1.0;
+    return {.bench = bench_with(exponent, stiffness_Nm_per_rad / (motor_radius_m * motor_radius_m) * length_m,
+                                motor_radius_m * speed_ratio),
+            .motion_sign = orientation.load_per_motor_angle < 0.0 ? -1.0 : 1.0,
+            .motor_torque_sign = orientation.motor_torque_sign,
+            .load_torque_sign = orientation.load_torque_sign,
+            .pretension_N = pretension_Nm / motor_radius_m};
+}
 
+Recording bench_of_drive(const Recording& recording, const BenchEquivalence& equivalence) {
     Recording bench = recording;
-    bench.nominal_is_fitted = true;
     bench.mode = BenchMode::pull_pull;
     bench.channels = {scaled_channel(recording, channel::motor_torque, channel::motor_torque, "N m", 1.0),
                       scaled_channel(recording, channel::motor_angle, channel::motor_angle, "rad", 1.0),
                       scaled_channel(recording, channel::load_angle, channel::load_angle, "rad", 1.0),
                       scaled_channel(recording, channel::load_torque, channel::load_torque, "N m", 1.0)};
-    bench.nominal = bench_with(exponent, stiffness_Nm_per_rad / (motor_radius_m * motor_radius_m) * length_m,
-                               motor_radius_m * speed_ratio);
+    bench.nominal = equivalence.bench;
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
         const std::vector<double>& motor_rad = samples(recording, run, channel::motor_angle);
-        bench.runs[run].pretension_N = pretension_Nm / motor_radius_m;
+        bench.runs[run].pretension_N = equivalence.pretension_N;
         bench.runs[run].driven = {channel::motor_angle, channel::load_torque};
         bench.runs[run].values = {
-            scaled(samples(recording, run, channel::motor_torque), orientation.motor_torque_sign),
+            scaled(samples(recording, run, channel::motor_torque), equivalence.motor_torque_sign),
             scaled(motor_rad, 1.0, -motor_rad.front()),
-            scaled(samples(recording, run, channel::load_angle), way),
-            scaled(samples(recording, run, channel::load_torque), orientation.load_torque_sign)};
+            scaled(samples(recording, run, channel::load_angle), equivalence.motion_sign),
+            scaled(samples(recording, run, channel::load_torque), equivalence.load_torque_sign)};
     }
     return bench;
 }
@@ -129,50 +134,86 @@ BandStart band_start(const Recording& recording) {
     return {std::log(tight_N / slack_N), tight_N / (stroke_fraction * stroke_m) * length_m};
 }
 
-Recording bench_of_band(const Recording& recording, const Recording& fitted_to) {
-    for (const char* channel : {"displacement", "tension_1", "tension_2"}) {
-        if (!recording.channel(channel))
-            throw InvalidInput({recording.name + ": a band needs the channel " + channel});
+void demand_channels(const Recording& recording, std::initializer_list<const char*> channels,
+                     const std::string& what) {
+    std::vector<std::string> problems;
+    for (const char* name : channels) {
+        if (!recording.channel(name))
+            problems.push_back(recording.name + ": " + what + " needs the channel " + name);
     }
-    const double way = pulled_with_displacement(fitted_to);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+}
+
+Recording bench_of_band(const Recording& recording, const BenchEquivalence& equivalence) {
+    Recording bench = recording;
+    bench.mode = BenchMode::single_cable;
+    bench.channels = {
+        scaled_channel(recording, "tension_1", channel::motor_torque, "N m", motor_radius_m),
+        scaled_channel(recording, "displacement", channel::motor_angle, "rad", 1.0 / motor_radius_m),
+        scaled_channel(recording, "displacement", channel::load_angle, "rad", 1.0 / motor_radius_m),
+        scaled_channel(recording, "tension_2", channel::load_torque, "N m", motor_radius_m)};
+    bench.tension_sensors.clear();
+    bench.nominal = equivalence.bench;
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        const std::vector<double>& at_m = samples(recording, run, "displacement");
+        const double way = equivalence.motion_sign;
+        const std::vector<double> turned =
+            scaled(at_m, way / motor_radius_m, -way * at_m.front() / motor_radius_m);
+        bench.runs[run].pretension_N =
+            *recording.runs[run].pretension_N * equivalence.pretension_over_stated_ratio;
+        bench.runs[run].driven = {channel::motor_angle, channel::load_angle};
+        bench.runs[run].output = OutputKind::handle;
+        bench.runs[run].values = {scaled(samples(recording, run, "tension_1"), motor_radius_m), turned,
+                                  turned, scaled(samples(recording, run, "tension_2"), motor_radius_m)};
+    }
+    return bench;
+}
+
+BenchEquivalence equivalence_of_band(const Recording& fitted_to) {
     const BandStart start = band_start(fitted_to);
-    const auto as_bench = [&](const Recording& of) {
-        Recording bench = of;
-        bench.mode = BenchMode::single_cable;
-        bench.channels = {
-            scaled_channel(of, "tension_1", channel::motor_torque, "N m", motor_radius_m),
-            scaled_channel(of, "displacement", channel::motor_angle, "rad", 1.0 / motor_radius_m),
-            scaled_channel(of, "displacement", channel::load_angle, "rad", 1.0 / motor_radius_m),
-            scaled_channel(of, "tension_2", channel::load_torque, "N m", motor_radius_m)};
-        bench.tension_sensors.clear();
-        bench.nominal = bench_with(start.exponent, start.axial_stiffness_N, motor_radius_m);
-        for (std::size_t run = 0; run < of.runs.size(); ++run) {
-            const std::vector<double>& at_m = samples(of, run, "displacement");
-            const std::vector<double> turned =
-                scaled(at_m, way / motor_radius_m, -way * at_m.front() / motor_radius_m);
-            bench.runs[run].driven = {channel::motor_angle, channel::load_angle};
-            bench.runs[run].output = OutputKind::handle;
-            bench.runs[run].values = {scaled(samples(of, run, "tension_1"), motor_radius_m), turned, turned,
-                                      scaled(samples(of, run, "tension_2"), motor_radius_m)};
-        }
-        return bench;
-    };
-    Recording bench = as_bench(fitted_to);
+    BenchEquivalence equivalence{.bench = bench_with(start.exponent, start.axial_stiffness_N, motor_radius_m),
+                                 .motion_sign = pulled_with_displacement(fitted_to)};
+    Recording bench = bench_of_band(fitted_to, equivalence);
     fit_nominal_numbers(bench);
-    Recording equivalent = as_bench(recording);
-    equivalent.nominal_is_fitted = true;
-    const double pretension_ratio = *bench.runs.front().pretension_N / *fitted_to.runs.front().pretension_N;
-    equivalent.nominal = bench.nominal;
-    for (RecordedRun& run : equivalent.runs) run.pretension_N = *run.pretension_N * pretension_ratio;
-    return equivalent;
+    equivalence.bench = *bench.nominal;
+    equivalence.pretension_over_stated_ratio =
+        *bench.runs.front().pretension_N / *fitted_to.runs.front().pretension_N;
+    return equivalence;
+}
+
+void demand_channels_of(const Recording& recording) {
+    if (recording.mode == BenchMode::lumped_drive)
+        demand_channels(
+            recording,
+            {channel::motor_torque, channel::motor_angle, channel::load_angle, channel::load_torque},
+            "a drive of unknown geometry");
+    else
+        demand_channels(recording, {"displacement", "tension_1", "tension_2"}, "a band");
 }
 
 }  // namespace
 
+bool has_unknown_geometry(const Recording& recording) {
+    return recording.mode == BenchMode::lumped_drive || recording.mode == BenchMode::capstan_band;
+}
+
+BenchEquivalence fit_equivalence(const Recording& fitted_to) {
+    if (!has_unknown_geometry(fitted_to)) throw InvalidInput({fitted_to.name + ": the geometry is known"});
+    demand_channels_of(fitted_to);
+    return fitted_to.mode == BenchMode::lumped_drive ? equivalence_of_drive(fitted_to)
+                                                     : equivalence_of_band(fitted_to);
+}
+
+Recording as_bench(const Recording& recording, const BenchEquivalence& equivalence) {
+    demand_channels_of(recording);
+    Recording bench = recording.mode == BenchMode::lumped_drive ? bench_of_drive(recording, equivalence)
+                                                                : bench_of_band(recording, equivalence);
+    bench.nominal_is_fitted = true;
+    return bench;
+}
+
 Recording equivalent_bench(const Recording& recording, const Recording& fitted_to) {
-    if (recording.mode == BenchMode::lumped_drive) return bench_of_drive(recording, fitted_to);
-    if (recording.mode == BenchMode::capstan_band) return bench_of_band(recording, fitted_to);
-    return recording;
+    return has_unknown_geometry(recording) ? as_bench(recording, fit_equivalence(fitted_to)) : recording;
 }
 
 }  // namespace capstan::gap

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/equivalent_bench.h"
 
 namespace capstan::model_comparison {
 
@@ -39,15 +38,8 @@ RunSplit asked_split(const DiagnosisRequest& request, const Recording& recording
 DiagnosedSplit diagnosed(const Recording& recording, const DiagnosisRequest& request,
                          const gap::DiagnosisOptions& options) {
     if (request.has_split()) return diagnose_split(recording, asked_split(request, recording), options);
-    DiagnosedSplit all;
-    all.recorded = request.runs.empty() ? recording : runs_of(recording, request.runs);
-    // The recorded bench, or an equivalent bench where the geometry is unknown.
-    all.bench = gap::equivalent_bench(
-        all.recorded, request.calibrate_on.empty() ? all.recorded : runs_of(recording, request.calibrate_on));
-    all.diagnosed = all.bench;
-    all.diagnosis = gap::diagnose(all.diagnosed, options);
-    for (const RecordedRun& run : all.recorded.runs) all.split.fit.push_back(run.number);
-    return all;
+    const RunSplit all{request.runs.empty() ? all_but({}, recording) : request.runs, {}};
+    return diagnose_split(recording, all, options, request.calibrate_on);
 }
 
 std::vector<LeftOver> left_over_of(const DiagnosedSplit& split) {

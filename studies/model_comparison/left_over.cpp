@@ -73,4 +73,17 @@ std::vector<LeftOver> fit_left_over(const Recording& recording, const Prediction
     return all;
 }
 
+std::vector<std::vector<double>> with_law(const Recording& recording, const Predictions& corrected,
+                                          const LeftOver& left) {
+    std::vector<std::vector<double>> values;
+    for (std::size_t run = 0; run < corrected.values.size(); ++run) {
+        values.push_back(corrected.values[run][left.channels.output]);
+        if (values.back().empty()) continue;
+        const std::vector<double> added =
+            left.law.predict(residual_run(recording, run, left.channels, corrected));
+        for (std::size_t sample = 0; sample < added.size(); ++sample) values[run][sample] += added[sample];
+    }
+    return values;
+}
+
 }  // namespace capstan::model_comparison

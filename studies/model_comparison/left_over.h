@@ -24,4 +24,9 @@ residual_law::ResidualRun residual_run(const Recording& recording, std::size_t r
 /// motion and load are possible, the one whose law leaves least is taken.
 std::vector<LeftOver> fit_left_over(const Recording& recording, const Predictions& predictions);
 
+/// The predictions of the channel with the law of what they leave; without a law the same. Runs x samples;
+/// empty for runs that drive the channel.
+std::vector<std::vector<double>> with_law(const Recording& recording, const Predictions& corrected,
+                                          const LeftOver& left);
+
 }  // namespace capstan::model_comparison

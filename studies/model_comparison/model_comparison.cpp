@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/gap/equivalent_bench.h"
 #include "capstan/simple_models/simple_models.h"
 
 namespace capstan::model_comparison {
@@ -20,18 +19,6 @@ struct PredictedOutput {
 std::vector<std::vector<double>> of_channel(const Predictions& predictions, std::size_t channel) {
     std::vector<std::vector<double>> values;
     for (const auto& run : predictions.values) values.push_back(run[channel]);
-    return values;
-}
-
-// The corrected model with the law of what it leaves; without a law the same.
-std::vector<std::vector<double>> with_law(const Recording& recording, const Predictions& corrected,
-                                          const LeftOver& left) {
-    std::vector<std::vector<double>> values = of_channel(corrected, left.channels.output);
-    for (std::size_t run = 0; run < values.size(); ++run) {
-        const std::vector<double> added =
-            left.law.predict(residual_run(recording, run, left.channels, corrected));
-        for (std::size_t sample = 0; sample < added.size(); ++sample) values[run][sample] += added[sample];
-    }
     return values;
 }
 
@@ -83,11 +70,16 @@ Recording runs_of(const Recording& recording, const std::vector<int>& numbers) {
 }
 
 DiagnosedSplit diagnose_split(const Recording& recording, const RunSplit& split,
-                              const gap::DiagnosisOptions& options) {
+                              const gap::DiagnosisOptions& options, const std::vector<int>& calibrate_on) {
     std::vector<int> all = split.fit;
     all.insert(all.end(), split.hold.begin(), split.hold.end());
-    DiagnosedSplit diagnosed{split, runs_of(recording, all), {}, {}, {}};
-    diagnosed.bench = gap::equivalent_bench(diagnosed.recorded, runs_of(recording, split.fit));
+    DiagnosedSplit diagnosed{split, runs_of(recording, all), {}, {}, {}, {}};
+    diagnosed.bench = diagnosed.recorded;
+    if (gap::has_unknown_geometry(recording)) {
+        diagnosed.equivalence =
+            gap::fit_equivalence(runs_of(recording, calibrate_on.empty() ? split.fit : calibrate_on));
+        diagnosed.bench = gap::as_bench(diagnosed.recorded, *diagnosed.equivalence);
+    }
     diagnosed.diagnosed = runs_of(diagnosed.bench, split.fit);
     diagnosed.diagnosis = gap::diagnose(diagnosed.diagnosed, options);
     return diagnosed;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capstan/gap/diagnosis.h"
+#include "capstan/gap/equivalent_bench.h"
 #include "capstan/model_comparison/left_over.h"
 
 namespace capstan::model_comparison {
@@ -28,10 +29,13 @@ struct DiagnosedSplit {
     Recording bench;      ///< the same, as the equivalent bench calibrated to the fitted runs
     Recording diagnosed;  ///< the fitted runs of `bench`
     gap::Diagnosis diagnosis;
+    std::optional<gap::BenchEquivalence> equivalence{};  ///< none where the geometry is known
 };
 
+/// `calibrate_on`: runs to which a bench of unknown geometry is calibrated; empty: the fitted ones.
 DiagnosedSplit diagnose_split(const Recording& recording, const RunSplit& split,
-                              const gap::DiagnosisOptions& options);
+                              const gap::DiagnosisOptions& options,
+                              const std::vector<int>& calibrate_on = {});
 
 struct RunError {
     int run = 0;

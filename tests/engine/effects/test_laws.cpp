@@ -160,6 +160,25 @@ TEST(Catalogue, AnEffectIsThereUnderItsOwnNameAndAlone) {
     }
 }
 
+TEST(Catalogue, ValuesAreReadBackFromTheBenchTheyWereAppliedTo) {
+    for (const Effect& effect : effect_catalogue()) {
+        BenchEffects effects;
+        std::vector<double> values;
+        for (const EffectParameter& parameter : effect.parameters) values.push_back(1.1 * parameter.typical);
+        effect.apply(effects, values);
+        EXPECT_EQ(effect.values_in(effects), values) << effect.name << " " << effect.variant;
+    }
+}
+
+TEST(Catalogue, ABendOfOneCableIsNotReadAsABendOfTheOther) {
+    BenchEffects effects;
+    effects.of<LocalBend>().cables = BentCables::only_b;
+    for (const Effect& effect : effect_catalogue()) {
+        if (effect.name == "local_bend")
+            EXPECT_EQ(effect.values_in(effects).has_value(), effect.variant == "cable B") << effect.variant;
+    }
+}
+
 TEST(Catalogue, ValuesReachTheBench) {
     EffectValues values = absent_effects();
     for (std::size_t k = 0; k < values.size(); ++k) {

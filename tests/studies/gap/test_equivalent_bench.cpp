@@ -44,6 +44,23 @@ TEST(EquivalentBench, OfADriveMovesAndPullsAsTheDriveDoes) {
     }
 }
 
+TEST(BenchEquivalence, DescribesRunsThatItWasNotFittedTo) {
+    const Recording recording = lumped_session({.motor_torque_sign = -1.0});
+    Recording first = recording;
+    first.runs.pop_back();
+    Recording second = recording;
+    second.runs.erase(second.runs.begin());
+    const BenchEquivalence equivalence = fit_equivalence(first);
+    EXPECT_EQ(equivalence.motor_torque_sign, -1.0);
+    const Recording bench = as_bench(second, equivalence);
+    EXPECT_EQ(bench.nominal->axial_stiffness_N, equivalence.bench.axial_stiffness_N);
+    EXPECT_EQ(bench.runs[0].values, equivalent_bench(recording, first).runs[1].values);
+}
+
+TEST(BenchEquivalence, OfABenchOfKnownGeometryIsRejected) {
+    EXPECT_THROW(fit_equivalence(driven_session()), InvalidInput);
+}
+
 TEST(EquivalentBench, OfABandWithoutItsTensionsIsRejected) {
     Recording recording = driven_session();
     recording.mode = BenchMode::capstan_band;

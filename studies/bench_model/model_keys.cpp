@@ -1,0 +1,32 @@
+#include "capstan/bench_model/model_keys.h"
+
+#include "capstan/config/config_effect_keys.h"
+#include "capstan/effects/sensor_faults.h"
+
+namespace capstan::bench_model {
+
+std::string key_with_unit(const std::string& name, const std::string& unit) {
+    return unit.empty() ? name : name + "_" + config::in_key_letters(unit);
+}
+
+std::string effect_key(const EffectNumbers& group) {
+    return config::in_key_letters(group.variant.empty() ? group.name : group.name + " " + group.variant);
+}
+
+const std::vector<FaultKey>& fault_keys() {
+    static const std::vector<FaultKey> all = [] {
+        constexpr std::string_view prefix = "sensor_";
+        using TypicalOf = SensorFault::TypicalOf;
+        std::vector<FaultKey> keys;
+        for (const SensorFault& fault : sensor_fault_catalogue()) {
+            const std::string name =
+                fault.name.starts_with(prefix) ? fault.name.substr(prefix.size()) : fault.name;
+            const std::string unit = fault.typical_of == TypicalOf::time_step ? "s" : fault.unit;
+            keys.push_back({name, unit, fault.typical_of == TypicalOf::channel_span, fault.value});
+        }
+        return keys;
+    }();
+    return all;
+}
+
+}  // namespace capstan::bench_model
