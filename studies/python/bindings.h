@@ -30,6 +30,7 @@ void bind_answers(py::module_& module);
 void bind_cables(py::module_& module);
 void bind_recordings(py::module_& module);
 void bind_diagnoses(py::module_& module);
+void bind_models(py::module_& module);
 void bind_studies(py::module_& module);
 void bind_observers(py::module_& module);
 

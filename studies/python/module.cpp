@@ -49,6 +49,7 @@ PYBIND11_MODULE(_core, module) {
     bind_cables(module);
     bind_recordings(module);
     bind_diagnoses(module);
+    bind_models(module);
     bind_studies(module);
     bind_observers(module);
     module.attr("version") = capstan::reports::program_version();

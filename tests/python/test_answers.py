@@ -125,6 +125,23 @@ class Answers(unittest.TestCase):
         self.assertEqual(error.problems, ["one", "two"])
 
 
+    def test_a_model_predicts_channels_and_makes_a_cable(self) -> None:
+        recording = cp.read_recording(RECORDINGS / "viscous-pair.csv")
+        model = self.found.model
+        judged = model.predict(recording)
+        run = recording.runs[0]
+        predicted = judged.samples(run.number, "load_torque")
+        nominal = judged.samples(run.number, "load_torque", of="nominal")
+        assert predicted is not None and nominal is not None
+        measured = run["load_torque"]
+        self.assertLess(np.std(predicted - measured), np.std(nominal - measured))
+        self.assertIsNone(judged.samples(run.number, "load_angle"))  # it drives the model
+        self.assertGreater(model.cable(pretension_N=30.0).places_m[-1], 0.1)
+        observer = model.observer(sensors=[("tension", 0.0), ("displacement", "load")], noise_N=0.2, pretension_N=30.0)
+        mean_N, low_N, high_N = observer.update(0.0, [0.0, 30.0, 0.0])
+        self.assertEqual(mean_N.shape, (13,))
+
+
 class Observers(unittest.TestCase):
     def test_a_sensor_corrects_the_tension_where_it_is(self) -> None:
         motor_m = 0.004 * np.sin(np.arange(400) / 40.0)

@@ -55,6 +55,18 @@ class SameBits(unittest.TestCase):
         shell("diagnose", log, "--fit", 1, "--hold", 2, "--corrected", self.folder / "model.toml", "--progress", "none")
         self.assertEqual(held_out.corrected_model(), (self.folder / "model.toml").read_text())
 
+    def test_a_model_and_what_it_predicts(self) -> None:
+        log = RECORDINGS / "viscous-pair.csv"
+        recording = cp.read_recording(log)
+        model = cp.diagnose(recording, fit_runs=[1]).model
+        shell("diagnose", log, "--fit", 1, "--save", self.folder / "shell.toml", "--progress", "none")
+        self.assertEqual(model.text(), (self.folder / "shell.toml").read_text())
+        model.save(self.folder / "python.toml")
+        for judge in (model, cp.read_model(self.folder / "python.toml")):
+            judged = judge.predict(recording, runs=[2])
+            words = ("simulate", log, "--model", self.folder / "shell.toml", "--runs", 2)
+            self.assertEqual(judged.json(), shell(*words, "--json"))
+
     def test_an_advice_about_what_a_diagnosis_found(self) -> None:
         found = cp.diagnose(RECORDINGS / "viscous-pair.csv")
         found.store(self.folder / "found.db", log=RECORDINGS / "viscous-pair.csv")

@@ -12,6 +12,7 @@ from capstan.answer import Answer
 from capstan.cable import Bend, Blocked, Cable, Moved, Path, Spring, Weight
 from capstan.diagnosis import Cause, Closed, Diagnosis, Experiment, FittedNumber, Interval, diagnose
 from capstan.errors import Error
+from capstan.model import Model, Prediction, read_model
 from capstan.observer import Observer
 from capstan.recording import Recording, Run, read_recording
 from capstan.study import Study, place
@@ -29,9 +30,11 @@ __all__ = [
     "Experiment",
     "FittedNumber",
     "Interval",
+    "Model",
     "Moved",
     "Observer",
     "Path",
+    "Prediction",
     "Recording",
     "Run",
     "Spring",
@@ -39,6 +42,7 @@ __all__ = [
     "Weight",
     "diagnose",
     "place",
+    "read_model",
     "read_recording",
 ]
 

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from capstan import _core
 from capstan.answer import Answer
+from capstan.model import Model
 from capstan.progress import Progress, shown
 from capstan.recording import FileName, Recording
 
@@ -98,6 +99,11 @@ class Diagnosis(Answer):
         if not experiments:
             return None
         return Experiment(experiments[0]["description"], experiments[0]["discrimination_probability"])
+
+    @property
+    def model(self) -> Model:
+        """What was found, as a model of the bench that predicts other runs."""
+        return Model(_core.Model.of(self._diagnosis))
 
     def corrected_model(self) -> str:
         """The corrected model of the cable as text, for `capstan study run CONFIG --truth FILE`."""
