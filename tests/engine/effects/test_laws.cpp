@@ -174,8 +174,8 @@ TEST(Catalogue, ABendOfOneCableIsNotReadAsABendOfTheOther) {
     BenchEffects effects;
     effects.of<LocalBend>().cables = BentCables::only_b;
     for (const Effect& effect : effect_catalogue()) {
-        if (effect.name == "local_bend")
-            EXPECT_EQ(effect.values_in(effects).has_value(), effect.variant == "cable B") << effect.variant;
+        if (effect.name != "local_bend") continue;
+        EXPECT_EQ(effect.values_in(effects).has_value(), effect.variant == "cable B") << effect.variant;
     }
 }
 
