@@ -57,11 +57,11 @@ class Documentation(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
 
 
+@unittest.skipIf("LD_PRELOAD" in os.environ, "the checkers' interpreter has no sanitizer")
 @unittest.skipUnless(shutil.which("mypy") and shutil.which("stubtest"), "mypy is missing")
 class Types(unittest.TestCase):
     def check(self, *words: str) -> None:
         environment = {**os.environ, "MYPYPATH": os.environ["PYTHONPATH"], "MYPY_CACHE_DIR": self.cache}
-        environment.pop("LD_PRELOAD", None)
         done = subprocess.run(words, capture_output=True, text=True, check=False, env=environment, cwd=self.cache)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
