@@ -184,7 +184,10 @@ py::tuple update(Observer& observer, const py::handle& time_s, const py::handle&
 void bind_observers(py::module_& module) {
     py::class_<Observer>(module, "Observer")
         .def(py::init(&make_observer))
-        .def("update", &update)
+        .def(
+            "update", &update, py::arg("time_s"), py::arg("readings"),
+            "The mean and the limits of the 95% band at every node [N], after one more sample. `readings`: how much "
+            "cable the motor has reeled in [m], then one of each sensor [N or m].")
         .def_property_readonly("slack_members", [](const Observer& o) { return o.report().slack; })
         .def_property_readonly("unverified_members", [](const Observer& o) { return o.report().unverified; });
 }

@@ -126,22 +126,32 @@ reports::Answer placed_at_instants(const ReadConfig& config, const PlacementOpti
 }
 
 // Whether the advice changes where the worlds lie about what a diagnosis found.
-reports::Answer placed_about(const PythonDiagnosis& found, ReadConfig config, const TableOptions& options) {
+reports::Answer placed_about(const DiagnosedWorld& found, ReadConfig config, const TableOptions& options) {
     if (!config.plan.uncertainty.is_stated)
         throw InvalidInput({"world: needs a configuration with [uncertainty], whose worlds it changes"});
     config.plan.truth = {};
     config::require_runnable(config);
     const WorldAnswer nominal = run_worlds(config.plan, options);
-    const auto& split = found.runs.split;
-    const DiagnosedWorld world = world_of(answers::diagnosis_record(split.diagnosed, split.diagnosis));
-    config.plan.truth = world.truth;
-    config.plan.uncertainty.truth_probability = world.probability;
+    config.plan.truth = found.truth;
+    config.plan.uncertainty.truth_probability = found.probability;
     config::require_runnable(config);
     return answers::world_truth_answer(config.plan, nominal, run_worlds(config.plan, options));
 }
 
+// What a diagnosis says of the worlds; a warning names what it cannot say.
+std::optional<DiagnosedWorld> world_about(const std::shared_ptr<PythonDiagnosis>& found) {
+    if (found == nullptr) return {};
+    const auto& split = found->runs.split;
+    DiagnosedWorld world = world_of(answers::diagnosis_record(split.diagnosed, split.diagnosis));
+    for (const std::string& cause : world.left_out) {
+        const std::string words = cause + " is not of the cable and is left out.";
+        if (PyErr_WarnEx(PyExc_UserWarning, words.c_str(), 3) != 0) throw py::error_already_set();
+    }
+    return world;
+}
+
 std::shared_ptr<reports::Answer> place(const ReadConfig& config,
-                                       const std::shared_ptr<PythonDiagnosis>& world,
+                                       const std::shared_ptr<PythonDiagnosis>& found,
                                        const std::optional<std::string>& noise, const py::handle& runners_up,
                                        const py::handle& resolve_to_N, const py::handle& seed,
                                        const py::handle& repetitions, const py::handle& jobs,
@@ -161,9 +171,10 @@ std::shared_ptr<reports::Answer> place(const ReadConfig& config,
     if (!resolve_to_N.is_none()) options.resolve_to_N = number_of(resolve_to_N, "resolve_to_N");
     if (options.resolve_to_N && !(*options.resolve_to_N >= 1e-6 && *options.resolve_to_N <= 1e6))
         throw InvalidInput({"resolve_to_N: must be 1e-6 to 1e6 N"});
+    const std::optional<DiagnosedWorld> world = world_about(found);
     run_long_call(on_progress, [=](CallWatch& watch) mutable {
         options.on_progress = [&](const std::string& activity) { watch.tell(activity, 0.0); };
-        if (world != nullptr) {
+        if (world) {
             *answer = placed_about(*world, asked, table_options(options.jobs, watch));
         } else if (of_worlds) {
             config::require_runnable(asked);

@@ -55,7 +55,7 @@ class Answers(unittest.TestCase):
         self.assertEqual(json.loads(answer.json()), answer.values)
         self.assertIn("|", answer.markdown())
         self.assertIn(",", answer.csv())
-        self.assertTrue(answer.text())
+        self.assertEqual(str(answer), answer.text())
 
     def test_a_view_is_a_table_of_pandas(self) -> None:
         try:
@@ -138,7 +138,7 @@ class Answers(unittest.TestCase):
         self.assertIsNone(judged.samples(run.number, "load_angle"))  # it drives the model
         self.assertGreater(model.cable(pretension_N=30.0).places_m[-1], 0.1)
         observer = model.observer(sensors=[("tension", 0.0), ("displacement", "load")], noise_N=0.2, pretension_N=30.0)
-        mean_N, low_N, high_N = observer.update(0.0, [0.0, 30.0, 0.0])
+        mean_N, low_N, high_N = observer.update(time_s=0.0, readings=[0.0, 30.0, 0.0])
         self.assertEqual(mean_N.shape, (13,))
 
 

@@ -10,7 +10,8 @@ from capstan import _core
 class Answer:
     """An answer in every form in which the program `capstan` prints it, with the same bits.
 
-    `repr` is the answer in a sentence; a notebook shows the page of the report with its tables and figures.
+    `repr` is the answer in a sentence, `print` shows what the terminal shows, and a notebook the page of the report with
+    its tables and figures.
     """
 
     def __init__(self, answer: _core.Answer) -> None:
@@ -54,6 +55,9 @@ class Answer:
 
     def __repr__(self) -> str:
         return f"{self._answer.kind}: {self.title}\n{self.headline}"
+
+    def __str__(self) -> str:
+        return self.text()
 
     def _repr_html_(self) -> str:
         page = html.escape(self.html(), quote=True)
