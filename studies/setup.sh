@@ -6,10 +6,12 @@ build_packages=(
     librandom123-dev libhwy-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev
     zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libmatio-dev libhdf5-dev libminizip-dev
     libexpat1-dev nodejs npm
+    pybind11-dev python3-dev python3-numpy # the Python module; CAPSTAN_PYTHON=OFF builds without it
 )
 test_packages=(
     libgtest-dev libgmock-dev libbenchmark-dev liblapack-dev sqlite3 python3 chromium
     python3-rosbag python3-sensor-msgs python3-scipy python3-h5py python3-openpyxl lz4 zstd # they write the logs that the tests read
+    python3-pandas mypy doxygen # of the tests of the Python module and of the library's reference
 )
 # For the test on a Slurm of its own, which is skipped without them.
 slurm_packages=(slurmctld slurmd slurm-client munge)
@@ -22,7 +24,7 @@ check_packages=(clang-tidy cppcheck gcovr)
 # Programs count however they were installed; a package that only brings programs is missing only without them.
 package_is_there() {
     case $1 in
-        g++ | cmake | ccache | npm | sqlite3 | python3 | chromium | lz4 | zstd) command -v "$1" >/dev/null && return ;;
+        g++ | cmake | ccache | npm | sqlite3 | python3 | chromium | lz4 | zstd | mypy | doxygen) command -v "$1" >/dev/null && return ;;
         ninja-build) command -v ninja >/dev/null && return ;;
         nodejs) command -v node >/dev/null && return ;;
         clang) command -v clang++ >/dev/null && return ;;

@@ -142,4 +142,13 @@ void add_comparison(reports::Answer& answer, const ModelComparison& comparison) 
     answer.drawn.push_back(error_table(comparison));
 }
 
+reports::Answer diagnosed_runs_answer(const model_comparison::DiagnosedRuns& diagnosed) {
+    const gap::Diagnosis& diagnosis = diagnosed.split.diagnosis;
+    reports::Answer answer = diagnosis_answer(diagnosed.split.diagnosed, diagnosis);
+    add_left_over(answer, diagnosed.left_over, diagnosed.split.recorded);
+    add_comparison(answer, diagnosed.comparison);
+    if (diagnosis.cut_short) answer.values["cut_short"] = true;
+    return answer;
+}
+
 }  // namespace capstan::answers

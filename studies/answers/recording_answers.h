@@ -14,7 +14,7 @@
 #include "capstan/gap/diagnosis.h"
 #include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"
-#include "capstan/model_comparison/model_comparison.h"
+#include "capstan/model_comparison/diagnosed_runs.h"
 #include "capstan/recording/recording.h"
 #include "capstan/reports/answer.h"
 #include "capstan/storage/diagnosis_records.h"
@@ -47,6 +47,12 @@ void add_left_over(reports::Answer& answer, const std::vector<model_comparison::
 /// Adds to a diagnosis the errors of its model, and of simple models, on the runs that each was fitted to and
 /// on runs held out.
 void add_comparison(reports::Answer& answer, const model_comparison::ModelComparison& comparison);
+
+/// All of that: the answer of `capstan diagnose`.
+reports::Answer diagnosed_runs_answer(const model_comparison::DiagnosedRuns& diagnosed);
+
+/// The cable as a diagnosis corrects it, as a file for `capstan study run CONFIG --truth FILE`.
+std::string corrected_model_text(const Recording& recording, const gap::Diagnosis& diagnosis);
 
 /// Measured channels, the model without and with the cause, residuals and loops.
 std::vector<reports::Table> diagnosis_curves(const Recording& recording, const gap::Diagnosis& diagnosis);

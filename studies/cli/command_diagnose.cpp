@@ -8,10 +8,8 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
-#include "capstan/config/config_truth.h"
 #include "capstan/export/series.h"
-#include "capstan/gap/diagnosis.h"
-#include "capstan/model_comparison/model_comparison.h"
+#include "capstan/model_comparison/diagnosed_runs.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/driven_inputs.h"
@@ -23,121 +21,19 @@ namespace capstan::cli {
 
 namespace {
 
-// Where a fitted cause stands in the engine's catalogue; past the end for wrong numbers and sensors. A study
-// has one cable: a bend of either of two is its own.
-std::size_t catalogue_index(const gap::FittedCause& cause) {
-    const std::string variant = cause.variant == "cable B" ? "cable A" : cause.variant;
-    std::size_t index = 0;
-    while (index < effect_catalogue().size() &&
-           (effect_catalogue()[index].name != cause.effect || effect_catalogue()[index].variant != variant))
-        ++index;
-    return index;
-}
-
-std::vector<double> values_of(const Effect& effect, const gap::FittedCause& cause) {
-    std::vector<double> values = effect.absent;
-    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-        for (const gap::FittedNumber& number : cause.numbers) {
-            if (number.name == effect.parameters[k].name) values[k] = number.value;
-        }
-    }
-    return values;
-}
-
-std::string corrected_model_text(const Recording& recording, const gap::Diagnosis& diagnosis,
-                                 const std::string& verdict) {
-    std::vector<std::string> comments = {
-        fmt::format("The model of {} as `capstan diagnose` corrects it.", recording.name), verdict,
-        "For `capstan study run CONFIG --truth THIS_FILE`: ratios are in parts of what CONFIG says."};
-    TrueCable truth{diagnosis.friction_ratio, diagnosis.stiffness_ratio, diagnosis.pretension_ratio,
-                    absent_effects()};
-    for (const gap::FittedCause& cause : diagnosis.causes) {
-        const std::size_t index = catalogue_index(cause);
-        if (index < effect_catalogue().size() && effect_catalogue()[index].changes_the_cable) {
-            truth.effects[index] = values_of(effect_catalogue()[index], cause);
-        } else if (!cause.numbers.empty()) {
-            comments.push_back(fmt::format("Not in here, for it is not of the cable: {}{}{}.", cause.effect,
-                                           cause.variant.empty() ? "" : ", ", cause.variant));
-        }
-    }
-    return config::truth_text(truth, comments);
-}
-
 using gap::Diagnosis;
 
-// The runs to fit and to judge, as --fit and --hold say; all others where one of them is missing.
-model_comparison::RunSplit asked_split(const Invocation& invocation, const Recording& recording) {
-    for (const char* other : {"runs", "calibrate-on"}) {
-        if (invocation.has(other))
-            throw UsageError(
-                fmt::format("--{} does not go with --fit and --hold, which choose the runs", other));
-    }
-    model_comparison::RunSplit split;
-    if (invocation.has("fit")) split.fit = run_numbers(invocation.text("fit"));
-    if (invocation.has("hold")) split.hold = run_numbers(invocation.text("hold"));
-    for (const int number : split.hold) {
-        if (std::find(split.fit.begin(), split.fit.end(), number) != split.fit.end())
-            throw UsageError(fmt::format("run {} is both in --fit and in --hold", number));
-    }
-    const auto all_but = [&](const std::vector<int>& listed) {
-        std::vector<int> others;
-        for (const RecordedRun& run : recording.runs)
-            if (std::find(listed.begin(), listed.end(), run.number) == listed.end())
-                others.push_back(run.number);
-        return others;
-    };
-    if (!invocation.has("fit")) split.fit = all_but(split.hold);
-    if (!invocation.has("hold")) split.hold = all_but(split.fit);
-    if (split.fit.empty()) throw UsageError("--hold leaves no run to fit");
-    return split;
-}
-
-bool has_split(const Invocation& invocation) {
-    return invocation.has("fit") || invocation.has("hold");
-}
-
-// The diagnosis of the fitted runs; without --fit and --hold of all runs or those of --runs.
-model_comparison::DiagnosedSplit diagnosed_runs(const Invocation& invocation, const Recording& recorded,
-                                                const gap::DiagnosisOptions& options) {
-    if (has_split(invocation))
-        return model_comparison::diagnose_split(recorded, asked_split(invocation, recorded), options);
-    model_comparison::RunSplit all;
-    if (invocation.has("runs")) all.fit = run_numbers(invocation.text("runs"));
-    for (const RecordedRun& run : recorded.runs)
-        if (!invocation.has("runs")) all.fit.push_back(run.number);
-    return model_comparison::diagnose_split(
-        recorded, all, options,
-        invocation.has("calibrate-on") ? run_numbers(invocation.text("calibrate-on")) : std::vector<int>{});
-}
-
-// What the corrected model leaves of the runs that were diagnosed.
-std::vector<model_comparison::LeftOver> left_over(const model_comparison::DiagnosedSplit& diagnosed) {
-    const Recording fitted = model_comparison::runs_of(diagnosed.recorded, diagnosed.split.fit);
-    return model_comparison::fit_left_over(
-        fitted,
-        model_comparison::in_recorded_channels(fitted, diagnosed.diagnosed, diagnosed.diagnosis.gap.leading));
-}
-
-// The bench's models on runs held out, with --baselines beside the simple models.
-model_comparison::ModelComparison compared(const Invocation& invocation,
-                                           const model_comparison::DiagnosedSplit& diagnosed,
-                                           const gap::DiagnosisOptions& options, int& diagnoses_done) {
-    using model_comparison::Compared;
-    model_comparison::ModelComparison comparison;
-    if (has_split(invocation)) {
-        model_comparison::add_split(
-            comparison, diagnosed,
-            invocation.has("baselines") ? Compared::with_simple_models : Compared::bench_alone, options);
-    } else if (invocation.has("baselines")) {
-        for (const model_comparison::RunSplit& split :
-             model_comparison::alternating_splits(diagnosed.recorded)) {
-            ++diagnoses_done;
-            model_comparison::add_split(comparison,
-                                        model_comparison::diagnose_split(diagnosed.recorded, split, options),
-                                        Compared::with_simple_models, options);
-        }
-    }
-    return comparison;
+// Which runs are fitted, judged and compared, as the options say.
+model_comparison::DiagnosisRequest asked_runs(const Invocation& invocation) {
+    model_comparison::DiagnosisRequest request;
+    const std::pair<const char*, std::vector<int>*> lists[] = {{"runs", &request.runs},
+                                                               {"calibrate-on", &request.calibrate_on},
+                                                               {"fit", &request.fit},
+                                                               {"hold", &request.hold}};
+    for (const auto& [option, numbers] : lists)
+        if (invocation.has(option)) *numbers = run_numbers(invocation.text(option));
+    request.with_simple_models = invocation.has("baselines");
+    return request;
 }
 
 void store(const Invocation& invocation, const Recording& recording, const Diagnosis& diagnosis) {
@@ -186,37 +82,26 @@ ExitCode run_diagnose(const Invocation& invocation) {
     options.threads = static_cast<int>(invocation.integer("jobs"));
     if (invocation.has("time-limit")) options.time_limit_s = invocation.number("time-limit");
     ProgressDisplay display(progress_mode(invocation.text("progress")));
-    // Without a choice of runs, the comparison diagnoses two halves of the runs as well.
-    const int diagnoses = invocation.has("baselines") && !has_split(invocation)
-                              ? 1 + static_cast<int>(model_comparison::alternating_splits(recorded).size())
-                              : 1;
-    int diagnoses_done = 0;
     options.on_progress = [&](const std::string& activity, double fraction) {
         ProgressEvent event;
         event.activity = activity;
-        event.fraction = (diagnoses_done + fraction) / diagnoses;
+        event.fraction = fraction;
         display.show(event);
     };
-    const model_comparison::DiagnosedSplit diagnosed = diagnosed_runs(invocation, recorded, options);
-    const Recording& recording = diagnosed.diagnosed;
-    const Diagnosis& diagnosis = diagnosed.diagnosis;
-    const model_comparison::ModelComparison comparison =
-        compared(invocation, diagnosed, options, diagnoses_done);
+    const model_comparison::DiagnosedRuns diagnosed =
+        model_comparison::diagnose_runs(recorded, asked_runs(invocation), options);
+    const Recording& recording = diagnosed.split.diagnosed;
+    const Diagnosis& diagnosis = diagnosed.split.diagnosis;
     display.end_line();
     if (diagnosis.cut_short)
         say("The time limit ended the search: further causes were not tried, and the answer is the best so far.");
     if (invocation.has("db")) store(invocation, recording, diagnosis);
     if (invocation.has("corrected"))
-        write_file(invocation.text("corrected"),
-                   corrected_model_text(recording, diagnosis, answers::verdict_sentence(diagnosis)));
+        write_file(invocation.text("corrected"), answers::corrected_model_text(recording, diagnosis));
     if (invocation.has("prediction")) write_prediction(invocation.text("prediction"), recording, diagnosis);
-    const std::vector<model_comparison::LeftOver> left = left_over(diagnosed);
-    if (invocation.has("save")) save_model(invocation.text("save"), diagnosed, left, options);
-    reports::Answer answer = answers::diagnosis_answer(recording, diagnosis);
-    answers::add_left_over(answer, left, diagnosed.recorded);
-    answers::add_comparison(answer, comparison);
-    if (diagnosis.cut_short) answer.values["cut_short"] = true;
-    deliver_answer(invocation, answer);
+    if (invocation.has("save"))
+        save_model(invocation.text("save"), diagnosed.split, diagnosed.left_over, options);
+    deliver_answer(invocation, answers::diagnosed_runs_answer(diagnosed));
     return ExitCode::success;
 }
 

@@ -3,11 +3,22 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "capstan/platform/stop_request.h"
+
 namespace capstan {
+
+thread_local const std::atomic<bool>* StopScope::stop_ = nullptr;
 
 void parallel_for_each_index(int count, int jobs, const std::function<void(int)>& body) {
     oneapi::tbb::task_arena arena(jobs > 0 ? jobs : oneapi::tbb::task_arena::automatic);
-    arena.execute([&] { oneapi::tbb::parallel_for(0, count, body); });
+    const std::atomic<bool>* const stop = StopScope::flag();
+    arena.execute([&] {
+        oneapi::tbb::parallel_for(0, count, [&](int index) {
+            const StopScope same_work(stop);  // also where another thread runs the index
+            throw_if_stopped();
+            body(index);
+        });
+    });
 }
 
 }  // namespace capstan

@@ -38,7 +38,7 @@ class HeldOut(CapstanTest):
             self.assertIn(part, text)
 
     def test_runs_that_cannot_be_split_are_rejected(self):
-        self.assertIn("run 1 is both in --fit and in --hold", self.diagnose("--fit", "1,2", "--hold", "1", expect=2).stderr)
+        self.assertIn("run 1 is both in fit and in hold", self.diagnose("--fit", "1,2", "--hold", "1", expect=2).stderr)
         self.assertIn("there is no run 7", self.diagnose("--fit", "1", "--hold", "7", expect=2).stderr)
         self.assertIn("leaves no run to fit", self.diagnose("--hold", "1,2", expect=2).stderr)
         self.assertIn("does not go with", self.diagnose("--fit", "1", "--runs", "1", expect=2).stderr)

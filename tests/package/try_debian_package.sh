@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the Debian package, unpacks it and runs what is in it: try_debian_package.sh BUILD_FOLDER WORK_FOLDER
+# Makes the Debian packages, unpacks them and uses what is in them: try_debian_package.sh BUILD_FOLDER WORK_FOLDER
 # Exit code 77, ctest's "skipped", where the tools of Debian are missing.
 set -euo pipefail
 build=$1
@@ -14,14 +14,33 @@ rm -rf "$work"
 mkdir -p "$work"
 
 cpack --config "$build/CPackConfig.cmake" -B "$work" >"$work/messages" || { cat "$work/messages" >&2; exit 1; }
-package=$(echo "$work"/capstan_*.deb)
-dpkg-deb --info "$package"
-depends=$(dpkg-deb --field "$package" Depends)
-for library in libc6 libsqlite3-0 libtbb12 libcpp-httplib0; do
-    [[ $depends == *$library* ]] || { echo "The package does not say that it needs $library: $depends" >&2; exit 1; }
+for name in capstan libcapstan-dev python3-capstan; do
+    package=$(echo "$work/${name}"_*.deb)
+    if [[ $name == python3-capstan && ! -e $package ]]; then continue; fi  # its packages were not there
+    dpkg-deb --info "$package"
+    dpkg-deb --extract "$package" "$work/$name"
+    test -s "$work/$name/usr/share/doc/$name/copyright"
 done
-dpkg-deb --extract "$package" "$work/root"
-"$work/root/usr/bin/capstan" --version
-"$work/root/usr/bin/capstan" study run "$work/root/usr/share/capstan/configs/quick.toml" --db "$work/quick.db" \
+
+needs() {  # package, what it must say that it needs
+    local depends library
+    depends=$(dpkg-deb --field "$(echo "$work/$1"_*.deb)" Depends)
+    for library in "${@:2}"; do
+        [[ $depends == *$library* ]] || { echo "$1 does not say that it needs $library: $depends" >&2; exit 1; }
+    done
+}
+needs capstan libc6 libsqlite3-0 libtbb12 libcpp-httplib0
+needs libcapstan-dev libeigen3-dev libhwy-dev libtbb-dev
+test -s "$work/libcapstan-dev/usr/include/capstan/gap/diagnosis.h"
+test ! -e "$work/capstan/usr/include"
+
+root=$work/capstan
+"$root/usr/bin/capstan" --version
+"$root/usr/bin/capstan" study run "$root/usr/share/capstan/configs/quick.toml" --db "$work/quick.db" \
     --progress none -o "$work/advice"
 head -5 "$work/advice"
+if [[ -d $work/python3-capstan ]]; then
+    needs python3-capstan "python3 (<<" python3-numpy libtbb12
+    PYTHONPATH=$work/python3-capstan/usr/lib/python3/dist-packages /usr/bin/python3 -B \
+        "$(dirname "${BASH_SOURCE[0]}")/use_python_package.py" "$root/usr/share/capstan/configs/recordings/viscous-pair.csv"
+fi

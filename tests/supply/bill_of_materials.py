@@ -37,9 +37,15 @@ def shared_libraries(program):
     return paths
 
 
+def python_modules(build):
+    """The extension of the Python package, where it is built."""
+    return sorted(build.glob("python/capstan/_core.*.so"))
+
+
 def headers_read(build):
     """Paths outside the source and build folders that the compiler read for what the program is linked of."""
-    inputs = set(output_of("ninja", "-t", "inputs", "capstan", cwd=build).split())
+    targets = ["capstan", *(str(module.relative_to(build)) for module in python_modules(build))]
+    inputs = set(output_of("ninja", "-t", "inputs", *targets, cwd=build).split())
     headers = set()
     ours = (str(source_folder) + "/", str(build) + "/")
     taken = False
@@ -151,7 +157,7 @@ def npm_entries():
 def bill(build):
     program = build / "capstan"
     version = output_of(program, "--version").split()[1]
-    linked = debian_packages(shared_libraries(program))
+    linked = debian_packages([path for part in (program, *python_modules(build)) for path in shared_libraries(part)])
     compiled = debian_packages(headers_read(build))
     packages = debian_entries(set(linked) | set(compiled), linked) + npm_entries()
     ours = {"SPDXID": "SPDXRef-capstan", "name": "capstan", "versionInfo": version, "downloadLocation": "NOASSERTION",

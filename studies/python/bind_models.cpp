@@ -1,0 +1,106 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "capstan/answers/recording_answers.h"
+#include "capstan/bench_model/model_file.h"
+#include "capstan/bench_model/model_prediction.h"
+#include "capstan/cable/conduit.h"
+#include "capstan/reports/page_frame.h"
+#include "long_call.h"
+
+namespace capstan::python {
+
+namespace {
+
+using bench_model::BenchModel;
+
+struct PythonPrediction {
+    BenchModel model;
+    Recording recording;
+    bench_model::ModelPrediction prediction;
+};
+
+BenchModel model_of(const PythonDiagnosis& found) {
+    const py::gil_scoped_release others_run;
+    const auto& split = found.runs.split;
+    const bench_model::ModelOrigin origin{split.recorded.name, split.split.fit, reports::program_version(),
+                                          answers::verdict_sentence(split.diagnosis)};
+    return bench_model::model_of(split, found.runs.left_over, origin, {});
+}
+
+// What the cable of the model is made of: length, bends, stiffness, both frictions, pretension in parts of
+// what is stated.
+py::tuple cable_numbers(const BenchModel& model) {
+    const NominalBench& bench = model.description.bench;
+    py::list bends;
+    double at_m = 0.0;
+    for (const CurvaturePiece& piece : bench.curvature) {
+        if (piece.bend_radius_m != straight)
+            bends.append(py::make_tuple(piece.length_m / piece.bend_radius_m / rad_per_degree,
+                                        piece.bend_radius_m, at_m));
+        at_m += piece.length_m;
+    }
+    return py::make_tuple(at_m, bends, bench.axial_stiffness_N * model.stiffness_ratio.value,
+                          bench.dynamic_friction * model.friction_ratio.value,
+                          bench.static_friction * model.friction_ratio.value, model.pretension_ratio.value);
+}
+
+std::shared_ptr<PythonPrediction> predict(const BenchModel& model,
+                                          const std::shared_ptr<PythonRecording>& held,
+                                          const std::vector<int>& runs, const py::handle& jobs) {
+    auto predicted = std::make_shared<PythonPrediction>();
+    const int threads = jobs_of(jobs);
+    run_long_call(py::none(), [=](CallWatch&) {
+        predicted->model = model;
+        predicted->recording =
+            runs.empty() ? held->recording : model_comparison::runs_of(held->recording, runs);
+        predicted->prediction = bench_model::predict(model, predicted->recording, threads);
+    });
+    return predicted;
+}
+
+std::shared_ptr<reports::Answer> prediction_answer(const PythonPrediction& predicted) {
+    const py::gil_scoped_release others_run;
+    return std::make_shared<reports::Answer>(
+        answers::model_answer(predicted.recording, predicted.model, predicted.prediction));
+}
+
+// None where the model says nothing of the channel in this run.
+py::object predicted_samples(const py::object& self, int number, const std::string& channel,
+                             const std::string& of) {
+    const auto& held = self.cast<const PythonPrediction&>();
+    const auto index = held.recording.channel(channel);
+    if (!index) throw InvalidInput({held.recording.name + ": there is no channel '" + channel + "'"});
+    const model_comparison::Predictions& values = of == "nominal"    ? held.prediction.nominal
+                                                  : of == "with_law" ? held.prediction.with_law
+                                                                     : held.prediction.model;
+    for (std::size_t run = 0; run < held.recording.runs.size(); ++run) {
+        if (held.recording.runs[run].number != number) continue;
+        const std::vector<double>& samples = values.values[run][static_cast<std::size_t>(*index)];
+        if (samples.empty()) return py::none();
+        return view_of(samples, self);
+    }
+    throw InvalidInput({held.recording.name + ": there is no run " + std::to_string(number)});
+}
+
+}  // namespace
+
+void bind_models(py::module_& module) {
+    py::class_<PythonPrediction, std::shared_ptr<PythonPrediction>>(module, "Prediction")
+        .def("answer", &prediction_answer)
+        .def("samples", &predicted_samples);
+    py::class_<BenchModel>(module, "Model")
+        .def_static("of", &model_of)
+        .def_static("read", &bench_model::read_model)
+        .def("text", &bench_model::model_text)
+        .def("save", [](const BenchModel& model,
+                        const std::filesystem::path& file) { bench_model::write_model(file, model); })
+        .def("cable_numbers", &cable_numbers)
+        .def("predict", &predict);
+}
+
+}  // namespace capstan::python

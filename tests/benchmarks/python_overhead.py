@@ -1,0 +1,96 @@
+"""What a call from Python costs beyond the same call from C++, how two threads compare with one, and how long Ctrl-C
+takes. Run by hand: PYTHONPATH=build/python /usr/bin/python3 tests/benchmarks/python_overhead.py build"""
+
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+
+import capstan as cp
+
+ROUNDS = 5
+
+
+def least_s(times, work):
+    best = math.inf
+    for _ in range(times):
+        start = time.perf_counter()
+        work()
+        best = min(best, time.perf_counter() - start)
+    return best
+
+
+def batch():
+    cable = cp.Cable(length_m=2.0, bends=[cp.Bend(90, 0.08, 0.6)], axial_stiffness_N=9e3, friction=0.12, pretension_N=20.0)
+    motor_m = 0.01 * np.sin(0.02 * np.arange(1000))
+    friction = 0.05 + 0.001 * np.arange(128)
+    return lambda: cable.simulate(motor_m=motor_m, load=cp.Spring(3000.0), friction=friction, jobs=1)
+
+
+def update_s():
+    cable = cp.Cable(length_m=1.2, bends=[cp.Bend(180, 0.1, 0.3)], axial_stiffness_N=9e3, friction=0.1, pretension_N=20.0, segments=12)
+    samples = [(float(k), [0.002 * math.sin(0.01 * k), 20.0 + 5.0 * math.sin(0.01 * k)]) for k in range(2000)]
+
+    def work():
+        update = cp.Observer(cable, sensors=[("tension", 0.0)], noise_N=0.2).update
+        for time_s, readings in samples:
+            update(time_s, readings)
+
+    return least_s(15, work) / len(samples)
+
+
+def both_threads_s(work):
+    def pair():
+        threads = [threading.Thread(target=work) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+
+    return least_s(3, pair)
+
+
+def interrupted_s(call):
+    """From the signal to the KeyboardInterrupt."""
+    sent = []
+
+    def interrupt():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Timer(1.0, interrupt).start()
+    try:
+        while True:
+            call()
+    except KeyboardInterrupt:
+        return time.perf_counter() - sent[0]
+
+
+def main(build):
+    work = batch()
+    pairs = []
+    for _ in range(ROUNDS):  # side by side, so that what else runs on the machine meets both
+        cpp = [float(s) for s in subprocess.run([f"{build}/tests/benchmarks/cable_calls"], capture_output=True, text=True, check=True).stdout.split()]
+        pairs.append((cpp, [least_s(15, work), update_s()]))
+    cpp, python = (tuple(min(pair[side][k] for pair in pairs) for k in (0, 1)) for side in (0, 1))
+    print(f"batch of 128 draws x 1000 times x 41 nodes, one thread: C++ {1e3 * cpp[0]:.1f} ms, Python {1e3 * python[0]:.1f} ms, {100 * (python[0] / cpp[0] - 1):+.1f}%")
+    print(f"observer update, 12 segments, 32 members: C++ {1e6 * cpp[1]:.2f} us, Python {1e6 * python[1]:.2f} us, {1e6 * (python[1] - cpp[1]):+.2f} us")
+    many = lambda: [work() for _ in range(20)]  # a second: threads that begin may share a processor for a moment
+    one, two = least_s(3, many), both_threads_s(many)
+    print(f"two threads in Python: {2 * one / two:.2f} times one ({os.cpu_count()} processors)")
+    for name, call in (
+        ("diagnose", lambda: cp.diagnose("configs/recordings/viscous-pair.csv")),
+        ("place", lambda: cp.place("configs/wrist-exosuit.toml", repetitions=10000)),
+        ("place at instants", lambda: cp.place("configs/paper.toml", repetitions=10000)),
+        ("simulate", work),
+    ):
+        print(f"Ctrl-C in {name}: {1e3 * interrupted_s(call):.0f} ms")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else "build")

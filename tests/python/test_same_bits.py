@@ -1,0 +1,95 @@
+"""What Python gets is what the shell prints, to the bit."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import capstan as cp
+from surroundings import CONFIGS, RECORDINGS, shell
+
+
+class SameBits(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_a_study_and_everything_that_it_stores(self) -> None:
+        study = cp.Study(CONFIGS / "quick.toml").run(db=self.folder / "python.db", repetitions=40)
+        words = ("study", "run", CONFIGS / "quick.toml", "--repetitions", 40, "--progress", "none", "--json")
+        self.assertEqual(study.recommend().json(), shell(*words, "--db", self.folder / "shell.db"))
+        for view in ("v_best_method", "v_error_by_layout", "v_recommendation"):
+            sql = f"SELECT * FROM {view}"
+            rows = [shell("query", sql, "--format", "csv", "--db", self.folder / name) for name in ("python.db", "shell.db")]
+            self.assertEqual(*rows)
+
+    def test_a_sweep(self) -> None:
+        config = self.folder / "sweep.toml"
+        config.write_text((CONFIGS / "quick.toml").read_text() + "\n[sweep]\nfriction_ratio = [0.5, 1]\n")
+        study = cp.Study(config).run(db=self.folder / "python.db", repetitions=10)
+        shell("study", "run", config, "--repetitions", 10, "--progress", "none", "--db", self.folder / "shell.db")
+        self.assertEqual(len(study.study_ids), 2)
+        with self.assertRaises(cp.Error):
+            study.recommend()
+        for study_id in study.study_ids:
+            printed = shell("recommend", study_id, "--db", self.folder / "shell.db", "--json")
+            self.assertEqual(study.recommend(study_id).json(), printed)
+
+    def test_a_study_over_worlds(self) -> None:
+        text = (CONFIGS / "wrist-exosuit.toml").read_text()
+        study = cp.Study(text).run(db=self.folder / "python.db", repetitions=20)
+        words = ("study", "run", CONFIGS / "wrist-exosuit.toml", "--repetitions", 20, "--progress", "none", "--json")
+        self.assertEqual(study.recommend().json(), shell(*words, "--db", self.folder / "shell.db"))
+
+    def test_a_search_of_all_layouts(self) -> None:
+        answer = cp.place(CONFIGS / "quick.toml", repetitions=40, runners_up=5)
+        words = ("place", CONFIGS / "quick.toml", "--repetitions", 40, "--runners-up", 5)
+        self.assertEqual(answer.json(), shell(*words, "--json"))
+        self.assertEqual(answer.text(), shell(*words))
+
+    def test_a_diagnosis_of_all_runs_and_of_some(self) -> None:
+        log = RECORDINGS / "viscous-pair.csv"
+        self.assertEqual(cp.diagnose(log).json(), shell("diagnose", log, "--json", "--progress", "none"))
+        held_out = cp.diagnose(cp.read_recording(log), fit_runs=[1], hold_runs=[2])
+        self.assertEqual(held_out.json(), shell("diagnose", log, "--fit", 1, "--hold", 2, "--json", "--progress", "none"))
+        shell("diagnose", log, "--fit", 1, "--hold", 2, "--corrected", self.folder / "model.toml", "--progress", "none")
+        self.assertEqual(held_out.corrected_model(), (self.folder / "model.toml").read_text())
+
+    def test_a_model_and_what_it_predicts(self) -> None:
+        log = RECORDINGS / "viscous-pair.csv"
+        recording = cp.read_recording(log)
+        model = cp.diagnose(recording, fit_runs=[1]).model
+        shell("diagnose", log, "--fit", 1, "--save", self.folder / "shell.toml", "--progress", "none")
+        self.assertEqual(model.text(), (self.folder / "shell.toml").read_text())
+        model.save(self.folder / "python.toml")
+        for judge in (model, cp.read_model(self.folder / "python.toml")):
+            judged = judge.predict(recording, runs=[2])
+            words = ("simulate", log, "--model", self.folder / "shell.toml", "--runs", 2)
+            self.assertEqual(judged.json(), shell(*words, "--json"))
+
+    def test_an_advice_about_what_a_diagnosis_found(self) -> None:
+        found = cp.diagnose(RECORDINGS / "viscous-pair.csv")
+        found.store(self.folder / "found.db", log=RECORDINGS / "viscous-pair.csv")
+        config = self.folder / "short.toml"
+        text = (CONFIGS / "elbow-exosuit.toml").read_text()
+        config.write_text(text.replace("samples = 300", "samples = 40").replace("segments = 22", "segments = 8"))
+        answer = cp.place(config, world=found, repetitions=20)
+        words = ("place", config, "--from-diagnosis", 1, "--repetitions", 20)
+        self.assertEqual(answer.json(), shell(*words, "--db", self.folder / "found.db", "--progress", "none", "--json"))
+
+    def test_an_import(self) -> None:
+        log = self.folder / "log.csv"
+        log.write_bytes((RECORDINGS / "viscous-pair.csv").read_bytes())
+        mapping = self.folder / "import.toml"
+        shell("import", "--suggest", log, "--kind", "pull_pull", "-o", mapping)
+        imported = cp.read_recording(log, mapping=mapping)
+        shell("import", log, "--mapping", mapping, "-o", self.folder / "bench")
+        by_shell = cp.read_recording(self.folder / "bench")
+        self.assertEqual(imported.channels, by_shell.channels)
+        for run in by_shell.runs:
+            for channel in by_shell.channels:
+                self.assertEqual(run[channel].tobytes(), imported.run(run.number)[channel].tobytes())
+
+
+if __name__ == "__main__":
+    unittest.main()
