@@ -28,7 +28,7 @@ struct PositionTorque {
                  .parameters = {
                      {{.name = "slope", .unit = "N m/rad", .low = -10.0, .high = 10.0, .typical = 0.02},
                       &PositionTorque::slope_Nm_per_rad},
-                     {{.name = "curvature", .unit = "N m/rad^2", .low = -10.0, .high = 10.0, .typical = 0.02},
+                     {{.name = "curvature", .unit = "N m/rad2", .low = -10.0, .high = 10.0, .typical = 0.02},
                       &PositionTorque::curvature_Nm_per_rad2}}}};
     }
 };
