@@ -307,12 +307,8 @@ std::vector<double> OpenNumber::starts() const {
             for (int k = 0; k < tried && low + k <= high; ++k) starts.push_back(low + k);
             return starts;
         }
-        case Kind::step: {
-            if (low == high) return {1.0};
-            std::vector<double> starts{0.1};
-            while (starts.back() * 1.05 < 10.0) starts.push_back(starts.back() * 1.05);
-            return starts;
-        }
+        case Kind::step:
+            return {1.0};
         case Kind::place:
             return {0.1, 0.3, 0.5, 0.7, 0.9};
     }

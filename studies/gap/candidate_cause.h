@@ -19,7 +19,7 @@ struct OpenNumber {
         signed_size,  ///< the same with either sign
         shape,        ///< how it looks once it is there: the coordinate is a logarithm
         periods,      ///< how often in a turn: an integer, and the coordinate itself
-        step,         ///< a size that fits only when it is met closely
+        step,         ///< that of the lattice on which a coarse channel's values lie
         place,        ///< where along the cable: coordinate in parts of its length
     };
     std::string name;

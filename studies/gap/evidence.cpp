@@ -222,7 +222,6 @@ bool worth_a_further_cause(const ScoredFit& fit) {
 
 std::size_t open_numbers(const CauseFit& fit) {
     // Of a measured bench nothing is chosen freely.
-
     const auto floats_widely = [&](Eigen::Index number) {
         return fit.bench->numbers[static_cast<std::size_t>(number)].prior_std > nominal_log_std;
     };
