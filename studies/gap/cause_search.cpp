@@ -18,6 +18,11 @@ constexpr std::size_t max_fitted = 8;
 // The screening uses fewer segments and samples.
 constexpr int screening_segments = 24;
 constexpr int screening_stride_factor = 2;
+// A drive of unknown geometry is moved by two recorded channels. What is left of their noise moves it to and
+// fro, and friction remembers it: a search that skips samples misses that.
+int screening_stride(const Recording& recording, int stride) {
+    return (recording.nominal_is_fitted ? 1 : screening_stride_factor) * stride;
+}
 // Fits that a search usually makes; progress is stated in parts of it.
 constexpr double usual_fits = 30.0;
 
@@ -71,7 +76,7 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
     : options_(options),
       run_count_(recording.runs.size()),
       fine_(recording, {options.segments, options.stride}, options.threads),
-      coarse_(recording, {screening_segments, screening_stride_factor * options.stride}, options.threads),
+      coarse_(recording, {screening_segments, screening_stride(recording, options.stride)}, options.threads),
       evidence_(fine_.fitter.independent_samples()),
       described_{recording.nominal_is_fitted ? undescribed_bench(recording) : measured_bench(),
                  candidate_causes(recording)},
@@ -183,12 +188,18 @@ ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start,
 CauseSearch::Fits CauseSearch::finely_fitted(const Fits& coarse) {
     constexpr std::size_t max_fits = 4;
     Fits fine;
-    for (const ScoredFit& each : coarse) {
-        if (fine.size() >= max_fits && !has_effect(each, "none")) continue;
-        report("fitting " + in_words(each.fit.causes) + " finely");
+    for (auto each = coarse.begin(); each != coarse.end(); ++each) {
+        // The best of several starts with the same causes is enough.
+        const auto has_same_causes = [&](const ScoredFit& other) {
+            return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
+                                       each->fit.causes.begin(), each->fit.causes.end());
+        };
+        if (std::any_of(coarse.begin(), each, has_same_causes)) continue;
+        if (fine.size() >= max_fits && !has_effect(*each, "none")) continue;
+        report("fitting " + in_words(each->fit.causes) + " finely");
         CauseFitter::FitOptions options;
         options.any_size = false;
-        fine.push_back(scored(fine_, fine_.fitter.fit(each.fit.hypothesis(), options)));
+        fine.push_back(scored(fine_, fine_.fitter.fit(each->fit.hypothesis(), options)));
     }
     sort_by_evidence(fine);
     return fine;
