@@ -26,6 +26,13 @@ int screening_stride(const Recording& recording, int stride) {
 // Fits that a search usually makes; progress is stated in parts of it.
 constexpr double usual_fits = 30.0;
 
+// Whether a fit leaves clearly more than noise and floor. A cause may then be hidden by several wrong numbers
+// and zeros at once.
+bool leaves_much(const ScoredFit& fit) {
+    constexpr double much = 2.0;
+    return fit.misfit > much;
+}
+
 bool has_effect(const ScoredFit& fit, const std::string& effect) {
     return std::any_of(fit.fit.causes.begin(), fit.fit.causes.end(),
                        [&](const CandidateCause* cause) { return cause->effect == effect; });
@@ -101,8 +108,9 @@ FoundCauses CauseSearch::run() & {
     bool built = is_measured && is_better_when_built(found.fits.front());
     if (!built) {
         search_several(described_, found.fits);
-        built = is_measured && found.fits.front().fit.causes.size() > 1 &&
-                is_better_when_built(found.fits.front());
+        const ScoredFit& best = found.fits.front();
+        built = is_measured &&
+                (leaves_much(best) || (best.fit.causes.size() > 1 && is_better_when_built(best)));
     }
     if (built) {
         Fits rougher = search_one(built_);
