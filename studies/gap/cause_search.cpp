@@ -90,6 +90,10 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
       built_{built_bench(recording), candidate_causes(recording)} {
     if (recording.nominal_is_fitted) {
         remove_what_is_fitted(described_.causes);
+        if (recording.nominal->load_compliance_rad_per_Nm > 0.0)
+            std::erase_if(described_.causes, [](const CandidateCause& cause) {
+                return cause.effect == "environment_coupling";  // it floats
+            });
     } else {
         remove_undescribed_parts(described_.causes);
     }
@@ -109,8 +113,8 @@ FoundCauses CauseSearch::run() & {
     if (!built) {
         search_several(described_, found.fits);
         const ScoredFit& best = found.fits.front();
-        built = is_measured &&
-                (leaves_much(best) || (best.fit.causes.size() > 1 && is_better_when_built(best)));
+        built =
+            is_measured && (leaves_much(best) || (best.fit.causes.size() > 1 && is_better_when_built(best)));
     }
     if (built) {
         Fits rougher = search_one(built_);
