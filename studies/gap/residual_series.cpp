@@ -71,19 +71,44 @@ std::vector<bool> at_rest(const std::vector<double>& angle_rad, double step_rad,
     return rests;
 }
 
-// What one step of the encoder of a driven angle changes in a torque or tension, through the cables' own
-// stiffness.
-double change_by_a_step(const Recording& recording, const std::string& driven, double step_rad,
-                        const Channel& channel) {
-    const NominalBench& bench = *recording.nominal;
+double mean_size(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += std::abs(value);
+    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+// How far a cable's tension changes at the end that turns back by `turned_m`. The change falls over the
+// length that it reaches by twice the friction, 2 q T per metre, and its strain over that length is the
+// motion: turned = change^2 / (4 q T EA). A long motion stretches the complete cable.
+double change_at_reversal_N(const NominalBench& bench, double tension_N, double turned_m) {
     double length_m = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) length_m += piece.length_m;
-    const auto radius_m = [&](bool motor) { return motor ? bench.motor_radius_m : bench.load_radius_m; };
-    const double tension_N =
-        bench.axial_stiffness_N / length_m * radius_m(driven == channel::motor_angle) * step_rad;
-    if (channel.unit == "N") return tension_N;
+    double wrap_rad = 0.0;
+    for (const CurvaturePiece& piece : bench.curvature) {
+        length_m += piece.length_m;
+        wrap_rad += piece.length_m / piece.bend_radius_m;
+    }
+    const double friction_per_m = bench.dynamic_friction * wrap_rad / length_m;
+    return std::max(bench.axial_stiffness_N / length_m * turned_m,
+                    std::sqrt(4.0 * friction_per_m * tension_N * bench.axial_stiffness_N * turned_m));
+}
+
+// What one step of the encoder of a driven angle changes in a torque or tension at that end, after a
+// reversal; at the other end, through the cables' own stiffness.
+double change_by_a_step(const Recording& recording, const RecordedRun& run, const std::string& driven,
+                        double step_rad, const Channel& channel) {
+    NominalBench bench = *recording.nominal;
+    const bool of_motor = driven == channel::motor_angle;
+    const double radius_m = of_motor ? bench.motor_radius_m : bench.load_radius_m;
+    const char* torque = of_motor ? channel::motor_torque : channel::load_torque;
+    if (channel.name != torque) bench.dynamic_friction = 0.0;
+    const auto recorded = recording.channel(torque);
+    const double torque_Nm = recorded ? mean_size(run.values[static_cast<std::size_t>(*recorded)]) : 0.0;
+    const double change_N = change_at_reversal_N(bench, run.pretension_N.value_or(0.0) + torque_Nm / radius_m,
+                                                 radius_m * step_rad);
+    if (channel.unit == "N") return change_N;
     const double cables = recording.mode == BenchMode::pull_pull ? 2.0 : 1.0;
-    return cables * tension_N * radius_m(channel.name == channel::motor_torque);
+    return cables * change_N *
+           (channel.name == channel::motor_torque ? bench.motor_radius_m : bench.load_radius_m);
 }
 
 // Of the samples of a series. Empty: all.
@@ -95,7 +120,7 @@ std::vector<bool> determined_rows(const Recording& recording, const ResidualSeri
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const Channel& driven = recording.channels[channel];
         if (!run.drives(driven.name) || driven.unit != "rad" || !driven.step) continue;
-        if (change_by_a_step(recording, driven.name, *driven.step, predicted) < series.scale) continue;
+        if (change_by_a_step(recording, run, driven.name, *driven.step, predicted) < series.scale) continue;
         const std::vector<bool> rests = at_rest(run.values[channel], *driven.step, recording.sample_rate_Hz);
         determined.resize(series.rows, true);
         for (std::size_t row = 0; row < series.rows; ++row) {
