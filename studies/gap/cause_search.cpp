@@ -15,14 +15,14 @@ namespace {
 
 // How many causes get a full fit after the screening.
 constexpr std::size_t max_fitted = 8;
-// The screening uses fewer segments and samples.
-constexpr int screening_segments = 24;
-constexpr int screening_stride_factor = 2;
-// A drive of unknown geometry is moved by two recorded channels. What is left of their noise moves it to and
-// fro, and friction remembers it: a search that skips samples misses that.
-int screening_stride(const Recording& recording, int stride) {
-    return (recording.nominal_is_fitted ? 1 : screening_stride_factor) * stride;
+// The screening uses fewer segments and samples. A drive of unknown geometry has no bend at a place, so few
+// segments are enough. But it is moved by two recorded channels: what is left of their noise moves it to and
+// fro, and friction remembers it, so no sample is skipped.
+EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
+    return recording.nominal_is_fitted ? EffectsTwinOptions{.segments = 12, .stride = stride}
+                                       : EffectsTwinOptions{.segments = 24, .stride = 2 * stride};
 }
+
 // Fits that a search usually makes; progress is stated in parts of it.
 constexpr double usual_fits = 30.0;
 
@@ -82,8 +82,9 @@ CauseSearch::Model::Model(const Recording& recording, const EffectsTwinOptions& 
 CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& options)
     : options_(options),
       run_count_(recording.runs.size()),
+      is_undescribed_(recording.nominal_is_fitted),
       fine_(recording, {options.segments, options.stride}, options.threads),
-      coarse_(recording, {screening_segments, screening_stride(recording, options.stride)}, options.threads),
+      coarse_(recording, coarse_options(recording, options.stride), options.threads),
       evidence_(fine_.fitter.independent_samples()),
       described_{recording.nominal_is_fitted ? undescribed_bench(recording) : measured_bench(),
                  candidate_causes(recording)},
@@ -157,7 +158,7 @@ bool CauseSearch::is_better_when_built(const ScoredFit& best) {
 
 CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const Hypothesis start = nominal_hypothesis(level.bench);
-    Fits singles = {fitted(level, with_cause(start, &level.causes.front(), {}), {})};
+    Fits singles = {without_cause(level)};
     // Numbers that float widely move first, for every cause is screened beside them.
     const Hypothesis nothing =
         level.bench.is_measured() ? start : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
@@ -177,6 +178,23 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     if (!worth_a_further_cause(singles.front()) && !is_out_of_time())
         add_confusable(level, screened, nothing, singles);
     return singles;
+}
+
+// What is fitted of an undescribed bench begins at a guess. Stiffness and pretension make much the same loop,
+// so the fit begins at several ratios of the two.
+ScoredFit CauseSearch::without_cause(const Level& level) {
+    const Hypothesis nominal = with_cause(nominal_hypothesis(level.bench), &level.causes.front(), {});
+    ScoredFit best = fitted(level, nominal, {});
+    if (level.bench.is_measured() || !is_undescribed_) return best;
+    constexpr double starts[][nominal_coordinates] = {{0.0, 0.0, -1.0}, {0.0, 0.5, -1.0}, {0.0, 0.0, 1.0}};
+    for (const auto& from : starts) {
+        if (is_out_of_time()) break;
+        Hypothesis other = nominal;
+        for (Eigen::Index k = 0; k < nominal_coordinates; ++k) other.coordinates[k] = from[k];
+        ScoredFit fit = fitted(level, other, {});
+        if (fit.evidence > best.evidence) best = std::move(fit);
+    }
+    return best;
 }
 
 bool CauseSearch::is_out_of_time() {

@@ -71,6 +71,7 @@ class CauseSearch {
     double held_out_misfit(const Hypothesis& hypothesis);
     void drop_unearned_causes(Fits& fits);
     bool is_better_when_built(const ScoredFit& best);
+    ScoredFit without_cause(const Level& level);
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);
     void try_fewer(const Level& level, Fits& all);
@@ -84,6 +85,7 @@ class CauseSearch {
 
     CauseSearchOptions options_;
     std::size_t run_count_;
+    bool is_undescribed_;  // a drive or band of unknown geometry
     Model fine_;
     Model coarse_;
     Evidence evidence_;
