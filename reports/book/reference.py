@@ -1,0 +1,124 @@
+"""The reference: what the program, the Python package and the headers say of themselves."""
+
+import inspect
+import os
+import re
+import shutil
+import sys
+
+
+def write(book):
+    book.write("reference/commands.md", commands(book))
+    book.write("reference/configuration.md", configuration(book))
+    book.write("reference/recording.md", "# Recording keys\n\n" + demoted(book.capstan("recording", "keys", "--format", "md")))
+    book.write("reference/database.md", "# Database schema\n\n" + demoted(book.capstan("query", "--schema", "--format", "md")))
+    book.write("reference/python.md", python(book))
+    book.write("reference/cpp.md", headers(book))
+
+
+def demoted(text):
+    """Below the page's own title, one level of heading after the other."""
+    lines, level, fenced = [], 1, False
+    for line in text.splitlines():
+        fenced ^= line.startswith("```")
+        heading = None if fenced else re.match(r"(#+) (.*)", line)
+        if heading:
+            level = min(len(heading.group(1)) + 1, level + 1)
+            level = max(level, 2)
+            line = "#" * level + " " + heading.group(2)
+        lines.append(line)
+    return "\n".join(lines) + "\n"
+
+
+def commands(book):
+    """One section for each command, with its help."""
+    listing = book.capstan("--help").split("Commands:\n")[1].split("\n\n")[0]
+    names = [found.group(1) for found in re.finditer(r"^  (\S+(?: \S+)?)  ", listing, re.M)]
+    names = [name for name in names if not name.startswith(("help", "--"))]
+    text = "# Commands\n\nEach section is what `capstan help COMMAND` prints.\n\n"
+    for name in names:
+        text += f"## capstan {name}\n\n```text\n{book.capstan('help', *name.split())}```\n\n"
+    return text
+
+
+def configuration(book):
+    """The complete configurations, cut at their sections."""
+    text = "# Configuration keys\n\nEvery key with its default, as `capstan config default` prints them.\n"
+    for title, words in (("Studies", []), ("Benches", ["--bench"])):
+        text += f"\n## {title}\n\nFrom `{' '.join(['capstan config default', *words])}`.\n\n"
+        part = []
+        for line in book.capstan("config", "default", *words).splitlines():
+            part.append(line)
+        text += "```toml\n" + "\n".join(part) + "\n```\n"
+    return text
+
+
+def python(book):
+    sys.path.insert(0, str(book.build / "python"))
+    import capstan
+
+    text = ("# Python\n\nEvery public name of the package `capstan`, from its docstrings. "
+            "[The package at a glance](python-overview.md) says what belongs together.\n")
+    for name in sorted(capstan.__all__, key=str.lower):
+        thing = getattr(capstan, name)
+        text += f"\n## {name}\n\n" + described(name, thing)
+        if inspect.isclass(thing):
+            for member, value in sorted(vars(thing).items()):
+                function = value.fget if isinstance(value, property) else value
+                if member.startswith("_") or not callable(function) or not function.__doc__:
+                    continue
+                text += f"\n### {name}.{member}\n\n" + described(member, value)
+    return text
+
+
+def described(name, thing):
+    try:
+        signature = "" if isinstance(thing, property) else f"{name}{inspect.signature(thing)}"
+    except (TypeError, ValueError):
+        signature = ""
+    text = f"```python\n{_wrapped(signature)}\n```\n\n" if signature else ""
+    return text + _docstring(inspect.getdoc(thing) or "") + "\n"
+
+
+def _wrapped(signature):
+    signature = re.sub(r"numpy\.ndarray\[.*?float64\]\]", "Array", signature)
+    signature = signature.replace("(self, ", "(").replace("(self)", "()")
+    if len(signature) < 90:
+        return signature
+    head, _, rest = signature.partition("(")
+    inner, _, result = rest.rpartition(")")
+    depth, parts, part = 0, [], ""
+    for letter in inner:
+        depth += letter in "[({"
+        depth -= letter in "])}"
+        if letter == "," and depth == 0:
+            parts.append(part.strip())
+            part = ""
+        else:
+            part += letter
+    return head + "(\n" + "".join(f"    {each},\n" for each in [*parts, part.strip()]) + ")" + result
+
+
+def _docstring(text):
+    """Examples become blocks."""
+    out, example = [], []
+    for line in [*text.splitlines(), ""]:
+        if line.startswith(">>>") or (example and line.strip()):
+            example.append(line)
+            continue
+        if example:
+            out += ["```pycon", *example, "```"]
+            example = []
+        out.append(line)
+    return "\n".join(out)
+
+
+def headers(book):
+    """The reference that Doxygen wrote, within the book."""
+    made = book.build / "reference" / "html"
+    text = ("# C++ and C\n\n`find_package(capstan)` finds an installed library; each folder of headers is a component, linked as "
+            "`capstan::solver`, for example. Programs that use it are in `tests/package/examples`.\n\n")
+    if not (made / "index.html").exists():
+        return text + "The reference of its headers is part of a book that is built where Doxygen is installed.\n"
+    shutil.copytree(made, book.extra / "cpp", dirs_exist_ok=True)
+    return text + ('```{raw} html\n<p><a href="../cpp/index.html">The reference of every header</a>, written by Doxygen.</p>\n```\n')
