@@ -27,7 +27,8 @@ SOURCE = HERE.parents[1]
 class Book:
     """The folders of a build, and the program that makes most pages."""
 
-    def __init__(self, build):
+    def __init__(self, build, doxyfile):
+        self.doxyfile = doxyfile
         self.build = build.resolve()
         self.work = self.build / "book"
         self.pages = self.work / "source"
@@ -54,8 +55,12 @@ class Book:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
 
-    def pages_to_run(self):
-        return sorted(path for path in self.pages.rglob("*.md"))
+    def describe_headers(self):
+        """The reference of the headers, from Doxygen where it is installed; its folder."""
+        if self.doxyfile is None or not self.doxyfile.exists() or not shutil.which("doxygen"):
+            return None
+        subprocess.run(["doxygen", self.doxyfile], check=True, capture_output=True)
+        return self.build / "reference" / "html"
 
     def run_page(self, path):
         name = str(path.relative_to(self.pages))
@@ -63,7 +68,7 @@ class Book:
 
     def make_pages(self):
         """Two at a time: some blocks keep all processors busy, most do not."""
-        paths = self.pages_to_run()
+        paths = sorted(self.pages.rglob("*.md"))
         with ThreadPoolExecutor(2) as pool:
             tasks = [pool.submit(gallery.write, self), pool.submit(gallery_of_layouts.write, self),
                      pool.submit(notebooks.write, self, HERE / "notebooks")]
@@ -101,9 +106,10 @@ class Book:
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("build", type=Path)
+    parser.add_argument("--doxyfile", type=Path, help="of the reference of the headers")
     parser.add_argument("--stamp", type=Path, help="a file to touch at the end")
     options = parser.parse_args()
-    book = Book(options.build)
+    book = Book(options.build, options.doxyfile)
     started = time.monotonic()
     for name, step in (("pages", book.make_pages), ("html", lambda: book.sphinx("html")),
                        ("one page", lambda: book.sphinx("singlehtml")), ("pdf", book.print_pdf)):

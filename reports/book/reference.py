@@ -115,10 +115,10 @@ def _docstring(text):
 
 def headers(book):
     """The reference that Doxygen wrote, within the book."""
-    made = book.build / "reference" / "html"
+    made = book.describe_headers()
     text = ("# C++ and C\n\n`find_package(capstan)` finds an installed library; each folder of headers is a component, linked as "
             "`capstan::solver`, for example. Programs that use it are in `tests/package/examples`.\n\n")
-    if not (made / "index.html").exists():
+    if made is None:
         return text + "The reference of its headers is part of a book that is built where Doxygen is installed.\n"
     shutil.copytree(made, book.extra / "cpp", dirs_exist_ok=True)
     return text + ('```{raw} html\n<p><a href="../cpp/index.html">The reference of every header</a>, written by Doxygen.</p>\n```\n')
