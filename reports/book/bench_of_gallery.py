@@ -60,14 +60,16 @@ WRONG_NUMBERS = {"param_mu": ("friction", 1.3), "param_K": ("stiffness_N", 0.7),
 NOTHING = "\n[effect.viscous_friction]\ndrag_N_s_per_m2 = 1e-9\n"
 
 
-def section_of(effect):
-    """The effect at its typical size, as a configuration has it."""
+def section_of(effect, factor=1.0):
+    """The effect at so many times its typical size, as a configuration has it."""
     lines = [f"[{effect['section']}]"]
     for parameter in effect["parameters"]:
-        typical = parameter["typical"]
-        if parameter["key"] == "load_angle_rad":
-            typical = 0.3
-        lines.append(f"{parameter['key']} = {typical:g}")
+        value = parameter["typical"]
+        if parameter["is_size"]:
+            value = parameter["absent"] + factor * (value - parameter["absent"])
+            value = max(value, parameter["low"] if parameter["low"] is not None else value)
+            value = min(value, parameter["high"] if parameter["high"] is not None else value)
+        lines.append(f"{parameter['key']} = {value:g}")
     return "\n" + "\n".join(lines) + "\n"
 
 
@@ -97,10 +99,22 @@ class Bench:
         return {name: np.array([float(row[k]) for row in rows[1:]]) for k, name in enumerate(rows[0])}
 
     def all(self, effects):
-        """{experiment: {cause: channels}}; the cause "" is the bench without one. Causes are sections or names."""
+        """{experiment: {cause: channels}}; the cause "" is the bench without one. Causes are sections or names. An effect gets a "factor"
+        of its typical size at which its loop is seen."""
         causes = {"": {}}
         causes.update({effect["section"]: {"effect": section_of(effect)} for effect in effects})
         causes.update({name: {"numbers": {number: factor}} for name, (number, factor) in WRONG_NUMBERS.items()})
+        results = self.simulations(causes)
+        larger = {}
+        for effect in effects:
+            effect["factor"] = factor_to_see(results, effect["section"])
+            if effect["factor"] != 1.0:
+                larger[effect["section"]] = {"effect": section_of(effect, effect["factor"])}
+        for experiment, found in self.simulations(larger).items():
+            results[experiment].update(found)
+        return results
+
+    def simulations(self, causes):
         jobs = [(e, cause) for e in EXPERIMENTS for cause in causes]
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             found = list(pool.map(lambda job: self.simulate(
@@ -109,3 +123,14 @@ class Bench:
         for (experiment, cause), channels in zip(jobs, found):
             results[experiment][cause] = channels
         return results
+
+
+def factor_to_see(results, cause, visible=0.05):
+    """1, 3, 10, ...: the first at which some channel changes by a twentieth of its span (RMS) in some experiment."""
+    change = 0.0
+    for causes in results.values():
+        for channel in OUTPUTS:
+            span = float(np.ptp(causes[""][channel]))
+            if span > 1e-9:
+                change = max(change, float(np.std(causes[cause][channel] - causes[""][channel])) / span)
+    return next((factor for factor in (1.0, 3.0, 10.0, 30.0) if factor * change >= visible), 30.0)

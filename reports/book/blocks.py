@@ -1,8 +1,8 @@
 """Runs the fenced blocks of a page in an empty folder, in order, and sets what they print below them.
 
 A block of ```sh is run by the shell, one of ```python by the interpreter of the capstan package; all python blocks of
-a page are one session. ```sh no-run is shown only: it would install something, or needs a cluster. A line after a block says what becomes
-of its output, and is replaced by it:
+a page are one session. ```toml my.toml becomes that file. ```sh no-run is shown only: it would install something, or
+needs a cluster. A line after a block says what becomes of its output, and is replaced by it:
 
     <!-- output -->          all of it
     <!-- output: 12 -->      its first 12 lines
@@ -17,7 +17,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-FENCE = re.compile(r"^```(sh|python)( no-run)?\n(.*?)^```\n(?:\n?<!-- (output|page|file)(?:: ([^\n]*?))? -->\n)?", re.M | re.S)
+FENCE = re.compile(r"^```(sh|python|toml)( no-run| [\w.-]+)?\n(.*?)^```\n(?:\n?<!-- (output|page|file)(?:: ([^\n]*?))? -->\n)?", re.M | re.S)
 LANGUAGE = {".toml": "toml", ".json": "json", ".csv": "text", ".py": "python"}
 
 
@@ -46,9 +46,12 @@ class Page:
                 self.python.communicate()
 
     def _replaced(self, block):
-        language, no_run, code, asks, words = block.groups()
+        language, option, code, asks, words = block.groups()
         fence = f"```{language}\n{code}```\n"
-        if no_run:
+        if option == " no-run" or (language == "toml" and not option):
+            return fence
+        if language == "toml":
+            (self.folder / option.strip()).write_text(code)
             return fence
         line = self.text.count("\n", 0, block.start()) + 1
         printed = self._shell(code, line) if language == "sh" else self._session(code, line)
@@ -88,7 +91,7 @@ class Page:
         shutil.copy(self.folder / file, self.surroundings.extra / kept)
         up = "../" * self.name.count("/")
         return (f'```{{raw}} html\n<iframe class="report" src="{up}reports/{kept}" loading="lazy" title="{file}"></iframe>\n'
-                f'<p><a href="{up}reports/{kept}">The page alone</a></p>\n```\n')
+                f'<p class="page-alone"><a href="{up}reports/{kept}">The page alone</a></p>\n```\n')
 
 
 END = "\x04 end of block\n"

@@ -4,7 +4,7 @@ import html
 import math
 
 
-def nice_ticks(low, high, count=5):
+def nice_ticks(low, high, count=6):
     """Round numbers that cover a range."""
     if high <= low:
         high = low + 1.0

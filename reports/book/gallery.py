@@ -44,7 +44,7 @@ class Comparison:
         self.effect = effect
         self.residuals = residuals
         strength = {e: float(np.linalg.norm(residuals.of(effect["section"], e))) for e in EXPERIMENTS}
-        self.shown = next(e for e in EXPERIMENTS if strength[e] > 0.05 * max(strength.values()))
+        self.shown = next(e for e in EXPERIMENTS if strength[e] > 0.3 * max(strength.values()))
         mine = residuals.of(effect["section"], self.shown)
         self.rivals = []  # (cosine, size, cause), the most similar first
         for cause in causes:
@@ -110,7 +110,8 @@ def one_variant(effect, causes, residuals):
     separating = comparison.best_experiment(rival)
     text += curves.row([loop(effect, comparison.shown, residuals),
                         loop(effect, separating, residuals, rival, size, comparison.shown)]) + "\n"
-    text += "```toml" + section_of(effect) + "```\n\n"
+    size = "" if effect["factor"] == 1.0 else f", {effect['factor']:g} times as large as in a mild case to make it visible"
+    text += f"The effect as drawn{size}:\n\n```toml" + section_of(effect, effect["factor"]) + "```\n\n"
     text += "| cause | similarity of its residuals |\n| --- | --- |\n"
     for similarity, _, other in comparison.rivals[:4]:
         text += f"| {other['title']} | {similarity:.2f} |\n"
@@ -155,7 +156,7 @@ def confusions(effect, titles, names):
 
 
 def index(effects, names):
-    text = ("# Effects\n\nWhat a bench does that the ideal model leaves out. Each page shows the loop of the effect at a typical size, the "
+    text = ("# Effects\n\nWhat a bench does that the ideal model leaves out. Each page shows the loop of the effect at a stated size, the "
             "causes that resemble it, and the recording that separates it from the most similar one. The bench is the same on all pages: two "
             "cables between pulleys of 20 mm, 1.2 m long with one bend of 165\N{DEGREE SIGN}, a friction coefficient of 0.12 and a pretension of "
             "20 N. The program simulates every page anew.\n\n| effect | family | equation | meaning |\n| --- | --- | --- | --- |\n")

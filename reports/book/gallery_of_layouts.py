@@ -44,7 +44,7 @@ def best_of(errors, regime, family=None, method=None):
 def drawn_layouts(rows, nodes=11):
     """Each count as a line of nodes with its sensors."""
     rows = sorted((row for row in rows if row["sensor_count"] <= 5), key=lambda row: (row["sensor_count"], row["start"]))
-    step, left, height = 34, 190, 22
+    step, left, height = 34, 232, 22
     parts = []
     for k, row in enumerate(rows):
         y = 16 + k * height

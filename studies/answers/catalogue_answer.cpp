@@ -20,6 +20,7 @@ Data parameter_data(const EffectParameter& parameter, double absent) {
             {"low", parameter.low},
             {"high", parameter.high},
             {"typical", parameter.typical},
+            {"is_size", parameter.role == ParameterRole::size},
             {"absent", absent}};
 }
 
