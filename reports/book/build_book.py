@@ -64,7 +64,8 @@ class Book:
 
     def run_page(self, path):
         name = str(path.relative_to(self.pages))
-        path.write_text(blocks.executed(name, path.read_text(), self.runs / name.replace("/", "-"), self.surroundings))
+        text = included.with_sources(path.read_text(), SOURCE)
+        path.write_text(blocks.executed(name, text, self.runs / name.replace("/", "-"), self.surroundings))
 
     def make_pages(self):
         """Two at a time: some blocks keep all processors busy, most do not."""

@@ -11,10 +11,12 @@ PAGES = {
     "storage/README.md": "reference/database-in-depth.md",
     "reports/README.md": "reference/answers.md",
     "studies/python/README.md": "reference/python-overview.md",
+    "studies/matlab/README.md": "how-to/matlab.md",
     "tests/README.md": "reference/promises.md",
     "CONTRIBUTING.md": "how-to/extend.md",
     "CHANGELOG.md": "reference/changes.md",
 }
+SOURCE = re.compile(r"^<!-- source: (\S+) -->$", re.M)
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 # Titles as the book has them.
 TITLES = {
@@ -24,6 +26,7 @@ TITLES = {
     "storage/README.md": "The results database in depth",
     "reports/README.md": "Answers and reports",
     "studies/python/README.md": "The Python package at a glance",
+    "studies/matlab/README.md": "MATLAB and Octave",
     "tests/README.md": "What is promised, and what shows it",
     "CONTRIBUTING.md": "Extend the program",
     "CHANGELOG.md": "Changes",
@@ -38,6 +41,11 @@ def write(book, source):
         if document == "engine/README.md":
             text = re.sub(r"^\| E(\d+) \|", r"| [E\1](e\1) |", text, flags=re.M)
         book.write(page, text)
+
+
+def with_sources(text, source):
+    """`<!-- source: PATH -->` becomes that file of the repository."""
+    return SOURCE.sub(lambda found: f"```{PurePosixPath(found.group(1)).suffix[1:]}\n{(source / found.group(1)).read_text()}```", text)
 
 
 def _link(found, document, page):

@@ -25,10 +25,10 @@ axes.legend()
 plt.show()
 
 # %% [markdown]
-# The diagnosis fits every known cause to run 1 and is judged on run 2.
+# The diagnosis fits every known cause to run 2, in which the hand moves fast, and is judged on run 1.
 
 # %%
-found = cp.diagnose(recording, fit_runs=[1], hold_runs=[2])
+found = cp.diagnose(recording, fit_runs=[2], hold_runs=[1])
 print(found.headline)
 for cause in found.causes:
     print(cause.effect, f"{cause.probability:.2f}", {name: number.value for name, number in cause.numbers.items()})
@@ -48,4 +48,4 @@ print(found.next_experiment)
 # %%
 model = found.model
 model.save("model.toml")
-print(cp.read_model("model.toml").predict(recording, runs=[2]).headline)
+print(cp.read_model("model.toml").predict(recording, runs=[1]).headline)
