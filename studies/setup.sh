@@ -16,7 +16,8 @@ test_packages=(
 )
 # For the book (ninja -C build book); its PDF also needs chromium.
 book_packages=(
-    python3-sphinx python3-myst-parser furo katex python3-nbconvert python3-ipykernel python3-matplotlib python3-pandas doxygen
+    python3-sphinx python3-myst-parser furo katex fonts-texgyre-math
+    python3-nbconvert python3-ipykernel python3-matplotlib python3-pandas doxygen
 )
 # For the test on a Slurm of its own, which is skipped without them.
 slurm_packages=(slurmctld slurmd slurm-client munge)

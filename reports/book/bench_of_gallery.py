@@ -98,6 +98,15 @@ class Bench:
         rows = list(csv.reader(done.stdout.splitlines()))
         return {name: np.array([float(row[k]) for row in rows[1:]]) for k, name in enumerate(rows[0])}
 
+    def resized(self, experiment, cause, effect, size):
+        """An experiment with a cause at `size` times the size that all() gave it; `effect` is None for a wrong number."""
+        if effect is None:
+            number, factor = WRONG_NUMBERS[cause]
+            text = config(experiment, numbers={number: min(max(1.0 + size * (factor - 1.0), 0.1), 10.0)})
+        else:
+            text = config(experiment, section_of(effect, size * effect["factor"]))
+        return self.simulate(f"resized-{cause}-{list(EXPERIMENTS).index(experiment)}-{size:.6g}", text)
+
     def all(self, effects):
         """{experiment: {cause: channels}}; the cause "" is the bench without one. Causes are sections or names. An effect gets a "factor"
         of its typical size at which its loop is seen."""

@@ -20,6 +20,7 @@ import included
 import notebooks
 import reference
 
+MATH_FONT = Path("/usr/share/texmf/fonts/opentype/public/tex-gyre-math/texgyretermes-math.otf")  # of fonts-texgyre-math
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
 
@@ -40,6 +41,8 @@ class Book:
         shutil.rmtree(self.work, ignore_errors=True)
         shutil.copytree(HERE / "pages", self.pages)
         shutil.copytree(HERE / "static", self.pages / "static")
+        (self.pages / "static" / "fonts").mkdir()
+        shutil.copy(MATH_FONT, self.pages / "static" / "fonts")
         shutil.copy(HERE / "conf.py", self.pages)
         self.surroundings = blocks.Surroundings(SOURCE, self.build, self.extra / "reports")
 

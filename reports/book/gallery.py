@@ -16,8 +16,9 @@ NOISE = 0.01  # of a channel's span without the effect: what a residual is measu
 class Residuals:
     """What each cause adds to each channel, in units of noise, stacked over the channels of an experiment."""
 
-    def __init__(self, results):
-        self.results = results
+    def __init__(self, bench, effects):
+        self.bench = bench
+        self.results = results = bench.all(effects)
         spans = {}
         for channel in OUTPUTS:
             spans[channel] = max(np.ptp(causes[""][channel]) for causes in results.values())
@@ -71,11 +72,10 @@ class Comparison:
 def write(book):
     catalogue = json.loads(book.capstan("config", "catalogue", "--json"))
     effects = catalogue["effects"]
-    results = Bench(book.build / "capstan", book.runs / "gallery").all(effects)
-    residuals = Residuals(results)
-    causes = [{"name": e["name"], "key": e["section"], "title": full_title(e),
+    residuals = Residuals(Bench(book.build / "capstan", book.runs / "gallery"), effects)
+    causes = [{"name": e["name"], "key": e["section"], "effect": e, "title": full_title(e),
                "either_sign": any(p["low"] < 0 for p in e["parameters"])} for e in effects]
-    causes += [{"name": c["name"], "key": c["name"], "title": c["title"], "either_sign": True}
+    causes += [{"name": c["name"], "key": c["name"], "effect": None, "title": c["title"], "either_sign": True}
                for c in catalogue["other_causes"] if c["name"].startswith("param_")]
     titles = {each["name"]: each["title"] for each in effects + catalogue["other_causes"]}
     names = list(dict.fromkeys(effect["name"] for effect in effects))
@@ -121,7 +121,7 @@ def one_variant(effect, causes, residuals):
     further = len(EXPERIMENTS) - 1
     return text + (f"**The experiment that separates them.** Of {further} further recordings, *{separating}* separates {full_title(effect)} "
                    f"best from {rival['title']}. Together with {comparison.shown} the similarity is {joint:.2f}, where it was {cosine:.2f}. "
-                   f"At its best size {rival['title']} then leaves residuals of {left:.2g} times the noise of sensors with 1% noise (RMS).\n\n")
+                   f"To first order in its size, {rival['title']} then leaves residuals of at least {left:.2g} times the noise of sensors with 1% noise (RMS).\n\n")
 
 
 def loop(effect, experiment, residuals, rival=None, size=0.0, fitted_to=""):
@@ -137,8 +137,8 @@ def loop(effect, experiment, residuals, rival=None, size=0.0, fitted_to=""):
              ("effect", full_title(effect), (results[key][across] * x_unit)[steady], (results[key][channel] * unit)[steady])]
     caption = f"{experiment[0].upper() + experiment[1:]}."
     if rival is not None:
-        other = results[""][channel] + size * (results[rival["key"]][channel] - results[""][channel])
-        drawn.append(("rival", rival["title"], x, (other * unit)[steady]))
+        other = residuals.bench.resized(experiment, rival["key"], rival["effect"], size)
+        drawn.append(("rival", rival["title"], (other[across] * x_unit)[steady], (other[channel] * unit)[steady]))
         caption += f" {rival['title'][0].upper() + rival['title'][1:]} has the size that fits best in {fitted_to}."
     return curves.figure(drawn, x_title, title, caption)
 

@@ -6,6 +6,9 @@ one, which a browser refuses for files. The copies in the book are mended; the p
 import re
 from pathlib import Path
 
+SPY = "new Gumshoe("
+WHERE_SECTIONS_ARE = """if (document.querySelector('.toc-tree a[href^="#"]:not([href="#"])')) """  # else it looks for the last of none
+
 
 def mend(app, failed):
     if failed is not None or app.builder.format != "html":
@@ -22,7 +25,7 @@ def mend(app, failed):
     text = script.read_text()
     if text.startswith("import Gumshoe"):
         script.write_text((static / "scripts" / "gumshoe-patched.js").read_text() + "\n(function () {\n"
-                          + text.partition("\n")[2] + "\n})();\n")
+                          + text.partition("\n")[2].replace(SPY, WHERE_SECTIONS_ARE + SPY) + "\n})();\n")
 
 
 def setup(app):
