@@ -2,7 +2,7 @@
 
 A block of ```sh is run by the shell, one of ```python by the interpreter of the capstan package; all python blocks of
 a page are one session. ```toml my.toml becomes that file. ```sh no-run is shown only: it would install something, or
-needs a cluster. A line after a block says what becomes of its output, and is replaced by it:
+needs a cluster. Lines after a block say what becomes of its output, and are replaced by it:
 
     <!-- output -->          all of it
     <!-- output: 12 -->      its first 12 lines
@@ -17,7 +17,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-FENCE = re.compile(r"^```(sh|python|toml)( no-run| [\w.-]+)?\n(.*?)^```\n(?:\n?<!-- (output|page|file)(?:: ([^\n]*?))? -->\n)?", re.M | re.S)
+FENCE = re.compile(r"^```(sh|python|toml)( no-run| [\w.-]+)?\n(.*?)^```\n((?:\n?<!-- (?:output|page|file)[^\n]* -->\n)*)", re.M | re.S)
+ASKED = re.compile(r"<!-- (output|page|file)(?:: (.*?))? -->")
 LANGUAGE = {".toml": "toml", ".json": "json", ".csv": "text", ".py": "python"}
 
 
@@ -46,7 +47,7 @@ class Page:
                 self.python.communicate()
 
     def _replaced(self, block):
-        language, option, code, asks, words = block.groups()
+        language, option, code, asked = block.groups()
         fence = f"```{language}\n{code}```\n"
         if option == " no-run" or (language == "toml" and not option):
             return fence
@@ -55,15 +56,16 @@ class Page:
             return fence
         line = self.text.count("\n", 0, block.start()) + 1
         printed = self._shell(code, line) if language == "sh" else self._session(code, line)
-        if asks == "output":
-            return fence + "\n" + _printed(_first(printed, words))
-        if asks == "page":
-            return fence + "\n" + self._report(words.strip())
-        if asks == "file":
-            name, _, lines = words.partition(":")
-            path = self.folder / name.strip()
-            return fence + "\n" + _printed(_first(path.read_text(), lines), LANGUAGE.get(path.suffix, "text"))
-        return fence
+        return fence + "".join("\n" + self._shown(what, words, printed) for what, words in ASKED.findall(asked))
+
+    def _shown(self, what, words, printed):
+        if what == "output":
+            return _printed(_first(printed, words))
+        if what == "page":
+            return self._report(words.strip())
+        name, _, lines = words.partition(":")
+        path = self.folder / name.strip()
+        return _printed(_first(path.read_text(), lines), LANGUAGE.get(path.suffix, "text"))
 
     def _shell(self, code, line):
         done = subprocess.run(["bash", "-euo", "pipefail", "-c", code], cwd=self.folder, capture_output=True, text=True,

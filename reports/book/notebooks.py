@@ -17,7 +17,7 @@ import matplotlib_inline.backend_inline, matplotlib.pyplot
 matplotlib_inline.backend_inline.set_matplotlib_formats("svg")
 matplotlib.pyplot.rcParams.update({{name: "{INK}" for name in ("text.color", "axes.labelcolor", "xtick.color", "ytick.color", "axes.edgecolor")}})
 matplotlib.pyplot.rcParams.update({{"figure.facecolor": "none", "axes.facecolor": "none", "legend.framealpha": 0.0, "svg.hashsalt": "capstan",
-    "svg.fonttype": "none", "figure.figsize": (7, 3.6), "axes.prop_cycle": matplotlib.pyplot.cycler(color=["#3d85c6", "#d97a2b", "#4a9d68", "#b05fb0"])}})
+    "svg.fonttype": "none", "figure.figsize": (7, 3.6), "axes.prop_cycle": matplotlib.pyplot.cycler(color=["#3d85c6", "#d97a2b", "#4a9d68", "#b05fb0", "#b8a02e", "#8a8f98", "#c9506a", "#3aa6a6"])}})
 """
 
 
@@ -98,6 +98,7 @@ def of_output(output):
     html = data.get("text/html", "")
     if "<table" in html and "<iframe" not in html:
         table = re.search(r"<table.*</table>", html, re.S).group(0)
+        table = re.sub(r"<table[^>]*>", '<table class="docutils align-default">', table).replace(' style="text-align: right;"', "")
         return f'```{{raw}} html\n<div class="table-wrapper">{table}</div>\n```'
     return printed(data["text/plain"]) if "text/plain" in data else ""
 

@@ -1,10 +1,11 @@
 """The reference: what the program, the Python package and the headers say of themselves."""
 
+import ast
 import inspect
-import os
 import re
 import shutil
 import sys
+import textwrap
 
 
 def write(book):
@@ -72,23 +73,43 @@ def python(book):
 
 
 def described(name, thing):
-    try:
-        signature = "" if isinstance(thing, property) else f"{name}{inspect.signature(thing)}"
-    except (TypeError, ValueError):
-        signature = ""
-    text = f"```python\n{_wrapped(signature)}\n```\n\n" if signature else ""
+    signature = _signature(name, thing)
+    text = f"```python\n{signature}\n```\n\n" if signature else ""
     return text + _docstring(inspect.getdoc(thing) or "") + "\n"
 
 
-def _wrapped(signature):
-    signature = re.sub(r"numpy\.ndarray\[.*?float64\]\]", "Array", signature)
-    signature = signature.replace("(self, ", "(").replace("(self)", "()")
-    if len(signature) < 90:
-        return signature
-    head, _, rest = signature.partition("(")
-    inner, _, result = rest.rpartition(")")
+def _signature(name, thing):
+    """As the source has it, which names its types as a reader knows them."""
+    if isinstance(thing, property):
+        returns = _parsed(thing.fget).returns
+        return f"{name}: {ast.unparse(returns)}"
+    try:
+        tree = _parsed(thing.__init__ if inspect.isclass(thing) else thing)
+    except (TypeError, OSError, AttributeError, IndentationError):  # of a dataclass or a named tuple
+        try:
+            return f"{name}{inspect.signature(thing)}".replace(" -> None", "")
+        except (TypeError, ValueError):
+            return ""
+    tree.args.args = [each for each in tree.args.args if each.arg != "self"]
+    arguments = ast.unparse(tree.args)
+    result = f" -> {ast.unparse(tree.returns)}" if not inspect.isclass(thing) else ""
+    one_line = f"{name}({arguments}){result}"
+    if len(one_line) < 90:
+        return one_line
+    return f"{name}(\n" + "".join(f"    {each},\n" for each in _split(arguments)) + f"){result}"
+
+
+def _parsed(function):
+    tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
+    if not isinstance(tree, ast.FunctionDef):
+        raise TypeError
+    return tree
+
+
+def _split(arguments):
+    """At commas outside of brackets."""
     depth, parts, part = 0, [], ""
-    for letter in inner:
+    for letter in arguments:
         depth += letter in "[({"
         depth -= letter in "])}"
         if letter == "," and depth == 0:
@@ -96,7 +117,7 @@ def _wrapped(signature):
             part = ""
         else:
             part += letter
-    return head + "(\n" + "".join(f"    {each},\n" for each in [*parts, part.strip()]) + ")" + result
+    return [*parts, part.strip()]
 
 
 def _docstring(text):

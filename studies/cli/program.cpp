@@ -76,8 +76,8 @@ ExitCode show_book() {
         }
     }
     throw std::runtime_error(
-        "the book is not installed; in a build folder `ninja book` builds it, and the Debian package capstan contains "
-        "it");
+        "the book is not installed; in a build folder `ninja book` builds it, and the Debian package capstan-doc "
+        "contains it");
 }
 
 ExitCode show_help(const std::vector<std::string>& words) {

@@ -24,7 +24,8 @@ table = errors[errors.regime == "mass"].pivot_table(index="sensor_count", column
 table.round(3)
 
 # %%
-table.plot(ylabel="mean error [N]", xlabel="number of sensors", logy=True)
+axes = table.plot(ylabel="mean error [N]", xlabel="number of sensors", logy=True, figsize=(8, 3.6))
+axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 plt.show()
 
 # %% [markdown]
