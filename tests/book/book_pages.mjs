@@ -9,10 +9,9 @@ import { check, finish, launch } from "./checks.mjs";
 const [book, folder] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
-const pages = ["index", "first-hour/place-sensors", "first-hour/log-disagrees", "how-to/controller", "how-to/studies-in-depth",
-  "gallery/effects", "gallery/viscous_friction", "gallery/pulley_friction", "gallery/layout-even", "gallery/method-mean-r",
-  "notebooks/4-observer-on-recorded-data", "notebooks/5-study-with-sql-and-pandas", "theory/one-step", "theory/over-time",
-  "theory/equations", "reference/commands", "reference/python", "reference/database"];
+const pages = ["index", "first-hour/place-sensors", "first-hour/log-disagrees", "how-to/studies-in-depth", "gallery/effects",
+  "gallery/pulley_friction", "gallery/layout-even", "notebooks/5-study-with-sql-and-pandas", "theory/over-time", "theory/equations",
+  "reference/python", "reference/database"];
 
 const brightness = (colour) => colour.match(/[\d.]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0) / 3;
 
