@@ -9,7 +9,7 @@ author = "The capstan authors"
 version = release = os.environ["CAPSTAN_VERSION"]
 language = "en"
 
-extensions = ["myst_parser", "math_as_mathml", "mended_theme"]
+extensions = ["myst_parser", "math_as_mathml", "fixed_theme"]
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
 myst_heading_anchors = 3
 html_math_renderer = "mathml"

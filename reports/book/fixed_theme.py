@@ -1,7 +1,7 @@
 """A Sphinx extension: Debian's package of furo works from a file, without a web server.
 
 Its style imports a sheet from a server's root and lost the rule for systems that prefer dark; its script imports another
-one, which a browser refuses for files. The copies in the book are mended; the package is not touched."""
+one, which a browser refuses for files. The copies in the book are fixed; the package is not touched."""
 
 import re
 from pathlib import Path
@@ -10,7 +10,7 @@ SPY = "new Gumshoe("
 WHERE_SECTIONS_ARE = """if (document.querySelector('.toc-tree a[href^="#"]:not([href="#"])')) """  # else it looks for the last of none
 
 
-def mend(app, failed):
+def fix(app, failed):
     if failed is not None or app.builder.format != "html":
         return
     static = Path(app.outdir) / "_static"
@@ -29,5 +29,5 @@ def mend(app, failed):
 
 
 def setup(app):
-    app.connect("build-finished", mend)
+    app.connect("build-finished", fix)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
