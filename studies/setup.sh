@@ -11,7 +11,13 @@ build_packages=(
 test_packages=(
     libgtest-dev libgmock-dev libbenchmark-dev liblapack-dev sqlite3 python3 chromium
     python3-rosbag python3-sensor-msgs python3-scipy python3-h5py python3-openpyxl lz4 zstd # they write the logs that the tests read
-    python3-pandas mypy doxygen # of the tests of the Python module and of the library's reference
+    mypy # of the tests of the Python module
+    octave # of the tests of +capstan
+)
+# For the book (ninja -C build book); its PDF also needs chromium.
+book_packages=(
+    python3-sphinx python3-myst-parser furo katex fonts-texgyre-math
+    python3-nbconvert python3-ipykernel python3-matplotlib python3-pandas doxygen
 )
 # For the test on a Slurm of its own, which is skipped without them.
 slurm_packages=(slurmctld slurmd slurm-client munge)
@@ -24,7 +30,7 @@ check_packages=(clang-tidy cppcheck gcovr)
 # Programs count however they were installed; a package that only brings programs is missing only without them.
 package_is_there() {
     case $1 in
-        g++ | cmake | ccache | npm | sqlite3 | python3 | chromium | lz4 | zstd | mypy | doxygen) command -v "$1" >/dev/null && return ;;
+        g++ | cmake | ccache | npm | sqlite3 | python3 | chromium | lz4 | zstd | mypy | doxygen | octave) command -v "$1" >/dev/null && return ;;
         ninja-build) command -v ninja >/dev/null && return ;;
         nodejs) command -v node >/dev/null && return ;;
         clang) command -v clang++ >/dev/null && return ;;

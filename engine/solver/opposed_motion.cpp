@@ -36,27 +36,33 @@ Candidate opposed_motion(const StepView& view, const EndConditions& ends, Direct
         return candidate.pattern.kind != MotionKind::slack &&
                increment_m(view, candidate, proximal, node) > 0.0;
     };
+    Candidate at_with;  // the direction changes at the node `with`
+    if (!moves_with_proximal(0, at_with)) return mass_motion(view, ends, opposite(proximal));
     Candidate candidate;
-    if (!moves_with_proximal(0, candidate)) return mass_motion(view, ends, opposite(proximal));
     if (moves_with_proximal(view.segments(), candidate)) return mass_motion(view, ends, proximal);
     int with = 0;
     int against = view.segments();
     while (against - with > 1) {
         const int middle = with + (against - with) / 2;
-        (moves_with_proximal(middle, candidate) ? with : against) = middle;
+        if (moves_with_proximal(middle, candidate)) {
+            with = middle;
+            at_with = candidate;
+        } else {
+            against = middle;
+        }
     }
 
     // Bracketed secant (Illinois): the mismatch is positive at fraction 0 and not at fraction 1.
     double low = 0.0;
     double high = 1.0;
-    double at_low = mismatch_m(view, opposed_at(view, ends, proximal, with, low), proximal, with, low);
-    double at_high = mismatch_m(view, opposed_at(view, ends, proximal, with, high), proximal, with, high);
-    double fraction = 1.0;
+    candidate = opposed_at(view, ends, proximal, with, high);
+    double at_low = mismatch_m(view, at_with, proximal, with, low);
+    double at_high = mismatch_m(view, candidate, proximal, with, high);
     int last_side = 0;
     for (int iteration = 0; iteration < 100 && at_high < 0.0; ++iteration) {
-        fraction = low + (high - low) * at_low / (at_low - at_high);
-        const Candidate middle = opposed_at(view, ends, proximal, with, fraction);
-        const double at_middle = mismatch_m(view, middle, proximal, with, fraction);
+        const double fraction = low + (high - low) * at_low / (at_low - at_high);
+        candidate = opposed_at(view, ends, proximal, with, fraction);
+        const double at_middle = mismatch_m(view, candidate, proximal, with, fraction);
         ++patterns_tried;
         if (at_middle == 0.0 || high - low < 1e-15) break;
         if (at_middle > 0.0) {
@@ -74,7 +80,7 @@ Candidate opposed_motion(const StepView& view, const EndConditions& ends, Direct
         }
         if (std::abs(at_middle) < 1e-18) break;  // below the rounding of any displacement
     }
-    return opposed_at(view, ends, proximal, with, fraction);
+    return candidate;
 }
 
 }  // namespace capstan

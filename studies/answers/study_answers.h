@@ -1,5 +1,6 @@
 #pragma once
-// What is known of a study: its description, its cost, one repetition of it.
+// What is known of a study: its description, its cost, one repetition of it; and the catalogues it chooses
+// from.
 
 #include <cstdint>
 #include <string>
@@ -24,6 +25,10 @@ reports::Answer cost_answer(const std::string& name, const StudyCost& cost,
 /// One repetition: what each sensor read, and what each method made of it. `repetition` from 1.
 reports::Answer replay_answer(const Replay& replayed, const storage::ScenarioRecord& scenario,
                               const std::string& noise, std::int64_t repetition);
+
+/// The effects, the other causes that a diagnosis can name, the layout families and the fusion methods.
+reports::Answer catalogue_answer();
+
 /// The rows as columns side by side, numbers to the right in six digits.
 std::string rows_text(const storage::QueryResult& result);
 /// The rows as a JSON array of objects, one object after the other.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "capstan/answers/study_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
@@ -213,6 +214,23 @@ Command config_check_command() {
             .options = {output_option, json_option, help_option},
             .examples = {"capstan config check my.toml"},
             .run = run_config_check};
+}
+
+Command config_catalogue_command() {
+    return {
+        .name = "config catalogue",
+        .summary = "List the effects, layouts and fusion methods, with the keys of each effect.",
+        .description =
+            "Lists what a configuration can name: effects of a bench, each with its equation and the section "
+            "that switches it on, layout families and fusion methods; and the other causes that a diagnosis can "
+            "name. --json also has the parameters of each effect with limits and a typical value, and the causes "
+            "that are confusable with it.",
+        .options = {format_option, output_option, json_option, help_option},
+        .examples = {"capstan config catalogue", "capstan config catalogue --json -o catalogue.json"},
+        .run = [](const Invocation& invocation) {
+            deliver_answer(invocation, answers::catalogue_answer());
+            return ExitCode::success;
+        }};
 }
 
 }  // namespace capstan::cli

@@ -37,6 +37,7 @@
     COMMAND(gap_trial)            \
     COMMAND(config_default)       \
     COMMAND(config_check)         \
+    COMMAND(config_catalogue)     \
     COMMAND(paper_exp1)           \
     COMMAND(paper_exp2)           \
     COMMAND(paper_solver)         \

@@ -8,7 +8,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <stdexcept>
 #include <string_view>
 
 #include "capstan/cable/invalid_input.h"
@@ -64,8 +66,23 @@ FoundCommand find_command_in(const std::vector<std::string>& words) {
                                  nearest ? "; did you mean '" + *nearest + "'?" : ""));
 }
 
+// Of an installed program, or of a build folder.
+ExitCode show_book() {
+    const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    for (const char* place : {"../share/doc/capstan/book/index.html", "book/html/index.html"}) {
+        if (const auto page = (here / place).lexically_normal(); std::filesystem::exists(page)) {
+            write_standard_output(page.string() + "\n");
+            return ExitCode::success;
+        }
+    }
+    throw std::runtime_error(
+        "the book is not installed; in a build folder `ninja book` builds it, and the Debian package capstan-doc "
+        "contains it");
+}
+
 ExitCode show_help(const std::vector<std::string>& words) {
     std::string text;
+    if (words == std::vector<std::string>{"--book"}) return show_book();
     if (words.empty()) {
         text = program_help();
     } else if (const FoundCommand found = find_command_in(words); found.command != nullptr) {

@@ -14,7 +14,7 @@ rm -rf "$work"
 mkdir -p "$work"
 
 cpack --config "$build/CPackConfig.cmake" -B "$work" >"$work/messages" || { cat "$work/messages" >&2; exit 1; }
-for name in capstan libcapstan-dev python3-capstan; do
+for name in capstan libcapstan-dev capstan-doc python3-capstan; do
     package=$(echo "$work/${name}"_*.deb)
     if [[ $name == python3-capstan && ! -e $package ]]; then continue; fi  # its packages were not there
     dpkg-deb --info "$package"
@@ -33,6 +33,13 @@ needs capstan libc6 libsqlite3-0 libtbb12 libcpp-httplib0
 needs libcapstan-dev libeigen3-dev libhwy-dev libtbb-dev
 test -s "$work/libcapstan-dev/usr/include/capstan/gap/diagnosis.h"
 test ! -e "$work/capstan/usr/include"
+
+test -s "$work/libcapstan-dev/usr/include/capstan/controller/capstan_observer.h"
+test -s "$work/capstan/usr/share/capstan/matlab/+capstan/place.m"
+if [[ -e $build/book/html/index.html ]]; then
+    cp --recursive "$work/capstan-doc/usr/share/doc" "$work/capstan/usr/share/"
+    test -s "$("$work/capstan/usr/bin/capstan" help --book)"
+fi
 
 root=$work/capstan
 "$root/usr/bin/capstan" --version

@@ -22,9 +22,9 @@ examples=$work/usr/share/doc/libcapstan-dev/examples
 cmake -S "$examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$work/usr" -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$work/examples"
-for program in step_a_cable estimate_at_1_kHz score_a_layout diagnose_a_recording print_an_answer; do
+for program in step_a_cable estimate_at_1_kHz observe_at_1_kHz score_a_layout diagnose_a_recording print_an_answer; do
     echo "--- $program"
-    "$work/examples/$program" "$recording"
+    if [[ $program == observe_at_1_kHz ]]; then "$work/examples/$program" 1; else "$work/examples/$program" "$recording"; fi
 done
 if ldd "$work/examples/diagnose_a_recording" | grep sqlite; then
     echo "A diagnosis needs no database, but the example is linked with SQLite." >&2

@@ -1,8 +1,12 @@
 """What Python gets is what the shell prints, to the bit."""
 
+import os
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+
+import numpy as np
 
 import capstan as cp
 from surroundings import CONFIGS, RECORDINGS, shell
@@ -89,6 +93,21 @@ class SameBits(unittest.TestCase):
         for run in by_shell.runs:
             for channel in by_shell.channels:
                 self.assertEqual(run[channel].tobytes(), imported.run(run.number)[channel].tobytes())
+
+    def test_an_observer_in_c(self) -> None:
+        cable = cp.Cable(
+            length_m=1.2, bends=[cp.Bend(90, 0.08, 0.2), cp.Bend(120, 0.1, 0.6)], axial_stiffness_N=9e3, friction=0.12,
+            static_friction=0.15, pretension_N=20.0, segments=12,
+        )
+        sensors: list[cp.observer.Sensor] = [("tension", 0.05), ("displacement", "load"), ("tension", 1.2)]
+        observer = cp.Observer(cable, sensors=sensors, noise_N=0.25)
+        printed = subprocess.run([os.environ["CAPSTAN_PRINT_ESTIMATES"]], capture_output=True, text=True, check=True)
+        of_c = np.array([[float.fromhex(word) for word in line.split()] for line in printed.stdout.splitlines()])
+        for sample in range(1, 201):
+            turn = (sample % 100) / 100.0
+            readings = [0.003 * turn * (1.0 - turn), 20.0 + 30.0 * turn * (1.0 - turn), 0.0002 * turn, 19.0 + 12.0 * turn]
+            estimate = observer.update(sample / 500.0, readings)
+            self.assertTrue(np.array_equal(np.array(estimate).T, of_c[13 * (sample - 1) : 13 * sample]), sample)
 
 
 if __name__ == "__main__":
