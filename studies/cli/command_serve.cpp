@@ -76,9 +76,8 @@ ExitCode run_serve(const Invocation& invocation) {
 
     std::future<void> running = std::async(std::launch::async, [&] { service.run(); });
     // This thread receives the signals and waits for nothing else.
-    bool stopped = false;
     while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-        if (StopRequest::flag()->load() && !stopped) stopped = service.stop();
+        if (StopRequest::flag()->load()) service.stop();
     }
     running.get();
     return ExitCode::success;

@@ -178,6 +178,11 @@ void AtomicFile::write_pending() {
 }
 
 void AtomicFile::append(std::string_view text) {
+    if (text.size() >= pending_bytes) {
+        write_pending();
+        if (!write_all(descriptor_, text)) refuse(named_, errno);
+        return;
+    }
     pending_ += text;
     if (pending_.size() >= pending_bytes) write_pending();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,7 +19,7 @@ class ImportFolder {
   public:
     /// Takes the parts `log` of the request and, where it has one, the part `mapping`. Throws BadRequest: no
     /// file, too many, two of one name.
-    ImportFolder(const httplib::Request& request, const JobCommands& commands);
+    ImportFolder(const http::Request& request, const JobCommands& commands);
     ~ImportFolder();
     ImportFolder(const ImportFolder&) = delete;
     ImportFolder& operator=(const ImportFolder&) = delete;
@@ -36,6 +37,7 @@ class ImportFolder {
   private:
     std::filesystem::path folder_;
     std::string program_;
+    const std::atomic<bool>* ending_;
     std::vector<std::filesystem::path> logs_;
     bool has_mapping_ = false;
 };

@@ -38,7 +38,7 @@ void JobFolder::write(const std::vector<Job>& jobs) const {
     write_file("jobs.json", jobs_text(jobs));
 }
 
-void JobFolder::write_file(const std::string& name, const std::string& bytes) const {
+void JobFolder::write_file(const std::string& name, std::string_view bytes) const {
     const std::filesystem::path path = path_ / name;
     std::filesystem::create_directories(path.parent_path());
     capstan::write_file(path, bytes);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capstan/service/job.h"
@@ -23,7 +24,7 @@ class JobFolder {
     std::vector<Job> read() const;  ///< none in a new folder
     /// Complete or not at all, and on the disk when it returns.
     void write(const std::vector<Job>& jobs) const;
-    void write_file(const std::string& name, const std::string& bytes) const;
+    void write_file(const std::string& name, std::string_view bytes) const;
 
   private:
     std::filesystem::path path_;

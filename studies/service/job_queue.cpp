@@ -99,7 +99,7 @@ Job JobQueue::add_study(const std::string& name, const std::string& config_toml)
     return add(std::move(job));
 }
 
-Job JobQueue::add_diagnosis(const std::string& name, const std::string& log, const std::string& sidecar) {
+Job JobQueue::add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar) {
     const std::lock_guard lock(mutex_);
     Job job;
     job.number = next_number();
@@ -272,7 +272,8 @@ void JobQueue::run(Job job) {
     });
     {
         const std::lock_guard lock(mutex_);
-        child_ = std::make_unique<ChildProcess>(command_line(job), nice_increment);
+        child_ =
+            std::make_unique<ChildProcess>(command_line(job), ChildLimits{.nice_increment = nice_increment});
         if (ending_ || stop_asked_) child_->ask_to_stop();
     }
     std::string messages;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -19,6 +21,8 @@ struct JobCommands {
     std::string program;   ///< path of capstan
     std::string database;  ///< path of the results database
     int threads = 0;       ///< of a job; 0: all processors
+    const std::atomic<bool>* ending =
+        nullptr;  ///< the service ends: a process of a request is not waited for
 };
 
 /// Runs jobs one after the other, in the order they came. Every change of the list is on the disk before a
@@ -36,7 +40,7 @@ class JobQueue {
 
     Job add_study(const std::string& name, const std::string& config_toml);
     /// `log` and `sidecar` are the bytes of NAME.csv and NAME.json.
-    Job add_diagnosis(const std::string& name, const std::string& log, const std::string& sidecar);
+    Job add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar);
     /// A study that was begun without this queue, or whose job is forgotten.
     Job add_resume(const std::string& name, std::int64_t study_id);
 

@@ -1,5 +1,6 @@
 // Running studies: starting them from a text or a named configuration, watching, stopping and resuming them.
 #include <algorithm>
+#include <limits>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/config/config_writer.h"
@@ -71,8 +72,10 @@ void require(bool holds, const char* what) {
     if (!holds) throw BadRequest(what, 409);
 }
 
-Job job_of(RouteContext& context, const httplib::Request& request) {
-    const auto job = context.queue.find(static_cast<int>(number_in_path(request)));
+Job job_of(RouteContext& context, const http::Request& request) {
+    const std::int64_t number = number_in_path(request);
+    const auto job = number <= std::numeric_limits<int>::max() ? context.queue.find(static_cast<int>(number))
+                                                               : std::nullopt;
     if (!job) throw BadRequest("there is no such job", 404);
     return *job;
 }
@@ -80,32 +83,33 @@ Job job_of(RouteContext& context, const httplib::Request& request) {
 }  // namespace
 
 std::vector<Route> job_routes(RouteContext& context) {
-    const auto list_configs = [&](const httplib::Request&, httplib::Response& response) {
+    const auto list_configs = [&](const http::Request&, http::Response& response) {
         send_json(response, config_names(context.options));
     };
-    const auto show_config = [&](const httplib::Request& request, httplib::Response& response) {
-        send_text(response, config_named(context.options, request.matches[1]), "text/plain; charset=utf-8");
+    const auto show_config = [&](const http::Request& request, http::Response& response) {
+        send_text(response, config_named(context.options, request.path_values.front()),
+                  "text/plain; charset=utf-8");
     };
-    const auto start_studies = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto start_studies = [&](const http::Request& request, http::Response& response) {
         send_json(response, start(context, body_of(request)), 202);
     };
-    const auto resume_stored = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto resume_stored = [&](const http::Request& request, http::Response& response) {
         send_json(response, resume_study(context, number_in_path(request)), 202);
     };
-    const auto list_jobs = [&](const httplib::Request&, httplib::Response& response) {
+    const auto list_jobs = [&](const http::Request&, http::Response& response) {
         ordered_json list = ordered_json::array();
         for (const Job& job : context.queue.jobs()) list.push_back(job_json(job));
         send_json(response, list);
     };
-    const auto show_job = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto show_job = [&](const http::Request& request, http::Response& response) {
         send_json(response, job_json(job_of(context, request)));
     };
-    const auto stop_job = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto stop_job = [&](const http::Request& request, http::Response& response) {
         const Job job = job_of(context, request);
         require(context.queue.stop(job.number), "only a queued or running job can be stopped");
         send_json(response, job_json(*context.queue.find(job.number)), 202);
     };
-    const auto resume_job = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto resume_job = [&](const http::Request& request, http::Response& response) {
         const Job job = job_of(context, request);
         require(context.queue.resume(job.number), "only a stopped or failed job can be resumed");
         send_json(response, job_json(*context.queue.find(job.number)), 202);

@@ -145,8 +145,7 @@ std::vector<Route> api_routes(RouteContext& context) {
         for (Route& route : part(context)) routes.push_back(std::move(route));
     routes.push_back(
         {"get", "/openapi.json", "openapi", "This description", "OpenAPI 3", json_of("object"), {}});
-    routes.back().handler = [text = openapi_text(routes)](const httplib::Request&,
-                                                          httplib::Response& response) {
+    routes.back().handler = [text = openapi_text(routes)](const http::Request&, http::Response& response) {
         send_text(response, text, "application/json");
     };
     return routes;

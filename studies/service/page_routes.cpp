@@ -25,37 +25,31 @@ constexpr WebFile web_files[] = {
     {"service.css", "text/css"},
 };
 
+constexpr const char* html = "text/html; charset=utf-8";
+
 }  // namespace
 
-void add_page_routes(httplib::Server& server, RouteContext& context) {
-    server.Get("/", [&context](const httplib::Request& request, httplib::Response& response) {
-        // The address that `capstan serve` prints carries the token once; later requests carry it in a
-        // cookie.
-        if (request.has_param("token")) {
-            if (!same_secret(request.get_param_value("token"), context.options.access.token))
-                throw BadRequest("The token is wrong.", 401);
-            response.set_header("Set-Cookie", "capstan_token=" + context.options.access.token +
-                                                  "; HttpOnly; SameSite=Strict; Path=/");
-            response.set_redirect("/", 303);
-            return;
-        }
-        send_text(response, std::string(reports::embedded_file("service.html")), "text/html; charset=utf-8");
-    });
+void add_page_routes(http::Server& server, RouteContext& context) {
+    const auto front = http::KeptText::of_program(reports::embedded_file("service.html"));
+    server.add("GET", "/",
+               [front](const http::Request&, http::Response& response) { send_kept(response, front, html); });
     for (const WebFile& file : web_files) {
-        server.Get(std::string("/web/") + file.name,
-                   [&file](const httplib::Request&, httplib::Response& response) {
-                       const std::string_view text = reports::embedded_file(file.name);
-                       response.set_header("Cache-Control", "max-age=3600");
-                       response.set_content(text.data(), text.size(), file.content_type);
+        const auto text = http::KeptText::of_program(reports::embedded_file(file.name));
+        server.add("GET", std::string("/web/") + file.name,
+                   [&file, text](const http::Request&, http::Response& response) {
+                       response.add_header("Cache-Control", "max-age=3600");
+                       send_kept(response, text, file.content_type);
                    });
     }
-    server.Get(R"(/studies/(\d+))", [&context](const httplib::Request& request, httplib::Response& response) {
+    const auto study = [&context](const http::Request& request, http::Response& response) {
         storage::Database database = context.open();
         const std::int64_t id = number_in_path(request);
-        const auto page =
-            context.about_study("page", database, id, [&] { return reports::study_live_html(database, id); });
-        response.set_content(*page, "text/html; charset=utf-8");
-    });
+        send_kept(
+            response,
+            context.about_study("page", database, id, [&] { return reports::study_live_html(database, id); }),
+            html);
+    };
+    server.add("GET", "/studies/{study_id}", study, static_cast<std::size_t>(Lane::reports));
 }
 
 }  // namespace capstan::service
