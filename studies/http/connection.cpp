@@ -24,6 +24,7 @@ namespace asio = boost::asio;
 namespace beast_http = boost::beast::http;
 
 constexpr std::chrono::seconds linger_time{2};
+constexpr std::size_t most_discarded = 1 << 20;
 constexpr std::size_t charged_at_once = 1 << 20;  // of the memory limit
 
 std::string_view view_of(boost::beast::string_view text) {
@@ -85,10 +86,8 @@ void Connection::explain_head(const Error& error) {
     const bool too_long =
         error == beast_http::error::header_limit || error == beast_http::error::buffer_overflow;
     if (too_long) {
-        // A request line that fills the buffer has no end in it.
-        const auto bytes = buffer_.data();
-        const std::string_view text(static_cast<const char*>(bytes.data()), bytes.size());
-        if (text.find('\n') == text.npos) return refuse(414, "The address is too long.");
+        // Of a request line that fills the buffer nothing was read.
+        if (parser_.get().target().empty()) return refuse(414, "The address is too long.");
         return refuse(431, fmt::format("The head of the request is longer than {} bytes.",
                                        exchange_.options.limits.head_bytes));
     }
@@ -264,8 +263,9 @@ void Connection::linger() {
 
 void Connection::discard() {
     socket_.async_read_some(asio::buffer(received_),
-                            [self = shared_from_this()](const Error& error, std::size_t) {
-                                if (error) return self->close();
+                            [self = shared_from_this()](const Error& error, std::size_t bytes) {
+                                self->discarded_ += bytes;
+                                if (error || self->discarded_ > most_discarded) return self->close();
                                 self->discard();
                             });
 }

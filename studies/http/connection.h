@@ -83,6 +83,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     std::string_view body_;  // of the answer, in `text_`
     std::size_t sent_ = 0;   // of head_ and body_
     std::size_t held_ = 0;   // of the memory limit
+    std::size_t discarded_ = 0;
 };
 
 }  // namespace capstan::http

@@ -41,7 +41,9 @@ std::optional<HeadProblem> problem_of(const Request& head, const ServerLimits& l
 
 // "gzip", "gzip;q=0.5" and "*", but not "gzip;q=0".
 bool accepts_gzip(const Request& head) {
-    const std::string accepted = lower_case(head.header("accept-encoding"));
+    std::string accepted;  // a field that is repeated is one list
+    for (const auto& [name, value] : head.headers)
+        if (name == "accept-encoding") accepted += lower_case(value) + ",";
     std::string_view rest = accepted;
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find(','), rest.size());
