@@ -194,6 +194,16 @@ bool Database::is_read_only() const {
     return sqlite3_db_readonly(connection_.get(), "main") == 1;
 }
 
+void Database::require_in_place() {
+    int has_moved = 0;
+    sqlite3_file_control(connection(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+    if (has_moved != 0)
+        throw Error(
+            path_.string() +
+            " was removed or renamed while it was written. Put it back under its name if you renamed it, "
+            "and run the command again.");
+}
+
 void Database::execute(const std::string& sql, const char* doing) {
     if (sqlite3_exec(connection(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
         throw_sqlite_error(connection(), doing);

@@ -41,6 +41,9 @@ class Database {
     bool is_read_only() const;
     sqlite3* connection() { return connection_.get(); }
 
+    // An Error if the file was removed or renamed since it was opened: what is written then is lost.
+    void require_in_place();
+
     // Runs statements that return nothing of interest. 'doing' completes "cannot ..." in an Error.
     void execute(const std::string& sql, const char* doing);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "capstan/answers/study_answers.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/platform/wrapped_text.h"
 
 namespace capstan::answers {
@@ -21,7 +22,7 @@ bool is_number(const QueryValue& value) {
 // Line breaks would tear a table apart.
 std::string on_one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+    return printable(text);
 }
 
 struct ForPeople {

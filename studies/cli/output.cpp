@@ -57,7 +57,9 @@ AnswerFormat answer_format(const Invocation& invocation, AnswerFormat otherwise)
 
 void deliver_answer(const Invocation& invocation, const reports::Answer& answer) {
     deliver_page(invocation, answer);
-    deliver(invocation, reports::answer_in(answer, answer_format(invocation, AnswerFormat::text)));
+    const AnswerFormat format = answer_format(invocation, AnswerFormat::text);
+    const std::string text = reports::answer_in(answer, format);
+    deliver(invocation, format == AnswerFormat::text ? printable(text) : text);
 }
 
 }  // namespace capstan::cli

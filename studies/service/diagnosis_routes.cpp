@@ -71,7 +71,7 @@ std::vector<Route> diagnosis_routes(RouteContext& context) {
          json_of("Job"),
          start_diagnosis,
          202,
-         {400, 413},
+         {400, 413, 503, 507},
          {{"log", "binary", "NAME.csv"}, {"sidecar", "binary", "NAME.json"}},
          "multipart/form-data"},
         {"get", "/api/diagnoses/{diagnosis_id}", "showDiagnosis",

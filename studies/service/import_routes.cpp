@@ -238,7 +238,7 @@ std::vector<Route> import_routes(RouteContext& context) {
          json_of("Job"),
          start,
          202,
-         {400, 408, 413, 503},
+         {400, 408, 413, 503, 507},
          {logs, mapping},
          "multipart/form-data"},
     };

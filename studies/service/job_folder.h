@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +12,7 @@
 namespace capstan::service {
 
 /// Where jobs are kept: a folder beside the database, FILE.jobs, with jobs.json and what each job needs. One
-/// service at a time has it.
+/// service at a time has it, and only its user may look into it.
 class JobFolder {
   public:
     /// Makes the folder if it does not exist. Throws std::runtime_error if another service uses it.
@@ -20,6 +22,13 @@ class JobFolder {
     JobFolder& operator=(const JobFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
+
+    /// Of all files in it.
+    std::uintmax_t bytes() const;
+    /// What a job was given and wrote; nothing if that is gone already.
+    void remove(int job) const;
+    /// When the files of a job were last written; nothing if it has none.
+    std::optional<std::filesystem::file_time_type> last_write(int job) const;
 
     std::vector<Job> read() const;  ///< none in a new folder
     /// Complete or not at all, and on the disk when it returns.

@@ -8,6 +8,7 @@
 
 #include "capstan/platform/files.h"
 #include "capstan/platform/progress.h"
+#include "capstan/service/bad_request.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
@@ -18,7 +19,10 @@ namespace {
 
 constexpr int nice_increment = 5;  // the service answers requests before a job goes on
 constexpr int signal_code = 128;   // above: ended by a signal, or by a request to end (the program's 130)
-constexpr std::size_t max_jobs = 1000;  // in the list; the oldest finished jobs are dropped
+constexpr std::size_t max_jobs = 1000;           // in the list; the oldest that have ended are dropped
+constexpr std::size_t max_waiting = 500;         // a sweep may have some hundred
+constexpr std::uintmax_t max_job_bytes = 4UL << 30;  // of the files of all jobs
+constexpr std::chrono::hours kept_for{24 * 30};  // an ended job and its files
 
 std::int64_t last_id(const JobCommands& commands, JobKind kind) {
     storage::Database database = storage::Database::open_read_only(commands.database);
@@ -75,15 +79,37 @@ int JobQueue::next_number() const {
     return jobs_.empty() ? 1 : jobs_.back().number + 1;
 }
 
+void JobQueue::require_room(std::size_t jobs, std::uintmax_t bytes) const {
+    const std::lock_guard lock(mutex_);
+    const auto waiting = std::ranges::count(jobs_, JobState::queued, &Job::state);
+    if (static_cast<std::size_t>(waiting) + jobs > max_waiting)
+        throw BadRequest(fmt::format("{} jobs wait already; at most {} may. Stop some, or come back later",
+                                     waiting, max_waiting),
+                         503);
+    if (folder_.bytes() + bytes > max_job_bytes)
+        throw BadRequest(fmt::format("the files of all jobs would exceed {} GB; remove old ones from {}",
+                                     max_job_bytes >> 30, folder_.path().string()),
+                         507);
+}
+
+// The newest stays, so that no number is given twice.
+void JobQueue::drop_old() {
+    const auto now = std::filesystem::file_time_type::clock::now();
+    std::size_t count = jobs_.size();
+    std::erase_if(jobs_, [&](const Job& job) {
+        if (&job == &jobs_.back() || (job.state != JobState::done && job.state != JobState::failed))
+            return false;
+        const auto written = folder_.last_write(job.number);
+        if (count <= max_jobs && (!written || now - *written < kept_for)) return false;
+        folder_.remove(job.number);
+        --count;
+        return true;
+    });
+}
+
 Job JobQueue::add(Job job) {
     jobs_.push_back(std::move(job));
-    while (jobs_.size() > max_jobs) {
-        const auto ended = std::ranges::find_if(jobs_, [](const Job& each) {
-            return each.state == JobState::done || each.state == JobState::failed;
-        });
-        if (ended == jobs_.end()) break;
-        jobs_.erase(ended);
-    }
+    drop_old();
     folder_.write(jobs_);
     changed_.notify_all();
     return jobs_.back();
@@ -100,6 +126,7 @@ Job JobQueue::add_study(const std::string& name, const std::string& config_toml)
 }
 
 Job JobQueue::add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar) {
+    require_room(1, log.size() + sidecar.size());
     const std::lock_guard lock(mutex_);
     Job job;
     job.number = next_number();
@@ -113,6 +140,7 @@ Job JobQueue::add_diagnosis(const std::string& name, std::string_view log, std::
 }
 
 Job JobQueue::add_resume(const std::string& name, std::int64_t study_id) {
+    require_room(1, 0);
     const std::lock_guard lock(mutex_);
     Job job;
     job.number = next_number();

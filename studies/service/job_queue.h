@@ -38,6 +38,9 @@ class JobQueue {
     std::vector<Job> jobs() const;
     std::optional<Job> find(int number) const;
 
+    /// Throws BadRequest if so many more jobs would be too many (503), or their files too large (507).
+    void require_room(std::size_t jobs, std::uintmax_t bytes) const;
+
     Job add_study(const std::string& name, const std::string& config_toml);
     /// `log` and `sidecar` are the bytes of NAME.csv and NAME.json.
     Job add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar);
@@ -59,6 +62,7 @@ class JobQueue {
     bool is_complete(const Job& job) const;
     void on_output(int number, const std::string& line, std::string& messages);
     Job add(Job job);
+    void drop_old();          // while locked
     int next_number() const;  // while locked
     void change(int number, const std::function<void(Job&)>& to);
 

@@ -49,7 +49,10 @@ ordered_json start(RouteContext& context, const nlohmann::json& body) {
     const std::string toml =
         by_name ? config_named(context.options, name) : member<std::string>(body, "config_toml");
     ordered_json started = ordered_json::array();
-    for (const StudyPlan& plan : studies_of(toml, name, by_name ? context.options.configs : std::nullopt))
+    const std::vector<StudyPlan> plans =
+        studies_of(toml, name, by_name ? context.options.configs : std::nullopt);
+    context.queue.require_room(plans.size(), plans.size() * toml.size());
+    for (const StudyPlan& plan : plans)
         started.push_back(
             job_json(context.queue.add_study(plan.name, config::config_text(plan, config::Comments::none))));
     return started;
@@ -133,7 +136,7 @@ std::vector<Route> job_routes(RouteContext& context) {
          json_of("[Job]"),
          start_studies,
          202,
-         {400, 404},
+         {400, 404, 503, 507},
          {{"config", "string", "A name of /api/configs; or", false},
           {"config_toml", "string", "the text of a configuration", false}}},
         {"post",
