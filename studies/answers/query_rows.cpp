@@ -51,6 +51,14 @@ std::string without_trailing_blanks(std::string line) {
 
 }  // namespace
 
+QueryResult studies_table(storage::Database& database, storage::Shelf shelf) {
+    QueryResult table{{"study_id", "name", "status", "units_done", "units", "begun_utc", "note", "tags"}, {}};
+    for (const storage::StudySummary& study : storage::list_studies(database, shelf))
+        table.rows.push_back({study.study_id, study.name, study.status, std::int64_t{study.units_done},
+                              std::int64_t{study.units}, study.begun_utc, study.note, study.tags});
+    return table;
+}
+
 std::string rows_text(const QueryResult& result) {
     std::vector<std::size_t> width;
     std::vector<bool> numeric;

@@ -11,6 +11,7 @@
 #include "capstan/storage/database.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/records.h"
+#include "capstan/storage/study_store.h"
 
 namespace capstan::answers {
 
@@ -24,6 +25,11 @@ reports::Answer cost_answer(const std::string& name, const StudyCost& cost,
 /// One repetition: what each sensor read, and what each method made of it. `repetition` from 1.
 reports::Answer replay_answer(const Replay& replayed, const storage::ScenarioRecord& scenario,
                               const std::string& noise, std::int64_t repetition);
+/// The studies, with progress, date, note and tags; as `capstan study list --json` and the service write
+/// them.
+storage::QueryResult studies_table(storage::Database& database,
+                                   storage::Shelf shelf = storage::Shelf::studies);
+
 /// The rows as columns side by side, numbers to the right in six digits.
 std::string rows_text(const storage::QueryResult& result);
 /// The rows as a JSON array of objects, one object after the other.

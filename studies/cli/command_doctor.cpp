@@ -127,7 +127,7 @@ Command doctor_command() {
                 "Checks the program, the processor and the optional programs, reads every page of the "
                 "database, and checks every reference in it. Changes nothing.",
             .options = {database_option, output_option, json_option, help_option},
-            .examples = {"capstan doctor", "capstan doctor --db results/capstan.db --json"},
+            .examples = {"capstan doctor", "capstan doctor --db other.db --json"},
             .run = run_doctor};
 }
 

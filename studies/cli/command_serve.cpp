@@ -129,7 +129,7 @@ Command serve_command() {
               .high = 600},
              jobs_option,
              help_option},
-        .examples = {"capstan serve --db results/capstan.db --configs configs", "capstan serve --port 0",
+        .examples = {"capstan serve --configs configs", "capstan serve --port 0",
                      "capstan serve --host 0.0.0.0 --token-file token.txt"},
         .run = run_serve};
 }

@@ -52,6 +52,13 @@ AnswerFormat answer_format(const Invocation& invocation, AnswerFormat otherwise)
     if (invocation.has("json")) return AnswerFormat::json;
     if (invocation.has("format")) return format_named(invocation.text("format")).value_or(otherwise);
     const std::string ending = std::filesystem::path(invocation.text("output")).extension().string();
+    for (const std::string_view other : {".pdf", ".svg", ".png", ".jpg", ".tex", ".docx", ".xlsx"}) {
+        if (ending == other)
+            throw UsageError(fmt::format(
+                "capstan {}: -o {}: it writes text, md, csv, json and html, no {}. `capstan report -o FILE.pdf` "
+                "prints a study's page, and `capstan report --figures FOLDER` writes SVG and PNG",
+                invocation.command().name, invocation.text("output"), other));
+    }
     return ending.empty() ? otherwise : format_named(ending.substr(1)).value_or(otherwise);
 }
 

@@ -1,4 +1,5 @@
 // The pages, and the scripts and styles that they load.
+#include "capstan/answers/glossary.h"
 #include "capstan/reports/embedded_files.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/service/exchange.h"
@@ -23,6 +24,7 @@ constexpr WebFile web_files[] = {
     {"import.js", "text/javascript"},
     {"page.css", "text/css"},
     {"service.css", "text/css"},
+    {"notices.txt", "text/plain; charset=utf-8"},
 };
 
 constexpr const char* html = "text/html; charset=utf-8";
@@ -33,6 +35,9 @@ void add_page_routes(http::Server& server, RouteContext& context) {
     const auto front = http::KeptText::of_program(reports::embedded_file("service.html"));
     server.add("GET", "/",
                [front](const http::Request&, http::Response& response) { send_kept(response, front, html); });
+    const auto words = std::make_shared<http::KeptText>(reports::answer_html(answers::glossary_answer()));
+    server.add("GET", "/glossary",
+               [words](const http::Request&, http::Response& response) { send_kept(response, words, html); });
     for (const WebFile& file : web_files) {
         const auto text = http::KeptText::of_program(reports::embedded_file(file.name));
         server.add("GET", std::string("/web/") + file.name,

@@ -37,8 +37,7 @@ std::string recommendation_json(storage::Database& database, std::int64_t study_
 std::vector<Route> study_routes(RouteContext& context) {
     const auto list = [&](const http::Request&, http::Response& response) {
         storage::Database database = context.open();
-        send_text(response, answers::rows_json(storage::run_read_only(database, storage::studies_query)),
-                  "application/json");
+        send_text(response, answers::rows_json(answers::studies_table(database)), "application/json");
     };
     const auto rows_of = [&](std::string_view query) {
         return of_study(

@@ -13,6 +13,7 @@ from capstan_program import CONFIGS
 from capstan_service import PATIENCE_S, ServiceTest
 
 JSON = {"Content-Type": "application/json"}
+QUICK = (CONFIGS / "quick.toml").read_text()
 OTHER_ADDRESS = "127.0.0.2"  # of a client on this machine
 MEMORY_LIMIT_MB = 150
 
@@ -225,6 +226,14 @@ class Limits(ServiceTest):
             self.assertEqual(self.ask("GET", f"/api/jobs/{number}")[0], 404, number)
             self.assertEqual(self.ask("POST", f"/api/jobs/{number}/stop", b"{}", JSON)[0], 404, number)
         self.await_job(1, "done")
+
+    def test_the_queue_is_limited_and_private(self):
+        self.serve()
+        for path in (self.folder / "served.db.jobs",):
+            self.assertEqual(path.stat().st_mode & 0o777, 0o700)
+        many = QUICK + "[sweep]\nfriction_ratio = [" + ", ".join(f"{0.5 + k / 1000:.3f}" for k in range(501)) + "]\n"
+        self.assertIn("at most 500", self.post("/api/studies", {"config_toml": many}, expect=503)["error"])
+        self.assertEqual(self.get("/api/jobs"), [])
 
     def test_heads_are_answered_without_their_bodies(self):
         self.serve()

@@ -20,6 +20,7 @@ for name in capstan libcapstan-dev python3-capstan; do
     dpkg-deb --info "$package"
     dpkg-deb --extract "$package" "$work/$name"
     test -s "$work/$name/usr/share/doc/$name/copyright"
+    grep -q "University of Washington" "$work/$name/usr/share/doc/$name/notices.txt"
 done
 
 needs() {  # package, what it must say that it needs
