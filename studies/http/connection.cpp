@@ -225,8 +225,9 @@ void Connection::send(Response response) {
             head_ += "Content-Encoding: gzip\r\n";
         }
     }
-    for (const auto& headers : {exchange_.options.headers, response.headers})
-        for (const auto& [name, value] : headers) head_ += fmt::format("{}: {}\r\n", name, value);
+    for (const auto& [name, value] : response.headers) head_ += fmt::format("{}: {}\r\n", name, value);
+    for (const auto& [name, value] : exchange_.options.headers)
+        if (!response.has_header(name)) head_ += fmt::format("{}: {}\r\n", name, value);
     head_ += fmt::format("Content-Length: {}\r\nConnection: close\r\n\r\n", body_.size());
     if (request_.method == "HEAD") body_ = {};
     begun_ = Clock::now();

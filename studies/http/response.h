@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,9 @@ struct Response {
     std::shared_ptr<const KeptText> text;  ///< null: no body
     bool is_kept = false;  ///< the text is sent again, so that compressing it is worth the time
 
+    bool has_header(std::string_view name) const {
+        return std::ranges::any_of(headers, [&](const auto& each) { return each.first == name; });
+    }
     void add_header(std::string name, std::string value) {
         headers.emplace_back(std::move(name), std::move(value));
     }

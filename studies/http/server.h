@@ -40,8 +40,9 @@ struct ServerOptions {
     /// The answer that reports a problem: of the server itself, or of an exception of a handler.
     std::function<Response(int status, const std::string& message)> problem;
     std::function<Response(std::exception_ptr)> failure;
-    std::vector<std::pair<std::string, std::string>> headers{};  ///< of every answer
-    std::vector<LaneLimits> lanes{LaneLimits{}};                 ///< routes name them by index
+    std::vector<std::pair<std::string, std::string>>
+        headers{};                                ///< of every answer that has none of the name
+    std::vector<LaneLimits> lanes{LaneLimits{}};  ///< routes name them by index
     ServerLimits limits{};
 };
 

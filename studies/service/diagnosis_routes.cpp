@@ -32,11 +32,8 @@ Job start(RouteContext& context, const http::Request& request) {
 // What the command wrote, if the diagnosis was made here. Otherwise what the database holds, which lacks the
 // experiments that would distinguish its explanations.
 std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
-    for (const Job& job : context.queue.jobs()) {
-        if (job.kind != JobKind::diagnosis || job.state != JobState::done || job.result_id != diagnosis_id)
-            continue;
-        if (std::string answer = context.queue.answer_of(job); !answer.empty()) return answer;
-    }
+    if (std::string answer = context.queue.answer_of(diagnosis_id, "answer.json"); !answer.empty())
+        return answer;
     storage::Database database = context.open();
     for (const auto& each : storage::list_diagnoses(database)) {
         if (each.diagnosis_id == diagnosis_id)
@@ -60,6 +57,13 @@ std::vector<Route> diagnosis_routes(RouteContext& context) {
     const auto show = [&](const http::Request& request, http::Response& response) {
         send_text(response, answer_of(context, number_in_path(request)), "application/json");
     };
+    const auto model = [&](const http::Request& request, http::Response& response) {
+        std::string text = context.queue.answer_of(number_in_path(request), "model.toml");
+        if (text.empty()) throw BadRequest("the model of this diagnosis is not kept here", 404);
+        response.add_header("Content-Disposition",
+                            "attachment; filename=\"model-" + request.path_values.front() + ".toml\"");
+        send_text(response, std::move(text), "application/toml");
+    };
     return {
         {"get", "/api/diagnoses", "listDiagnoses", "The stored diagnoses, newest first: v_diagnosis",
          "Diagnoses", json_of("[object]"), list},
@@ -74,6 +78,13 @@ std::vector<Route> diagnosis_routes(RouteContext& context) {
          {400, 413, 503, 507},
          {{"log", "binary", "NAME.csv"}, {"sidecar", "binary", "NAME.json"}},
          "multipart/form-data"},
+        {"get",
+         "/api/diagnoses/{diagnosis_id}/model",
+         "diagnosedModel",
+         "The corrected model of the bench, as `capstan diagnose --save` writes it, if the service made the diagnosis",
+         "The model",
+         {{"application/toml", "string"}},
+         model},
         {"get", "/api/diagnoses/{diagnosis_id}", "showDiagnosis",
          "As `capstan diagnose --json` writes it. A diagnosis that was not made by this service lacks "
          "`non_identifiable`, which the database does not keep",

@@ -69,8 +69,8 @@ std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char
     return numbers;
 }
 
-std::int64_t number_in_path(const http::Request& request) {
-    const std::string& text = request.path_values.front();
+std::int64_t number_in_path(const http::Request& request, std::size_t which) {
+    const std::string& text = request.path_values.at(which);
     std::int64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size())

@@ -45,7 +45,8 @@ int member<int>(const nlohmann::json& body, const char* name);
 template <>
 std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char* name);
 
-/// The number in the path. A BadRequest (404) if it is larger than any number of ours.
-std::int64_t number_in_path(const http::Request& request);
+/// A number in the path, the first unless another is asked for. A BadRequest (404) if it is larger than any
+/// number of ours.
+std::int64_t number_in_path(const http::Request& request, std::size_t which = 0);
 
 }  // namespace capstan::service

@@ -42,15 +42,20 @@ std::string plain_messages(std::string text, const std::string& folder) {
     return text.size() > most_message_bytes ? text.substr(0, most_message_bytes) + " ..." : text;
 }
 
-std::filesystem::path new_folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "capstan-import-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-        throw std::runtime_error("cannot make a folder for the uploaded files in " +
+}  // namespace
+
+PrivateFolder::PrivateFolder(const std::string& name) {
+    std::string path = (std::filesystem::temp_directory_path() / (name + "-XXXXXX")).string();
+    if (::mkdtemp(path.data()) == nullptr)
+        throw std::runtime_error("cannot make a folder in " +
                                  std::filesystem::temp_directory_path().string());
-    return name;
+    path_ = path;
 }
 
-}  // namespace
+PrivateFolder::~PrivateFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
 
 std::string safe_file_name(const std::string& name) {
     std::string safe = name.substr(name.find_last_of("/\\") + 1);
@@ -65,7 +70,7 @@ std::string safe_file_name(const std::string& name) {
 }
 
 ImportFolder::ImportFolder(const http::Request& request, const JobCommands& commands)
-    : program_(commands.program), ending_(commands.ending) {
+    : private_("capstan-import"), program_(commands.program), ending_(commands.ending) {
     std::vector<const http::FormPart*> logs;
     for (const http::FormPart& part : request.parts)
         if (part.name == "log") logs.push_back(&part);
@@ -81,26 +86,14 @@ ImportFolder::ImportFolder(const http::Request& request, const JobCommands& comm
             throw BadRequest(fmt::format("two files are called {}; give them different names", name));
         names.push_back(name);
     }
-    folder_ = new_folder();
-    try {
-        std::filesystem::create_directory(folder_ / "logs");
-        for (std::size_t k = 0; k < logs.size(); ++k) {
-            logs_.push_back(folder_ / "logs" / names[k]);
-            write_file(logs_.back(), logs[k]->content);
-        }
-        const http::FormPart* mapping = request.part("mapping");
-        has_mapping_ = mapping != nullptr;
-        if (has_mapping_) write_file(folder_ / "import.toml", mapping->content);
-    } catch (...) {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-        throw;
+    std::filesystem::create_directory(folder() / "logs");
+    for (std::size_t k = 0; k < logs.size(); ++k) {
+        logs_.push_back(folder() / "logs" / names[k]);
+        write_file(logs_.back(), logs[k]->content);
     }
-}
-
-ImportFolder::~ImportFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
+    const http::FormPart* mapping = request.part("mapping");
+    has_mapping_ = mapping != nullptr;
+    if (has_mapping_) write_file(folder() / "import.toml", mapping->content);
 }
 
 std::string ImportFolder::import(const std::vector<std::string>& words) const {
@@ -111,15 +104,15 @@ std::string ImportFolder::import(const std::vector<std::string>& words) const {
     const CommandOutput ended = run_limited(command, ending_);
     if (ended.exit_code == 0) return ended.output;
     std::string messages =
-        plain_messages(plain_messages(ended.messages, (folder_ / "logs").string()), folder_.string());
+        plain_messages(plain_messages(ended.messages, (folder() / "logs").string()), folder().string());
     throw BadRequest(messages.empty() ? fmt::format("the import ended with code {}", ended.exit_code)
                                       : messages);
 }
 
 std::filesystem::path ImportFolder::import_recording(std::string& answer) const {
     if (!has_mapping_) throw BadRequest("the part 'mapping' is missing: send the text of import.toml");
-    const std::filesystem::path recording = folder_ / "recording";
-    answer = import({"--mapping", (folder_ / "import.toml").string(), "-o", recording.string(), "--json"});
+    const std::filesystem::path recording = folder() / "recording";
+    answer = import({"--mapping", (folder() / "import.toml").string(), "-o", recording.string(), "--json"});
     return recording.string() + ".csv";
 }
 

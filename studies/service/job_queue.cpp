@@ -19,10 +19,10 @@ namespace {
 
 constexpr int nice_increment = 5;  // the service answers requests before a job goes on
 constexpr int signal_code = 128;   // above: ended by a signal, or by a request to end (the program's 130)
-constexpr std::size_t max_jobs = 1000;           // in the list; the oldest that have ended are dropped
-constexpr std::size_t max_waiting = 500;         // a sweep may have some hundred
+constexpr std::size_t max_jobs = 1000;               // in the list; the oldest that have ended are dropped
+constexpr std::size_t max_waiting = 500;             // a sweep may have some hundred
 constexpr std::uintmax_t max_job_bytes = 4UL << 30;  // of the files of all jobs
-constexpr std::chrono::hours kept_for{24 * 30};  // an ended job and its files
+constexpr std::chrono::hours kept_for{24 * 30};      // an ended job and its files
 
 std::int64_t last_id(const JobCommands& commands, JobKind kind) {
     storage::Database database = storage::Database::open_read_only(commands.database);
@@ -107,22 +107,33 @@ void JobQueue::drop_old() {
     });
 }
 
-Job JobQueue::add(Job job) {
-    jobs_.push_back(std::move(job));
+void JobQueue::keep() {
     drop_old();
     folder_.write(jobs_);
     changed_.notify_all();
+}
+
+Job JobQueue::add(Job job) {
+    jobs_.push_back(std::move(job));
+    keep();
     return jobs_.back();
 }
 
-Job JobQueue::add_study(const std::string& name, const std::string& config_toml) {
+std::vector<Job> JobQueue::add_studies(const std::vector<std::pair<std::string, std::string>>& named_toml) {
     const std::lock_guard lock(mutex_);
-    Job job;
-    job.number = next_number();
-    job.title = name;
-    job.file = fmt::format("{}/study.toml", job.number);
-    folder_.write_file(job.file, config_toml);
-    return add(std::move(job));
+    std::vector<Job> added;
+    int number = next_number();
+    for (const auto& [name, toml] : named_toml) {
+        Job job;
+        job.number = number++;
+        job.title = name;
+        job.file = fmt::format("{}/study.toml", job.number);
+        folder_.write_file(job.file, toml);
+        added.push_back(std::move(job));
+    }
+    jobs_.insert(jobs_.end(), added.begin(), added.end());
+    keep();
+    return added;
 }
 
 Job JobQueue::add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar) {
@@ -180,9 +191,23 @@ bool JobQueue::resume(int number) {
     return false;
 }
 
-std::string JobQueue::answer_of(const Job& job) const {
-    const std::filesystem::path file = folder_.path() / fmt::format("{}/answer.json", job.number);
-    return std::filesystem::exists(file) ? read_file(file) : "";
+std::filesystem::path JobQueue::file_of(const Job& job, const std::string& name) const {
+    return folder_.path() / std::to_string(job.number) / name;
+}
+
+std::string JobQueue::answer_of(std::int64_t diagnosis_id, const std::string& name) const {
+    for (const Job& job : jobs()) {
+        if (job.kind != JobKind::diagnosis || job.state != JobState::done || job.result_id != diagnosis_id)
+            continue;
+        if (const auto file = file_of(job, name); std::filesystem::exists(file)) return read_file(file);
+    }
+    return "";
+}
+
+int JobQueue::stop_all() {
+    int stopped = 0;
+    for (const Job& job : jobs()) stopped += stop(job.number) ? 1 : 0;
+    return stopped;
 }
 
 void JobQueue::change(int number, const std::function<void(Job&)>& to) {
@@ -254,8 +279,10 @@ bool JobQueue::is_complete(const Job& job) const {
 std::vector<std::string> JobQueue::command_line(const Job& job) const {
     std::vector<std::string> words{commands_.program};
     if (job.kind == JobKind::diagnosis) {
-        words.insert(words.end(), {"diagnose", (folder_.path() / job.file).string(), "--json", "-o",
-                                   (folder_.path() / fmt::format("{}/answer.json", job.number)).string()});
+        const auto beside = [&](const char* name) { return file_of(job, name).string(); };
+        words.insert(words.end(),
+                     {"diagnose", (folder_.path() / job.file).string(), "--json", "-o", beside("answer.json"),
+                      "--html", beside("page.html"), "--save", beside("model.toml")});
     } else if (job.result_id) {
         words.insert(words.end(), {"study", "resume", std::to_string(*job.result_id), "--json"});
     } else {

@@ -143,8 +143,8 @@ std::string openapi_text(const std::vector<Route>& routes) {
 
 std::vector<Route> api_routes(RouteContext& context) {
     std::vector<Route> routes;
-    for (const auto& part :
-         {study_routes, layout_routes, job_routes, diagnosis_routes, import_routes, query_routes})
+    for (const auto& part : {study_routes, study_action_routes, layout_routes, job_routes, diagnosis_routes,
+                             import_routes, query_routes})
         for (Route& route : part(context)) routes.push_back(std::move(route));
     routes.push_back(
         {"get", "/openapi.json", "openapi", "This description", "OpenAPI 3", json_of("object"), {}});

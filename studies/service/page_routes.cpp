@@ -1,9 +1,17 @@
 // The pages, and the scripts and styles that they load.
+#include <fmt/format.h>
+
 #include "capstan/answers/glossary.h"
+#include "capstan/answers/recording_answers.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/reports/embedded_files.h"
+#include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/service/exchange.h"
+#include "capstan/service/page_policy.h"
 #include "capstan/service/routes.h"
+#include "capstan/storage/diagnosis_store.h"
+#include "capstan/storage/error.h"
 
 namespace capstan::service {
 
@@ -21,6 +29,7 @@ constexpr WebFile web_files[] = {
     {"page.js", "text/javascript"},
     {"live.js", "text/javascript"},
     {"service.js", "text/javascript"},
+    {"query.js", "text/javascript"},
     {"import.js", "text/javascript"},
     {"page.css", "text/css"},
     {"service.css", "text/css"},
@@ -28,6 +37,39 @@ constexpr WebFile web_files[] = {
 };
 
 constexpr const char* html = "text/html; charset=utf-8";
+
+// A page that holds its scripts in itself.
+void send_whole_page(http::Response& response, std::shared_ptr<const http::KeptText> page) {
+    response.add_header(policy_header, whole_page_policy());
+    send_kept(response, std::move(page), html);
+}
+
+// As its job wrote it, with curves; otherwise what the database holds.
+std::string diagnosis_page(RouteContext& context, std::int64_t id) {
+    if (std::string page = context.queue.answer_of(id, "page.html"); !page.empty()) return page;
+    storage::Database database = context.open();
+    for (const auto& each : storage::list_diagnoses(database)) {
+        if (each.diagnosis_id == id)
+            return reports::answer_html(
+                answers::stored_diagnosis_answer(storage::load_diagnosis(database, id)));
+    }
+    throw BadRequest(fmt::format("there is no diagnosis {}", id), 404);
+}
+
+std::string comparison_page(RouteContext& context, std::int64_t first, std::int64_t second) {
+    storage::Database database = context.open();
+    for (const std::int64_t id : {first, second}) {
+        study_state(database, id);
+        if (load_stored_study(database, id).plan.uncertainty.is_stated)
+            throw BadRequest(
+                fmt::format("study {} is over worlds; only studies at instants can be compared", id));
+    }
+    try {
+        return reports::answer_html(reports::study_comparison(database, {first, second}));
+    } catch (const storage::Error& error) {
+        throw BadRequest(error.what(), 409);
+    }
+}
 
 }  // namespace
 
@@ -37,7 +79,7 @@ void add_page_routes(http::Server& server, RouteContext& context) {
                [front](const http::Request&, http::Response& response) { send_kept(response, front, html); });
     const auto words = std::make_shared<http::KeptText>(reports::answer_html(answers::glossary_answer()));
     server.add("GET", "/glossary",
-               [words](const http::Request&, http::Response& response) { send_kept(response, words, html); });
+               [words](const http::Request&, http::Response& response) { send_whole_page(response, words); });
     for (const WebFile& file : web_files) {
         const auto text = http::KeptText::of_program(reports::embedded_file(file.name));
         server.add("GET", std::string("/web/") + file.name,
@@ -54,7 +96,20 @@ void add_page_routes(http::Server& server, RouteContext& context) {
             context.about_study("page", database, id, [&] { return reports::study_live_html(database, id); }),
             html);
     };
-    server.add("GET", "/studies/{study_id}", study, static_cast<std::size_t>(Lane::reports));
+    const auto reports_lane = static_cast<std::size_t>(Lane::reports);
+    server.add("GET", "/studies/{study_id}", study, reports_lane);
+    const auto diagnosis = [&context](const http::Request& request, http::Response& response) {
+        const std::int64_t id = number_in_path(request);
+        send_whole_page(response, context.reports.get(fmt::format("diagnosis {}", id), "stored",
+                                                      ReportShelf::Freshness::exact,
+                                                      [&] { return diagnosis_page(context, id); }));
+    };
+    server.add("GET", "/diagnoses/{diagnosis_id}", diagnosis, reports_lane);
+    const auto compare = [&context](const http::Request& request, http::Response& response) {
+        const std::int64_t first = number_in_path(request), second = number_in_path(request, 1);
+        send_whole_page(response, std::make_shared<http::KeptText>(comparison_page(context, first, second)));
+    };
+    server.add("GET", "/studies/{study_id}/compare/{other_id}", compare, reports_lane);
 }
 
 }  // namespace capstan::service

@@ -77,11 +77,15 @@ inline std::map<std::string, std::string> json_of(std::string type) {
 std::vector<Route> in_lane(Lane lane, std::vector<Route> routes);
 
 std::vector<Route> study_routes(RouteContext& context);
+std::vector<Route> study_action_routes(RouteContext& context);
 std::vector<Route> layout_routes(RouteContext& context);
 std::vector<Route> job_routes(RouteContext& context);
 std::vector<Route> diagnosis_routes(RouteContext& context);
 std::vector<Route> import_routes(RouteContext& context);
 std::vector<Route> query_routes(RouteContext& context);
+
+/// The text of a stored configuration; a BadRequest (404) if the folder has none of the name.
+std::string config_named(const ServiceOptions& options, const std::string& name);
 
 /// All of them, and /openapi.json, which describes them.
 std::vector<Route> api_routes(RouteContext& context);

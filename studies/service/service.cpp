@@ -4,22 +4,19 @@
 
 #include "capstan/service/entrance.h"
 #include "capstan/service/exchange.h"
+#include "capstan/service/page_policy.h"
 #include "capstan/service/routes.h"
 
 namespace capstan::service {
 
 namespace {
 
-// The pages run and load only files of this service, and no other page can frame them. The charts compile
-// their expressions, which needs 'unsafe-eval'.
-const std::vector<std::pair<std::string, std::string>> safe_headers{
-    {"Content-Security-Policy",
-     "default-src 'none'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; connect-src 'self'; "
-     "img-src 'self' data: blob:; form-action 'self'; base-uri 'none'; frame-ancestors 'none'"},
-    {"X-Content-Type-Options", "nosniff"},
-    {"Referrer-Policy", "no-referrer"},
-    {"Cross-Origin-Resource-Policy", "same-origin"},
-};
+std::vector<std::pair<std::string, std::string>> safe_headers() {
+    return {{policy_header, page_policy()},
+            {"X-Content-Type-Options", "nosniff"},
+            {"Referrer-Policy", "no-referrer"},
+            {"Cross-Origin-Resource-Policy", "same-origin"}};
+}
 
 http::Response problem(int status, const std::string& message) {
     http::Response response;
@@ -62,7 +59,7 @@ struct Service::Parts {
           server({.gate = [this](const http::Request& head) { return entrance->judge(head); },
                   .problem = problem,
                   .failure = failure,
-                  .headers = safe_headers,
+                  .headers = safe_headers(),
                   .lanes = lane_limits()}) {}
 
     ServiceOptions options;
