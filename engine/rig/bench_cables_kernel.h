@@ -5,10 +5,10 @@
 namespace capstan {
 
 /// How many benches of one geometry move side by side, a bench in each SIMD lane.
-inline constexpr int bench_lanes = 4;
+inline constexpr int bench_lanes = 8;
 
 /// One number of each bench.
-struct alignas(32) LaneValues {
+struct alignas(64) LaneValues {
     double of[bench_lanes] = {};
 };
 

@@ -66,7 +66,7 @@ Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) 
     Torque balance = {lost.value_Nm + swing.value_Nm + cogging.value_Nm + spring.value_Nm,
                       lost.per_rad + swing.per_rad + cogging.per_rad + spring.per_rad};
     if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
-        balance.value_Nm -= torque->torque_Nm;
+        balance.value_Nm -= torque->torque_Nm - zeros_.motor_Nm;
     } else if (motor_is_free(inputs)) {
         const double across =
             Backlash::beyond_gap_rad(std::get<MotorAngle>(inputs.motor).angle_rad - angle_rad,
@@ -79,13 +79,14 @@ Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) 
 
 // The torque taken by what holds the load pulley (E17, E29, E34).
 Torque BenchPulleys::held_by(const BenchInputs& inputs, double angle_rad) const {
-    if (const auto* torque = std::get_if<LoadTorque>(&inputs.load)) return {torque->torque_Nm, 0.0};
+    if (const auto* torque = std::get_if<LoadTorque>(&inputs.load))
+        return {torque->torque_Nm - zeros_.load_Nm, 0.0};
+    const EnvironmentCoupling& coupling = effects_.of<EnvironmentCoupling>();
     if (const auto* spring = std::get_if<LoadSpring>(&inputs.load)) {
-        return {spring->stiffness_Nm_per_rad * (angle_rad - spring->wall_angle_rad),
-                spring->stiffness_Nm_per_rad};
+        const double stiffness = 1.0 / (1.0 / spring->stiffness_Nm_per_rad + coupling.compliance_rad_per_Nm);
+        return {stiffness * (angle_rad - spring->wall_angle_rad), stiffness};
     }
     const double held_rad = std::get<LoadAngle>(inputs.load).angle_rad;
-    const EnvironmentCoupling& coupling = effects_.of<EnvironmentCoupling>();
     const double stiffness = coupling.stiffness_Nm_per_rad();
     const double across =
         Backlash::beyond_gap_rad(angle_rad - held_rad, effects_.of<Backlash>().load_half_gap_rad);
@@ -143,8 +144,8 @@ double BenchPulleys::motor_stands_rad(double torque_Nm, double angle_rad) const 
 void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles, double motor_pull_N,
                           double load_pull_N) {
     if (const auto* torque = std::get_if<MotorTorque>(&inputs.motor)) {
-        motor_.torque_Nm = torque->torque_Nm;
-        motor_.encoder_rad = motor_stands_rad(torque->torque_Nm, angles.motor_rad);
+        motor_.torque_Nm = torque->torque_Nm - zeros_.motor_Nm;
+        motor_.encoder_rad = motor_stands_rad(motor_.torque_Nm, angles.motor_rad);
     } else {
         motor_.torque_Nm =
             pulleys_.motor_radius_m * motor_pull_N +

@@ -14,6 +14,12 @@ struct BenchInputs {
     double session_time_s = 0.0;  ///< since the session began: what drifts goes on from run to run
 };
 
+/// What is read of a torque that is 0. A prescribed torque is a reading: what acts is the reading less this.
+struct TorqueZeros {
+    double motor_Nm = 0.0;
+    double load_Nm = 0.0;
+};
+
 struct PulleyAngles {
     double motor_rad = 0.0;
     double load_rad = 0.0;
@@ -24,8 +30,9 @@ struct PulleyAngles {
 class BenchPulleys {
   public:
     /// `known`: inertia of the nominal bench; the effect's comes on top.
-    BenchPulleys(const Pulleys& pulleys, const BenchEffects& effects, const Inertia& known)
-        : pulleys_(pulleys), effects_(effects), known_(known) {}
+    BenchPulleys(const Pulleys& pulleys, const BenchEffects& effects, const Inertia& known,
+                 const TorqueZeros& zeros)
+        : pulleys_(pulleys), effects_(effects), known_(known), zeros_(zeros) {}
 
     /// At rest a single cable pulls.
     void rest(double motor_torque_Nm, double load_torque_Nm) {
@@ -85,6 +92,7 @@ class BenchPulleys {
     Pulleys pulleys_;
     BenchEffects effects_;
     Inertia known_;
+    TorqueZeros zeros_;
     Pulley motor_;
     Pulley load_;
 };

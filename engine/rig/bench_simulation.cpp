@@ -67,7 +67,8 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
       cables_(cables_of(descriptions), effects, descriptions.front().arrangement) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
         pretension_N_.push_back(descriptions[bench].cable.pretension_N());
-        pulleys_.emplace_back(radii_, effects_[bench], descriptions[bench].inertia);
+        pulleys_.emplace_back(radii_, effects_[bench], descriptions[bench].inertia,
+                              descriptions[bench].zeros);
         if (cables_.count() == 1)
             pulleys_.back().rest(radii_.motor_radius_m * pretension_N_.back(),
                                  radii_.load_radius_m * pretension_N_.back());

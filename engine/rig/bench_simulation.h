@@ -15,6 +15,7 @@ struct BenchDescription {
     CableArrangement arrangement = CableArrangement::pull_pull;
     Pulleys pulleys{};
     Inertia inertia{};  ///< known ones; an effect's inertia comes on top
+    TorqueZeros zeros{};
 };
 
 struct BenchReport {
@@ -22,8 +23,8 @@ struct BenchReport {
     int iterations = 0;
 };
 
-/// Up to four benches of one geometry, moved by the same inputs, each with its own numbers and effects: a
-/// SIMD lane each. What a bench does never depends on its neighbours.
+/// Up to bench_lanes benches of one geometry, moved by the same inputs, each with its own numbers and
+/// effects: a SIMD lane each. What a bench does never depends on its neighbours.
 ///
 /// Node displacements and the free pulley angles solve equilibrium by Newton's method: one tridiagonal system
 /// a cable (BenchCables), bordered by the pulleys' torque balances (BenchPulleys). Friction has bristles

@@ -11,6 +11,9 @@ inline constexpr const char* motor_angle = "motor_angle";
 inline constexpr const char* motor_torque = "motor_torque";
 inline constexpr const char* load_angle = "load_angle";
 inline constexpr const char* load_torque = "load_torque";
+/// Of the motor, where its torque was not recorded.
+inline constexpr const char* motor_current = "motor_current";
+/// What the engine predicts.
 inline constexpr std::array all = {motor_angle, motor_torque, load_angle, load_torque};
 
 }  // namespace capstan::channel

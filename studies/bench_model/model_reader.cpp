@@ -42,6 +42,10 @@ void read_description(TableReader table, BenchModel& model) {
     described.bench.rotor_inertia_kg_m2 = table.number("rotor_inertia_kg_m2", Range::zero_or_more);
     described.bench.load_pulley_inertia_kg_m2 =
         table.number("load_pulley_inertia_kg_m2", Range::zero_or_more);
+    described.bench.load_compliance_rad_per_Nm =
+        table.number_or("load_compliance_rad_per_Nm", Range::positive, 0.0);
+    described.bench.torque_constant_Nm_per_A =
+        table.number_or("torque_constant_Nm_per_A", Range::positive, 0.0);
     described.pretension_N = table.number("pretension_N", Range::zero_or_more);
     described.pretension_over_stated_ratio =
         table.number_or("pretension_over_stated_ratio", Range::positive, 1.0);

@@ -108,6 +108,10 @@ void write_description(ModelText& text, const BenchModel& model) {
     text.value("axial_stiffness_N", described.bench.axial_stiffness_N);
     text.value("rotor_inertia_kg_m2", described.bench.rotor_inertia_kg_m2);
     text.value("load_pulley_inertia_kg_m2", described.bench.load_pulley_inertia_kg_m2);
+    if (described.bench.load_compliance_rad_per_Nm > 0.0)
+        text.value("load_compliance_rad_per_Nm", described.bench.load_compliance_rad_per_Nm);
+    if (described.bench.torque_constant_Nm_per_A > 0.0)
+        text.value("torque_constant_Nm_per_A", described.bench.torque_constant_Nm_per_A);
     text.comment("Of runs that state no pretension.");
     text.value("pretension_N", described.pretension_N);
     if (model.is_of_unknown_geometry()) {

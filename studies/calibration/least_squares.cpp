@@ -64,6 +64,8 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     constexpr double tighten = 5.0;
     constexpr double flat = 1e-12;  // keeps a parameter that changes nothing from making the matrix singular
     constexpr int min_iterations = 2;
+    constexpr double slow_decreases = 5.0;
+    constexpr int max_slow = 2;
 
     const int per_jacobian =
         static_cast<int>(start.size()) * (options.differences == Differences::central ? 2 : 1);
@@ -75,6 +77,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     fit.sum_of_squares = fit.residuals.squaredNorm();
     fit.evaluations = 1;
     double damping = start_damping;
+    int slow = 0;  // steps in turn that lowered the sum little
     for (int iteration = 0; iteration < options.max_iterations && !fit.converged; ++iteration) {
         fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
         fit.evaluations += per_jacobian;
@@ -88,6 +91,11 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
         };
         const double promised = fit.sum_of_squares + gradient.dot(step_with(0.0));
         if (iteration >= min_iterations && promised > options.pruned_sum_of_squares) return fit;
+        if (fit.sum_of_squares - promised < options.min_decrease) {
+            fit.converged = true;
+            break;
+        }
+        const double before = fit.sum_of_squares;
         while (true) {
             std::vector<double> dampings;
             Eigen::MatrixXd tried = fit.parameters.replicate(1, options.dampings_at_once);
@@ -117,6 +125,8 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
             damping = dampings.back() * tighten;
             if (damping > max_damping) return fit;
         }
+        slow = before - fit.sum_of_squares < slow_decreases * options.min_decrease ? slow + 1 : 0;
+        fit.converged |= slow == max_slow;
     }
     if (options.jacobian_at_end) {
         fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);

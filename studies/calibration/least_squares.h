@@ -29,6 +29,9 @@ struct LeastSquaresOptions {
     double difference_step = 0.01;
     /// A step that changes no parameter by more than this ends the search.
     double parameter_tolerance = 1e-4;
+    /// A search ends when a step promises to lower the sum of squares by less than this, or two in turn
+    /// lower it by less than five times this.
+    double min_decrease = 0.0;
     int max_iterations = 40;
     bool jacobian_at_end = true;  ///< computed again at the fit, for its covariance
     /// The number of dampings that are tried in parallel after each Jacobian.

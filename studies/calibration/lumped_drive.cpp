@@ -78,10 +78,19 @@ double load_covariation(const Recording& recording) {
     return sum != 0.0 ? sum : mean_of(motor) * mean_of(load);
 }
 
+const Recording& with_all_channels(const Recording& recording) {
+    for (const char* channel : channel::all) {
+        if (!recording.channel(channel))
+            throw InvalidInput({recording.name + ": a lumped drive is calibrated with the channel " +
+                                channel + ", which was not recorded; `capstan diagnose` does without it"});
+    }
+    return recording;
+}
+
 class LumpedDrive final : public Twin {
   public:
     explicit LumpedDrive(const Recording& recording)
-        : recording_(recording), orientation_(drive_orientation(recording)) {
+        : recording_(with_all_channels(recording)), orientation_(drive_orientation(recording)) {
         for (const RecordedRun& run : recording.runs) {
             if (!run.drives(channel::motor_angle) || !run.drives(channel::load_torque))
                 throw InvalidInput(
@@ -154,24 +163,29 @@ class LumpedDrive final : public Twin {
 }  // namespace
 
 DriveOrientation drive_orientation(const Recording& recording) {
-    for (const char* channel :
-         {channel::motor_angle, channel::motor_torque, channel::load_torque, channel::load_angle}) {
-        if (!recording.channel(channel))
-            throw InvalidInput({recording.name + ": a lumped drive needs the channel " + channel});
-    }
+    const auto has = [&](const char* channel) { return recording.channel(channel).has_value(); };
+    const bool has_loop = has(channel::motor_angle) && has(channel::motor_torque);
     DriveOrientation orientation;
-    const double motor_motion = covariation(recording, channel::motor_angle, channel::motor_angle);
-    if (motor_motion > 0.0)
+    if (has(channel::motor_angle) && has(channel::load_angle)) {
+        const double motor_motion = covariation(recording, channel::motor_angle, channel::motor_angle);
         orientation.load_per_motor_angle =
-            covariation(recording, channel::motor_angle, channel::load_angle) / motor_motion;
-    const LoopWork loop = loop_work(recording);
-    if (orientation.load_per_motor_angle == 0.0 || loop.work_J == 0.0)
+            motor_motion > 0.0
+                ? covariation(recording, channel::motor_angle, channel::load_angle) / motor_motion
+                : 0.0;
+    }
+    const double work_J = has_loop ? loop_work(recording).work_J : 1.0;
+    if (orientation.load_per_motor_angle == 0.0 || work_J == 0.0)
         throw InvalidInput({recording.name +
                             ": motor and load do not move together, so the drive's ratio and "
                             "signs cannot be read off the recording"});
-    orientation.motor_torque_sign = loop.work_J > 0.0 ? 1.0 : -1.0;
-    orientation.load_torque_sign =
-        orientation.motor_torque_sign * (load_covariation(recording) < 0.0 ? -1.0 : 1.0);
+    orientation.motor_torque_sign = work_J > 0.0 ? 1.0 : -1.0;
+    if (!has(channel::load_torque)) return orientation;
+    orientation.load_torque_sign = orientation.motor_torque_sign;
+    if (has(channel::motor_torque)) {
+        if (load_covariation(recording) < 0.0) orientation.load_torque_sign *= -1.0;
+    } else if (covariation(recording, channel::motor_angle, channel::load_torque) < 0.0) {
+        orientation.load_torque_sign = -1.0;  // what holds the load pulls back
+    }
     return orientation;
 }
 

@@ -65,8 +65,8 @@ struct DriveOrientation {
     double load_torque_sign = 1.0;      ///< +1 if the load torque adds to the motor's with its sign
 };
 
-/// Uses that the motor torque works against friction and carries the load. Throws InvalidInput if a channel
-/// is missing or the motion shows no ratio or no friction.
+/// Uses that the motor torque works against friction and carries the load. Of a channel that was not recorded
+/// the ratio and the sign are 1. Throws InvalidInput if the motion shows no ratio or no friction.
 DriveOrientation drive_orientation(const Recording& recording);
 
 /// Twin of a drive whose geometry is not known, as a pull-pull pair (E15-E17) with all wrap and friction in

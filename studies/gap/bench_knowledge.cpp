@@ -51,14 +51,17 @@ void add_zeros_and_bearings(const Recording& recording, double zero_part, double
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
         const std::string& unit = recording.channels[channel].unit;
-        // The zero of a drive's angle is fitted with its other numbers.
-        if ((unit == "rad" && recording.nominal_is_fitted) || !recording.is_predicted(name)) continue;
+        const bool predicted = recording.is_predicted(name);
+        // The zero of a drive's angle is fitted with its other numbers. Where an angle drives the bench, its
+        // zero turns both ends alike.
+        if (unit == "rad" && (recording.nominal_is_fitted || !predicted)) continue;
+        if (!predicted && name != channel::motor_torque && name != channel::load_torque) continue;
         bench.numbers.push_back({.name = "zero of " + name,
                                  .unit = unit,
                                  .kind = FloatingNumber::Kind::zero,
                                  .scale = half_span(recording, channel),
                                  .prior_std = zero_part,
-                                 .of_a_sensor = true,
+                                 .of_a_sensor = predicted,
                                  .effect = "sensor_offset",
                                  .variant = name,
                                  .component = "sensor:" + name,
@@ -85,14 +88,13 @@ void add_zeros_and_bearings(const Recording& recording, double zero_part, double
                                      numbers.sensor_faults[name].delay_s += value;
                                  }});
     }
-    const auto add_bearing = [&](const char* torque, const char* name, const char* component, const char* end,
-                                 BearingFriction PulleyFriction::*at) {
-        const auto channel = recording.channel(torque);
-        if (!channel) return;
+    const auto add_bearing = [&](double half_span_Nm, const char* name, const char* component,
+                                 const char* end, BearingFriction PulleyFriction::*at) {
+        if (half_span_Nm == 0.0) return;
         bench.numbers.push_back({.name = name,
                                  .unit = "N m",
                                  .kind = FloatingNumber::Kind::size,
-                                 .scale = half_span(recording, static_cast<std::size_t>(*channel)),
+                                 .scale = half_span_Nm,
                                  .prior_std = bearing_part,
                                  .effect = "pulley_friction",
                                  .variant = end,
@@ -102,11 +104,17 @@ void add_zeros_and_bearings(const Recording& recording, double zero_part, double
                                      (numbers.effects.of<PulleyFriction>().*at).coulomb_Nm = value;
                                  }});
     };
-    add_bearing(channel::motor_torque, "friction of the motor's bearing", "motor", "motor",
+    const auto half_span_of = [&](const char* name) {
+        const auto channel = recording.channel(name);
+        return channel ? half_span(recording, static_cast<std::size_t>(*channel)) : 0.0;
+    };
+    add_bearing(half_span_of(channel::motor_torque), "friction of the motor's bearing", "motor", "motor",
                 &PulleyFriction::motor);
+    const double compliance = recording.nominal->load_compliance_rad_per_Nm;
     if (recording.mode == BenchMode::pull_pull)
-        add_bearing(channel::load_torque, "friction of the load's bearing", "load_pulley", "load",
-                    &PulleyFriction::load);
+        add_bearing(compliance > 0.0 ? half_span_of(channel::load_angle) / compliance
+                                     : half_span_of(channel::load_torque),
+                    "friction of the load's bearing", "load_pulley", "load", &PulleyFriction::load);
 }
 
 // The friction of a bearing builds up while its balls, seal and gears wind up: over a hundredth of a degree
@@ -122,12 +130,34 @@ FloatingNumber presliding_of_bearings() {
             }};
 }
 
+// What holds the load where only its motion was recorded, and the constant of a motor whose current was.
+void add_undescribed_parts(const NominalBench& nominal, double prior_std, BenchKnowledge& bench) {
+    if (nominal.load_compliance_rad_per_Nm > 0.0)
+        bench.numbers.push_back({.name = "compliance of what holds the load",
+                                 .unit = "rad/(N m)",
+                                 .scale = nominal.load_compliance_rad_per_Nm,
+                                 .prior_std = prior_std,
+                                 .apply = [](BenchNumbers& numbers, double value) {
+                                     numbers.effects.of<EnvironmentCoupling>().compliance_rad_per_Nm = value;
+                                 }});
+    if (nominal.torque_constant_Nm_per_A > 0.0)
+        bench.numbers.push_back(
+            {.name = "torque constant",
+             .unit = "N m/A",
+             .scale = nominal.torque_constant_Nm_per_A,
+             .prior_std = prior_std,
+             .of_a_sensor = true,
+             .apply = [assumed = nominal.torque_constant_Nm_per_A](BenchNumbers& numbers, double value) {
+                 numbers.sensor_faults[channel::motor_torque].gain *= assumed / value;
+             }});
+}
+
 }  // namespace
 
 double FloatingNumber::value(double coordinate) const {
     switch (kind) {
         case Kind::ratio:
-            return bounded_ratio(coordinate);
+            return scale * bounded_ratio(coordinate);
         case Kind::size:
             return scale * std::max(0.0, coordinate);
         case Kind::zero:
@@ -161,6 +191,7 @@ BenchKnowledge undescribed_bench(const Recording& recording) {
     BenchKnowledge bench{ratios(by_factors, by_factors, by_factors, false)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
     bench.numbers.push_back(presliding_of_bearings());
+    add_undescribed_parts(*recording.nominal, by_factors, bench);
     return bench;
 }
 

@@ -13,7 +13,7 @@ namespace capstan::gap {
 /// A number of the bench that floats in every fit, within what a laboratory knows of it.
 struct FloatingNumber {
     enum class Kind {
-        ratio,  ///< the coordinate is the logarithm of the number over its nominal value
+        ratio,  ///< the coordinate is the logarithm of the number over its nominal value, `scale`
         size,   ///< the coordinate is the number in units of `scale`, and not negative
         zero,   ///< the same with either sign
     };

@@ -14,6 +14,10 @@ namespace {
 
 // The correlation time of residuals.
 constexpr double correlation_time_s = 0.25;
+// Trials of a search after each Jacobian, which move side by side.
+constexpr int dampings_at_once = 4;
+// A search ends where a further step promises to change the evidence by less than this.
+constexpr double min_gain = 0.02;
 
 double prior_std(const std::vector<FloatingNumber>& numbers, Eigen::Index number) {
     return numbers[static_cast<std::size_t>(number)].prior_std;
@@ -262,7 +266,8 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     search.parameter_tolerance = 1e-3;
     search.max_iterations = 20;
     search.jacobian_at_end = false;
-    search.dampings_at_once = bench_lanes;
+    search.dampings_at_once = dampings_at_once;
+    search.min_decrease = 2.0 * min_gain * prior_weight_ * prior_weight_;
     search.pruned_sum_of_squares = options.pruned_sum_of_squares;
     const LeastSquaresFit found = fit_least_squares(
         [&](const Eigen::MatrixXd& coordinates) { return residuals(start, coordinates, options.left_out); },

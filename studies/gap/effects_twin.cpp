@@ -32,7 +32,14 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
             .arrangement = recording.mode == BenchMode::pull_pull ? CableArrangement::pull_pull
                                                                   : CableArrangement::single,
             .pulleys = {bench.motor_radius_m, bench.load_radius_m},
-            .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2}};
+            .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
+            .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)}};
+}
+
+// Where nothing of the load but its motion is known.
+bool holds_load_by_a_spring(const Recording& recording, const RecordedRun& run) {
+    return recording.nominal->load_compliance_rad_per_Nm > 0.0 && !run.drives(channel::load_angle) &&
+           !run.drives(channel::load_torque);
 }
 
 void check_driven(const Recording& recording) {
@@ -42,7 +49,7 @@ void check_driven(const Recording& recording) {
                             "pull_pull and single_cable benches"});
     for (const RecordedRun& run : recording.runs) {
         const bool motor = run.drives(channel::motor_angle) || run.drives(channel::motor_torque);
-        const bool load = run.drives(channel::load_angle) ||
+        const bool load = run.drives(channel::load_angle) || holds_load_by_a_spring(recording, run) ||
                           (run.drives(channel::load_torque) && run.drives(channel::motor_angle));
         if (!motor || (recording.mode == BenchMode::pull_pull && !load))
             throw InvalidInput(
@@ -76,6 +83,11 @@ BenchNumbers BenchNumbers::in_run(const RecordedRun& run) const {
     return numbers;
 }
 
+double BenchNumbers::zero_of(const std::string& channel) const {
+    const auto fault = sensor_faults.find(channel);
+    return fault == sensor_faults.end() ? 0.0 : fault->second.offset;
+}
+
 EffectsTwin::EffectsTwin(const Recording& recording, const EffectsTwinOptions& options)
     : recording_(recording), options_(options) {
     check_driven(recording);
@@ -99,6 +111,8 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
     for (const BenchNumbers& each : numbers) {
         descriptions.push_back(description_of(recording_, run, each, options_.segments));
         effects.push_back(each.effects);
+        double& compliance = effects.back().of<EnvironmentCoupling>().compliance_rad_per_Nm;
+        if (compliance == 0.0) compliance = recording_.nominal->load_compliance_rad_per_Nm;
     }
     BenchSimulations benches(descriptions, effects);
     const std::vector<Reader> readers = readers_of(run);
@@ -184,6 +198,8 @@ BenchInputs EffectsTwin::inputs_at(std::size_t run_index, int sample, int step_s
         step.load = LoadAngle{given(channel::load_angle)};
     } else if (run.drives(channel::load_torque)) {
         step.load = LoadTorque{given(channel::load_torque)};
+    } else if (holds_load_by_a_spring(recording_, run)) {
+        step.load = LoadSpring{Backlash::contact_Nm_per_rad, 0.0};
     }
     return step;
 }
@@ -202,8 +218,8 @@ std::vector<EffectsTwin::Reader> EffectsTwin::readers_of(const RecordedRun& run)
         if (name == channel::motor_torque) of_pulleys(&BenchPulleys::motor_torque_Nm);
         if (name == channel::motor_angle) of_pulleys(&BenchPulleys::motor_angle_rad);
         if (name == channel::load_torque) of_pulleys(&BenchPulleys::load_torque_Nm);
-        if (name == channel::load_angle && !run.drives(channel::load_angle) &&
-            run.drives(channel::load_torque))
+        if (name == channel::load_angle &&
+            (run.drives(channel::load_torque) || holds_load_by_a_spring(recording_, run)))
             of_pulleys(&BenchPulleys::load_angle_rad);
     }
     for (const TensionSensor& sensor : recording_.tension_sensors) {

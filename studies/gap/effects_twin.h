@@ -22,7 +22,8 @@ struct BenchNumbers {
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;
     BenchEffects effects;
-    std::map<std::string, SensorFaults> sensor_faults;  // by channel
+    /// By channel. Of a channel that drives the bench only the offset counts.
+    std::map<std::string, SensorFaults> sensor_faults;
     /// A number that follows a condition of the runs: it changes by `linear c + squared c^2`, where c goes
     /// from -1 to 1 over the range of the condition.
     struct Following {
@@ -43,6 +44,8 @@ struct BenchNumbers {
 
     /// The numbers under the run's conditions.
     BenchNumbers in_run(const RecordedRun& run) const;
+
+    double zero_of(const std::string& channel) const;
 
     /// A rotor on its cables oscillates at tens of hertz. It is simulated at every sample whatever the
     /// stride.

@@ -19,8 +19,9 @@ bool has_unknown_geometry(const Recording& recording);
 
 /// Signs, friction, stiffness and pretension, none of which is stated, as `fitted_to` shows them. A lumped
 /// drive becomes a pull-pull pair with one radian of wrap and a motor pulley of 20 mm; a band round a drum
-/// becomes a single cable whose ends move together. Throws InvalidInput if channels are missing, or where the
-/// geometry of the recording is known.
+/// becomes a single cable whose ends move together, or whose far end is held where no displacement was
+/// recorded. A drive of which not all angles and torques were recorded: see partial_drive.h. Throws
+/// InvalidInput if too few channels were recorded, or where the geometry of the recording is known.
 BenchEquivalence fit_equivalence(const Recording& fitted_to);
 
 /// The recording in the channels, signs and zeros of that bench.

@@ -29,6 +29,9 @@ constexpr double none_log_prior = 1.0;
 constexpr double sensor_fault_penalty = 2.0;
 // A further cause is one of about fifty, and rarer than a first one.
 constexpr double further_cause_penalty = 8.0;
+// On a bench whose zeros and bearings float, these explain what is usual; a cause beside them is one of about
+// fifty: ln 50.
+constexpr double cause_beside_floating_numbers_penalty = 4.0;
 // A cause outside the list is rarer than the causes in it.
 constexpr double unknown_penalty = 4.0;
 // A model's floor is known to about a quarter, and a cause's law to law_error of what the cause does. A
@@ -134,6 +137,8 @@ double Evidence::priors(const ScoredFit& fit) const {
         evidence -= invisible_penalty * std::max(0.0, 1.0 - fit.visibility[k] / visible);
         if (cause.family == "sensor") evidence -= sensor_fault_penalty;
     }
+    if (!fit.fit.bench->is_measured() && fit.fit.causes.front()->effect != "none")
+        evidence -= cause_beside_floating_numbers_penalty;
     if (fit.fit.causes.size() < 2) return evidence;
     double faintest = 1.0;  // relative to the clearest law beside it
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {

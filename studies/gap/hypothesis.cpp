@@ -79,7 +79,7 @@ std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, const Re
     std::vector<Mechanics> mechanics;
     for (std::size_t k = 0; k < hypotheses.size(); ++k) {
         BenchNumbers numbers = bench_numbers(hypotheses[k]).in_run(run);
-        numbers.sensor_faults.clear();
+        std::erase_if(numbers.sensor_faults, [&](const auto& fault) { return !run.drives(fault.first); });
         Mechanics its = mechanics_of(hypotheses[k], numbers);
         const auto same = std::find(mechanics.begin(), mechanics.end(), its);
         if (same != mechanics.end()) {

@@ -11,10 +11,14 @@ namespace capstan::model_comparison {
 namespace {
 
 // What a recorded channel is called on the equivalent bench.
-std::string name_on_bench(BenchMode mode, const std::string& name) {
-    if (mode != BenchMode::capstan_band) return name;
-    if (name == "tension_1") return channel::motor_torque;
-    return name == "tension_2" ? channel::load_torque : "";
+std::string name_on_bench(const Recording& recording, const std::string& name) {
+    if (name == channel::motor_current && !recording.channel(channel::motor_torque))
+        return channel::motor_torque;
+    if (recording.mode != BenchMode::capstan_band) return name;
+    const bool second_drives = recording.runs.front().drives("tension_2");
+    if (name == "tension_1") return second_drives ? channel::load_torque : channel::motor_torque;
+    if (name == "tension_2") return second_drives ? channel::motor_torque : channel::load_torque;
+    return "";
 }
 
 // A channel of the bench is `factor` times the recorded one plus `offset`, in each run.
@@ -53,7 +57,7 @@ Predictions in_recorded_channels(const Recording& recording, const Recording& be
     for (std::size_t run = 0; run < runs.size(); ++run) {
         predictions.values.emplace_back(recording.channels.size());
         for (std::size_t index = 0; index < recording.channels.size(); ++index) {
-            const auto there = bench.channel(name_on_bench(recording.mode, recording.channels[index].name));
+            const auto there = bench.channel(name_on_bench(recording, recording.channels[index].name));
             if (!there) continue;
             const auto on_bench = static_cast<std::size_t>(*there);
             const std::vector<double>& predicted = runs[run].values[on_bench];

@@ -64,6 +64,11 @@ struct NominalBench {
     double static_friction = 0.0;
     double rotor_inertia_kg_m2 = 0.0;        ///< with the motor pulley; 0: not stated
     double load_pulley_inertia_kg_m2 = 0.0;  ///< 0: not stated
+    /// Of a drive of unknown geometry whose load torque was not recorded: of the spring that is taken to hold
+    /// the load pulley; 0: the load is recorded.
+    double load_compliance_rad_per_Nm = 0.0;
+    /// Where the motor's current was recorded instead of its torque; 0: a torque sensor.
+    double torque_constant_Nm_per_A = 0.0;
 };
 
 /// The numbers of a bench's cable that a fit or a parameter file may change.

@@ -104,6 +104,8 @@ const std::vector<KnownChannel> shaft_channels = {
     {channel::load_angle, "rad", "angle of the load pulley; positive the way it turns when cable A pulls"},
     {channel::load_torque, "N m",
      "torque that the transmission puts on the load; positive in the same direction"},
+    {channel::motor_current, "A",
+     "current of the motor, where its torque was not recorded (lumped_drive); its torque constant is fitted"},
 };
 const std::vector<KnownChannel> band_channels = {
     {"displacement", "m", "motion of the drum's surface"},
@@ -198,6 +200,23 @@ const std::vector<KnownChannel>& known_channels(BenchMode mode) {
     return mode == BenchMode::capstan_band ? band_channels : shaft_channels;
 }
 
+std::vector<std::string> usual_driven_channels(BenchMode mode, const std::vector<Channel>& recorded) {
+    const auto has = [&](std::string_view name) {
+        return std::any_of(recorded.begin(), recorded.end(),
+                           [&](const Channel& channel) { return channel.name == name; });
+    };
+    if (mode == BenchMode::capstan_band) return {has("displacement") ? "displacement" : "tension_1"};
+    if (mode != BenchMode::lumped_drive) return usual_driven_channels(mode);
+    if (has(channel::motor_angle)) {
+        if (has(channel::load_torque)) return usual_driven_channels(mode);
+        return {channel::motor_angle};
+    }
+    std::vector<std::string> driven = {has(channel::motor_torque) ? channel::motor_torque
+                                                                  : channel::motor_current};
+    if (has(channel::load_torque) && has(channel::load_angle)) driven.emplace_back(channel::load_angle);
+    return driven;
+}
+
 std::vector<std::string> usual_driven_channels(BenchMode mode) {
     switch (mode) {
         case BenchMode::pull_pull:
@@ -226,8 +245,9 @@ std::string recording_template(BenchMode mode) {
     ordered_json sidecar = section_template("", mode);
     sidecar["mode"] = mode_name(mode);
     sidecar["units"] = {{"t", "s"}};
-    for (const KnownChannel& known : known_channels(mode))
-        sidecar["units"][std::string(known.name)] = known.unit;
+    for (const KnownChannel& known : known_channels(mode)) {
+        if (known.name != channel::motor_current) sidecar["units"][std::string(known.name)] = known.unit;
+    }
     if (mode == BenchMode::capstan_band) sidecar["units"]["tension_1"] = "N";
     sidecar["noise_std"] = ordered_json::object();
     sidecar["encoder_step"] = ordered_json::object();

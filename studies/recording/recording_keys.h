@@ -39,6 +39,8 @@ struct KnownChannel {
 };
 const std::vector<KnownChannel>& known_channels(BenchMode mode);
 std::vector<std::string> usual_driven_channels(BenchMode mode);
+/// The same where only these channels were recorded.
+std::vector<std::string> usual_driven_channels(BenchMode mode, const std::vector<Channel>& recorded);
 
 /// The SI unit that a channel's column has; empty for a channel that the models do not know.
 std::string_view channel_unit(std::string_view channel);

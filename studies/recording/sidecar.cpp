@@ -168,7 +168,7 @@ std::map<std::string, double> conditions_of(const JsonObject& run) {
     return conditions;
 }
 
-RecordedRun run_of(const JsonObject& json, BenchMode mode) {
+RecordedRun run_of(const JsonObject& json, const std::vector<std::string>& usually_driven) {
     RecordedRun run;
     run.number = json.integer("run");
     run.protocol = json.has("protocol") ? json.text("protocol")
@@ -178,7 +178,7 @@ RecordedRun run_of(const JsonObject& json, BenchMode mode) {
     if (json.has("T0")) run.pretension_N = json.positive("T0");
     run.output = output_of(json);
     run.conditions = conditions_of(json);
-    run.driven = json.has("driven") ? json.texts("driven") : usual_driven_channels(mode);
+    run.driven = json.has("driven") ? json.texts("driven") : usually_driven;
     return run;
 }
 
@@ -213,10 +213,11 @@ std::vector<RecordedRun> runs_of(const JsonObject& sidecar, const Recording& rec
                                  const SampleTable& samples, Assumptions& assumptions) {
     std::vector<RecordedRun> runs;
     const bool needs_pretension = recording.nominal.has_value();
+    const std::vector<std::string> usual = usual_driven_channels(recording.mode, recording.channels);
     if (sidecar.has("runs")) {
         bool any_driven_is_taken = false;
         for (const JsonObject& run : sidecar.objects("runs")) {
-            runs.push_back(run_of(run, recording.mode));
+            runs.push_back(run_of(run, usual));
             any_driven_is_taken |= !run.has("driven");
             check_driven(run, runs.back(), recording);
             if (needs_pretension && !runs.back().pretension_N)
@@ -225,7 +226,7 @@ std::vector<RecordedRun> runs_of(const JsonObject& sidecar, const Recording& rec
         if (runs.empty()) sidecar.add_problem("runs", "lists no run");
         if (any_driven_is_taken)
             assumptions.add("driven", fmt::format("taken as {}, where a run does not state it",
-                                                  fmt::join(usual_driven_channels(recording.mode), " and ")));
+                                                  fmt::join(usual, " and ")));
         return runs;
     }
     if (needs_pretension) {
@@ -235,11 +236,11 @@ std::vector<RecordedRun> runs_of(const JsonObject& sidecar, const Recording& rec
     for (const int number : samples.run_numbers) {
         RecordedRun& run = runs.emplace_back();
         run.number = number;
-        run.driven = usual_driven_channels(recording.mode);
+        run.driven = usual;
         check_driven(sidecar, run, recording);
     }
     assumptions.add("runs", fmt::format("taken as the {} of the column run, driven by {}", runs.size(),
-                                        fmt::join(usual_driven_channels(recording.mode), " and ")));
+                                        fmt::join(usual, " and ")));
     return runs;
 }
 

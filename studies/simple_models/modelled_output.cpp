@@ -19,7 +19,8 @@ bool is_predicted(const Recording& recording, std::size_t index) {
     const bool of_a_model =
         recording.mode == BenchMode::capstan_band
             ? name == "tension_1" || name == "tension_2"
-            : std::find(channel::all.begin(), channel::all.end(), name) != channel::all.end() ||
+            : name == channel::motor_current ||
+                  std::find(channel::all.begin(), channel::all.end(), name) != channel::all.end() ||
                   std::any_of(recording.tension_sensors.begin(), recording.tension_sensors.end(),
                               [&](const TensionSensor& sensor) { return sensor.channel == name; });
     return of_a_model && std::none_of(recording.runs.begin(), recording.runs.end(),

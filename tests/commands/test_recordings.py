@@ -108,8 +108,9 @@ class OneOwnLog(CapstanTest):
         self.assertFalse([finding for finding in report["findings"] if finding["repaired"]])
         verdict = json.loads(self.run_capstan("diagnose", "mine.csv", "--json", "--progress", "none").stdout)
         converted = json.loads(self.run_capstan("diagnose", CONFIGS / "recordings" / "viscous-pair.csv", "--json", "--progress", "none").stdout)
-        self.assertEqual(verdict["ranked"][0]["effect"], "viscous_friction")
-        self.assertAlmostEqual(verdict["ranked"][0]["probability"], converted["ranked"][0]["probability"], delta=0.05)
+        for answer in (verdict, converted):  # the log's noise is estimated, the recording's is stated
+            self.assertEqual(answer["ranked"][0]["effect"], "viscous_friction")
+            self.assertGreater(answer["ranked"][0]["probability"], 0.8)
 
     def test_without_a_mapping_the_message_says_how_to_get_one(self):
         said = self.run_capstan("import", "run1.csv", "-o", "mine", expect=2).stderr

@@ -86,6 +86,22 @@ TEST(LeastSquares, SeveralDampingsAtOnceReachTheSameMinimum) {
     EXPECT_LT((fit.parameters - Line().solution()).norm(), 1e-6);
 }
 
+// A valley that is as flat as x^4 is walked down for ever; whoever needs the sum only to within a thousandth
+// stops early.
+TEST(LeastSquares, ASearchEndsWhereFurtherStepsAreWorthLittle) {
+    const auto flat = [](const Eigen::MatrixXd& parameters) -> Eigen::MatrixXd {
+        return parameters.array().square();
+    };
+    LeastSquaresOptions options;
+    options.parameter_tolerance = 0.0;
+    const LeastSquaresFit patient = fit_least_squares(flat, Eigen::VectorXd{{2.0}}, options);
+    options.min_decrease = 1e-3;
+    const LeastSquaresFit brief = fit_least_squares(flat, Eigen::VectorXd{{2.0}}, options);
+    EXPECT_TRUE(brief.converged);
+    EXPECT_LT(brief.evaluations, patient.evaluations / 2);
+    EXPECT_LT(brief.sum_of_squares, 10.0 * options.min_decrease);
+}
+
 // The second residual is 10 whatever the parameter, so no search ends below a sum of 100.
 TEST(LeastSquares, ASearchThatCannotReachTheGoalIsGivenUp) {
     const auto with_a_floor = [](const Eigen::MatrixXd& parameters) {

@@ -25,13 +25,24 @@ TEST(DriveOrientation, ALoadThatTheMotorCarriesAddsToItsTorque) {
     EXPECT_EQ(drive_orientation(lumped_session({.motor_torque_sign = -1.0})).load_torque_sign, 1.0);
 }
 
-TEST(DriveOrientation, RejectsADriveThatDoesNotMoveAndAMissingChannel) {
+TEST(DriveOrientation, RejectsADriveThatDoesNotMove) {
     Recording still = lumped_session({});
     for (RecordedRun& run : still.runs) run.values[1].assign(run.time_s.size(), 0.0);
     EXPECT_THROW(drive_orientation(still), InvalidInput);
-    Recording nameless = lumped_session({});
-    nameless.channels[2].name = "jaw_angle";
-    EXPECT_THROW(drive_orientation(nameless), InvalidInput);
+}
+
+TEST(DriveOrientation, OfAChannelThatWasNotRecordedTheRatioIsOne) {
+    Recording without_load_angle = lumped_session({.motor_torque_sign = -1.0});
+    without_load_angle.channels[2].name = "jaw_angle";
+    const DriveOrientation orientation = drive_orientation(without_load_angle);
+    EXPECT_EQ(orientation.load_per_motor_angle, 1.0);
+    EXPECT_EQ(orientation.motor_torque_sign, -1.0);
+}
+
+TEST(LumpedDrive, IsNotCalibratedWithoutAllFourChannels) {
+    Recording without_load_angle = lumped_session({});
+    without_load_angle.channels[2].name = "jaw_angle";
+    EXPECT_THROW(make_twin(without_load_angle), InvalidInput);
 }
 
 TEST(LumpedDrive, WithTheTrueNumbersPredictsTorqueAndAngle) {
