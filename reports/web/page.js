@@ -54,7 +54,7 @@
   const allOf = (table) => [...Array(table.rows).keys()];
 
   function load() {
-    study = JSON.parse(document.getElementById("study-data").textContent);
+    study = { tables: {}, figures: {}, ...JSON.parse(document.getElementById("study-data").textContent) };  // a page may have none
     tables = {};
     for (const [name, table] of Object.entries(study.tables)) {
       let rows;
