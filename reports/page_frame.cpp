@@ -39,6 +39,15 @@ std::string style(PageFiles files) {
         embedded_file("page.css"));
 }
 
+// What the licences of the chart scripts ask of every copy.
+std::string notices(PageFiles files) {
+    if (files == PageFiles::served)
+        return "<p><a href=\"/glossary\">Glossary</a> · <a href=\"/web/notices.txt\">Licences of the figures' scripts</a></p>";
+    return fmt::format(
+        "<details class=\"notices\"><summary>Licences of the figures' scripts</summary>\n<pre>{}</pre></details>",
+        escape_html(embedded_file("notices.txt")));
+}
+
 std::string head_html(const PageFrame& frame, PageFiles files) {
     return fmt::format(
         R"(<!DOCTYPE html>
@@ -76,8 +85,8 @@ std::string page_html(const PageFrame& frame, PageFiles files) {
         "<main id=\"content\" tabindex=\"-1\">\n<noscript><p>The figures need JavaScript; the words and "
         "tables do not.</p></noscript>\n";
     page += frame.main_html + "</main>\n";
-    page += fmt::format("<footer><p>{}{}</p></footer>\n", escape_html(frame.footer),
-                        files == PageFiles::inside ? " This page needs no network." : "");
+    page += fmt::format("<footer><p>{}{}</p>{}</footer>\n", escape_html(frame.footer),
+                        files == PageFiles::inside ? " This page needs no network." : "", notices(files));
     page += "<script type=\"application/json\" id=\"study-data\">" + frame.data_json + "</script>\n";
     return page + scripts(files) + "</body>\n</html>\n";
 }

@@ -1,4 +1,5 @@
 // The description of a study, written.
+#include <algorithm>
 #include <string>
 
 #include "capstan/storage/error.h"
@@ -17,10 +18,12 @@ std::int64_t next_id(Database& database, const std::string& table, const std::st
 }
 
 std::int64_t write_study(Database& database, const StudyRecord& study) {
-    const std::int64_t study_id = next_id(database, "study", "study_id");
+    const std::int64_t study_id = std::max(next_id(database, "study", "study_id"),
+                                           next_id(database, "history", "study_id"));  // also of removed ones
     StudyRecord begun = study;
     begun.status = "running";
     RowWriter<StudyRecord>(database, "study", "study_id").write(begun, study_id);
+    write_event(database, study_id, "begun");
     return study_id;
 }
 

@@ -2,6 +2,7 @@
 
 #include "capstan/storage/error.h"
 #include "capstan/storage/file_identity.h"
+#include "capstan/storage/health.h"
 #include "capstan/storage/migration.h"
 #include "capstan/storage/schema.h"
 #include "capstan/storage/statement.h"
@@ -69,6 +70,14 @@ void require_study_file(const std::filesystem::path& path, FileKind kind) {
                 " `capstan study run` creates a results file.");
 }
 
+void require_our_schema(Database& database) {
+    const std::vector<std::string> problems = schema_problems(database);
+    if (problems.empty()) return;
+    throw Error(database.path().string() + " is not as capstan makes it: " + problems.front() +
+                (problems.size() > 1 ? ", and " + std::to_string(problems.size() - 1) + " more" : "") +
+                ". `capstan doctor --db FILE` lists all; use a copy from before the change.");
+}
+
 // A URI, because only there SQLite can be told that nobody writes.
 std::string immutable_uri(const std::filesystem::path& path) {
     std::string uri = "file:";
@@ -110,6 +119,12 @@ Database::Database(const std::filesystem::path& path, const std::string& name, i
                     sqlite3_errmsg(connection) + ")");
     }
     sqlite3_busy_timeout(connection, busy_timeout_ms);
+    // A damaged page is noticed before it is used.
+    sqlite3_exec(connection, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+}
+
+Database Database::in_memory() {
+    return {":memory:", ":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
 }
 
 Database Database::open_for_writing(const std::filesystem::path& path, int open_flags) {
@@ -127,6 +142,7 @@ Database Database::open_or_create(const std::filesystem::path& path, Journal jou
     Database database = open_for_writing(path, SQLITE_OPEN_CREATE);
     create_schema_if_empty(database);
     migrate(database, migrations(), schema_version);
+    require_our_schema(database);
     if (journal == Journal::write_ahead) use_write_ahead_log(database);
     return database;
 }
@@ -138,11 +154,12 @@ Database Database::open_existing(const std::filesystem::path& path) {
     Database database = open_for_writing(path, 0);
     if (read_pragma(database, "user_version") == 0) require_study_file(path, FileKind::empty);
     migrate(database, migrations(), schema_version);
+    require_our_schema(database);
     use_write_ahead_log(database);
     return database;
 }
 
-Database Database::open_read_only(const std::filesystem::path& path) {
+Database Database::open_read_only(const std::filesystem::path& path, SchemaCheck check) {
     const FileIdentity identity = identify_file(path);
     refuse_foreign(path, identity);
     require_study_file(path, identity.kind);
@@ -164,11 +181,27 @@ Database Database::open_read_only(const std::filesystem::path& path) {
         throw Error(path.string() + " has the older schema version " + std::to_string(version) +
                     "; `capstan study resume` brings it to version " + std::to_string(schema_version) + ".");
     }
+    if (check == SchemaCheck::compare) {
+        require_our_schema(database);
+        // A further view of the file may call no function that does more than compute. A writer needs
+        // json_valid(), which SQLite does not count among those, for the checks of our tables.
+        sqlite3_db_config(database.connection(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    }
     return database;
 }
 
 bool Database::is_read_only() const {
     return sqlite3_db_readonly(connection_.get(), "main") == 1;
+}
+
+void Database::require_in_place() {
+    int has_moved = 0;
+    sqlite3_file_control(connection(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+    if (has_moved != 0)
+        throw Error(
+            path_.string() +
+            " was removed or renamed while it was written. Put it back under its name if you renamed it, "
+            "and run the command again.");
 }
 
 void Database::execute(const std::string& sql, const char* doing) {

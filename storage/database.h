@@ -16,10 +16,13 @@ enum class Journal {
     rollback,  // for a shared disk, where programs on several machines may open the file, one after the other
 };
 
+// Whether a file is refused whose tables and views are not those that capstan makes: see schema_problems().
+enum class SchemaCheck { compare, none };
+
 class Database {
   public:
     // Every factory refuses a file that is not capstan's, or is of a newer schema, before SQLite touches it:
-    // such a file keeps every byte.
+    // such a file keeps every byte. What a file's own schema says is never trusted.
 
     // For writing. A file that is missing, or empty because its creation was killed, gets the schema.
     static Database open_or_create(const std::filesystem::path& path, Journal journal = Journal::write_ahead);
@@ -28,11 +31,18 @@ class Database {
     static Database open_existing(const std::filesystem::path& path);
 
     // For reading, also while another process writes, and also from a read-only disk.
-    static Database open_read_only(const std::filesystem::path& path);
+    static Database open_read_only(const std::filesystem::path& path,
+                                   SchemaCheck check = SchemaCheck::compare);
+
+    // Without tables, and gone with the object.
+    static Database in_memory();
 
     const std::filesystem::path& path() const { return path_; }
     bool is_read_only() const;
     sqlite3* connection() { return connection_.get(); }
+
+    // An Error if the file was removed or renamed since it was opened: what is written then is lost.
+    void require_in_place();
 
     // Runs statements that return nothing of interest. 'doing' completes "cannot ..." in an Error.
     void execute(const std::string& sql, const char* doing);

@@ -54,7 +54,8 @@ bool its_creation_was_killed(const std::filesystem::path& path) {
 FileIdentity identify_file(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return {FileKind::missing};
-    if (std::filesystem::is_directory(path, ignored)) return {FileKind::unreadable};
+    // A pipe would be waited for, and a device has no end.
+    if (!std::filesystem::is_regular_file(path, ignored)) return {FileKind::unreadable};
     std::ifstream file(path, std::ios::binary);
     if (!file) return {FileKind::unreadable};
 
@@ -88,7 +89,7 @@ void refuse_foreign(const std::filesystem::path& path, const FileIdentity& ident
                         "Name another file for the results.");
         case FileKind::unreadable:
             throw Error(path.string() +
-                        " cannot be read: it is a folder, or you have no permission. "
+                        " cannot be read: it is a folder, a pipe or a device, or you have no permission. "
                         "Name a file, or ask its owner for the permission.");
     }
 }

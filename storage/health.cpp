@@ -1,7 +1,10 @@
 #include "capstan/storage/health.h"
 
 #include <algorithm>
+#include <cctype>
+#include <map>
 
+#include "capstan/storage/schema.h"
 #include "capstan/storage/statement.h"
 
 namespace capstan::storage {
@@ -44,10 +47,90 @@ std::vector<std::string> copies_of(const std::filesystem::path& path) {
     return names;
 }
 
+struct SchemaPart {
+    std::string type;  // "table", "view", "index" or "trigger"
+    std::string text;  // of its CREATE, without comments, with single blanks
+    std::string columns;
+
+    // A table that was migrated has its columns in another order and text.
+    bool operator==(const SchemaPart& other) const {
+        return type == other.type && (text == other.text || (type == "table" && columns == other.columns));
+    }
+};
+using Schema = std::map<std::string, SchemaPart>;  // by name
+
+std::string without_comments(const std::string& sql) {
+    std::string text;
+    for (std::size_t k = 0; k < sql.size(); ++k) {
+        if (sql.compare(k, 2, "--") == 0) k = std::min(sql.find('\n', k), sql.size());
+        const bool blank = k >= sql.size() || std::isspace(static_cast<unsigned char>(sql[k])) != 0;
+        if (!blank)
+            text += sql[k];
+        else if (!text.ends_with(' '))
+            text += ' ';
+    }
+    return text;
+}
+
+std::string columns_of(Database& database, const std::string& table) {
+    Statement statement(database,
+                        "SELECT name, type, \"notnull\", ifnull(dflt_value, ''), pk, hidden FROM "
+                        "pragma_table_xinfo(?1) ORDER BY name");
+    statement.bind(1, table);
+    std::string text;
+    while (statement.step("read the columns of a table")) {
+        for (int k = 0; k < 6; ++k) text += statement.get<std::string>(k) + ' ';
+        text += '\n';
+    }
+    return text;
+}
+
+Schema schema_of(Database& database) {
+    Schema schema;
+    Statement statement(
+        database, "SELECT type, name, sql FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\'");
+    while (statement.step("read the schema"))
+        schema[statement.get<std::string>(1)] = {
+            statement.get<std::string>(0), without_comments(statement.get<std::string>(2)), {}};
+    return schema;
+}
+
+const Schema& our_schema() {
+    static const Schema ours = [] {
+        Database database = Database::in_memory();
+        database.execute(schema_text(), "create the tables");
+        Schema schema = schema_of(database);
+        for (auto& [name, part] : schema)
+            if (part.type == "table") part.columns = columns_of(database, name);
+        return schema;
+    }();
+    return ours;
+}
+
 }  // namespace
+
+std::vector<std::string> schema_problems(Database& database) {
+    Schema found = schema_of(database);
+    std::vector<std::string> problems;
+    for (const auto& [name, part] : our_schema()) {
+        const auto there = found.find(name);
+        if (there == found.end()) {
+            problems.push_back("the " + part.type + " " + name + " is missing");
+            continue;
+        }
+        SchemaPart& theirs = there->second;
+        if (theirs.type == "table" && theirs.text != part.text) theirs.columns = columns_of(database, name);
+        if (!(theirs == part)) problems.push_back("the " + part.type + " " + name + " was changed");
+    }
+    for (const auto& [name, part] : found)
+        if (part.type == "trigger") problems.push_back("the trigger " + name + " is not capstan's");
+    return problems;
+}
 
 Health examine(Database& database) {
     Health health;
+    health.problems = schema_problems(database);
+    if (!health.problems.empty()) return health;
     health.problems = problems_in(database);
     health.studies = number_from(database, "SELECT count(*) FROM study");
     health.running_studies = number_from(database, "SELECT count(*) FROM study WHERE status = 'running'");

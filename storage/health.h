@@ -19,7 +19,12 @@ struct Health {
 };
 
 // Reads every page of the file and checks every reference; takes a while on a large one. The database must
-// have been opened for reading.
+// have been opened for reading, with SchemaCheck::none. Where its schema is not ours, nothing else is read.
 Health examine(Database& database);
+
+// Where the tables, views and indices of an open file are not those that capstan makes, in words. The text of
+// a view of another file could run without end, and a trigger write what nobody asked for. Further tables and
+// views do no harm: nothing of ours reads them.
+std::vector<std::string> schema_problems(Database& database);
 
 }  // namespace capstan::storage

@@ -121,6 +121,25 @@ ALTER TABLE diagnosis_number ADD COLUMN high_in_unit REAL;
         {3,
          R"sql(ALTER TABLE diagnosis_effect ADD COLUMN present_fraction REAL;
 ALTER TABLE diagnosis_effect ADD COLUMN varies TEXT NOT NULL DEFAULT '';
+)sql"},
+        {4,
+         R"sql(-- What was done to a study, when and by which command. The one table with a clock: no answer is made of it.
+CREATE TABLE history (
+    event_id INTEGER PRIMARY KEY,                  -- 1, 2, ... as it happened
+    study_id INTEGER NOT NULL,                     -- its study; kept when that is removed, so that no number comes twice
+    study    TEXT    NOT NULL,                     -- its name
+    event    TEXT    NOT NULL,                     -- 'begun', 'completed', 'deleted', 'restored' or 'removed'
+    at_utc   TEXT    NOT NULL,                     -- '2026-01-31T12:00:00Z'
+    command  TEXT    NOT NULL                      -- as it was given; '': by a program that uses the library
+) STRICT;
+
+-- What people say about a study. A study without a row has no note and is not deleted.
+CREATE TABLE study_mark (
+    study_id   INTEGER PRIMARY KEY REFERENCES study ON DELETE CASCADE,  -- its study
+    note       TEXT    NOT NULL DEFAULT '',        -- free text
+    tags       TEXT    NOT NULL DEFAULT '',        -- words, with single blanks between them
+    is_deleted INTEGER NOT NULL DEFAULT 0 CHECK (is_deleted IN (0, 1))  -- 1: in the trash, to be restored or removed
+) STRICT;
 )sql"}};
     return steps;
 }

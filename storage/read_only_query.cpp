@@ -97,7 +97,21 @@ int QueryGuard::stop_when_late(void* guard) {
 constexpr int longest_value_bytes = 1'000'000;
 
 // Of an answer whose rows are limited: few rows may hold much.
-constexpr std::size_t max_bytes = 64 << 20;
+constexpr std::size_t max_bytes = 8 << 20;
+
+// SQL, patterns and compiled programs beyond these are no question about a study: a statement of a few lines
+// can otherwise be compiled for minutes, and a pattern be compared for hours.
+constexpr int longest_sql_bytes = 100'000;
+constexpr int longest_pattern_bytes = 500;
+constexpr int longest_program = 1'000'000;  // instructions; the longest view has some thousands
+
+void limit_statement(sqlite3* connection) {
+    sqlite3_limit(connection, SQLITE_LIMIT_ATTACHED, 0);
+    sqlite3_limit(connection, SQLITE_LIMIT_LENGTH, longest_value_bytes);
+    sqlite3_limit(connection, SQLITE_LIMIT_SQL_LENGTH, longest_sql_bytes);
+    sqlite3_limit(connection, SQLITE_LIMIT_LIKE_PATTERN_LENGTH, longest_pattern_bytes);
+    sqlite3_limit(connection, SQLITE_LIMIT_VDBE_OP, longest_program);
+}
 
 struct Finalizer {
     void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
@@ -121,6 +135,8 @@ using GuestStatement = std::unique_ptr<sqlite3_stmt, Finalizer>;
             "sets. (SQLite: " +
             message + ")");
     }
+    if ((sqlite3_errcode(connection) & 0xff) == SQLITE_NOMEM)
+        throw QueryTooLarge("The query needs more memory than a query may have. Narrow it with WHERE.");
     std::string hint;
     if (message.find("no such table") != std::string::npos ||
         message.find("no such column") != std::string::npos) {
@@ -206,6 +222,10 @@ void bind_all(sqlite3_stmt* statement, const std::vector<QueryValue>& parameters
 
 }  // namespace
 
+void limit_query_memory(std::int64_t bytes) {
+    sqlite3_hard_heap_limit64(bytes);
+}
+
 void visit_read_only(Database& database, std::string_view sql, const RowVisitor& visitor,
                      const std::vector<QueryValue>& parameters, double time_limit_s) {
     sqlite3* const connection = database.connection();
@@ -213,9 +233,7 @@ void visit_read_only(Database& database, std::string_view sql, const RowVisitor&
         throw Error("The query box needs a database that was opened for reading only: " +
                     database.path().string());
     }
-    sqlite3_limit(connection, SQLITE_LIMIT_ATTACHED, 0);
-    sqlite3_limit(connection, SQLITE_LIMIT_LENGTH, longest_value_bytes);
-
+    limit_statement(connection);
     const QueryGuard guard(connection, time_limit_s);
     const GuestStatement statement = prepare(connection, sql, guard, time_limit_s);
     bind_all(statement.get(), parameters);

@@ -19,11 +19,17 @@ using QueryValue = std::variant<std::monostate, std::int64_t, double, std::strin
 
 struct QueryLimits {
     double time_limit_s = 10;  // longer than any view takes on a study; a cross join by mistake ends
-    std::optional<std::size_t> row_limit{};  // rows beyond, or beyond 64 MB, are cut off: see truncated
+    std::optional<std::size_t> row_limit{};  // rows beyond, or beyond 8 MB, are cut off: see truncated
 };
 
 // A query that was stopped at its time limit.
 class QueryTooSlow : public Error {
+  public:
+    using Error::Error;
+};
+
+// A query that was stopped at its memory limit.
+class QueryTooLarge : public Error {
   public:
     using Error::Error;
 };
@@ -38,6 +44,10 @@ struct QueryResult {
 // A blob comes out as a text of its bytes; no table of ours has one.
 QueryResult run_read_only(Database& database, std::string_view sql,
                           const std::vector<QueryValue>& parameters = {}, const QueryLimits& limits = {});
+
+// For a program that runs a guest's query and nothing else: what SQLite allocates is limited. A query that
+// needs more ends with an Error.
+void limit_query_memory(std::int64_t bytes);
 
 // For an answer that is larger than memory: its rows one by one.
 struct RowVisitor {

@@ -35,9 +35,12 @@ extern const std::string_view compared_best_query;
 extern const std::string_view compared_recommendations_query;
 
 // What someone who watches a database asks again and again.
-// The studies, with how far each has come; no parameter.
-inline constexpr std::string_view studies_query =
-    "SELECT study_id, study AS name, status, units_done, units FROM v_progress ORDER BY study_id";
+// The studies, with how far each has come, when it was begun and what people say about it; no parameter.
+inline constexpr std::string_view studies_query = R"sql(
+SELECT p.study_id, p.study AS name, p.status, p.units_done, p.units,
+       ifnull((SELECT min(at_utc) FROM history h WHERE h.study_id = p.study_id AND event = 'begun'), '') AS begun_utc,
+       ifnull(m.note, '') AS note, ifnull(m.tags, '') AS tags, ifnull(m.is_deleted, 0) AS is_deleted
+FROM v_progress p LEFT JOIN study_mark m USING (study_id) ORDER BY p.study_id)sql";
 
 // The diagnoses, newest first; no parameter.
 inline constexpr std::string_view diagnoses_query = "SELECT * FROM v_diagnosis ORDER BY diagnosis_id DESC";

@@ -1,9 +1,9 @@
--- The results database of capstan, version 4. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 5. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a fraction or a ratio has no unit and says so in its
 -- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
--- segments + 1 (distal, load); there is no clock in any table, so the same program, configuration and seed give the
--- same bits.
+-- segments + 1 (distal, load); there is no clock in any table but history, so the same program, configuration and seed
+-- give the same bits.
 
 -- One question asked of the engine many times: a configuration, as it ran.
 CREATE TABLE study (
@@ -15,6 +15,24 @@ CREATE TABLE study (
     repetitions     INTEGER NOT NULL CHECK (repetitions > 0),  -- draws of noise per scenario and noise level
     segments        INTEGER NOT NULL CHECK (segments > 0),  -- of the cable
     status          TEXT    NOT NULL CHECK (status IN ('running', 'complete'))  -- running: begun, not ended; resume it
+) STRICT;
+
+-- What was done to a study, when and by which command. The one table with a clock: no answer is made of it.
+CREATE TABLE history (
+    event_id INTEGER PRIMARY KEY,                  -- 1, 2, ... as it happened
+    study_id INTEGER NOT NULL,                     -- its study; kept when that is removed, so that no number comes twice
+    study    TEXT    NOT NULL,                     -- its name
+    event    TEXT    NOT NULL,                     -- 'begun', 'completed', 'deleted', 'restored' or 'removed'
+    at_utc   TEXT    NOT NULL,                     -- '2026-01-31T12:00:00Z'
+    command  TEXT    NOT NULL                      -- as it was given; '': by a program that uses the library
+) STRICT;
+
+-- What people say about a study. A study without a row has no note and is not deleted.
+CREATE TABLE study_mark (
+    study_id   INTEGER PRIMARY KEY REFERENCES study ON DELETE CASCADE,  -- its study
+    note       TEXT    NOT NULL DEFAULT '',        -- free text
+    tags       TEXT    NOT NULL DEFAULT '',        -- words, with single blanks between them
+    is_deleted INTEGER NOT NULL DEFAULT 0 CHECK (is_deleted IN (0, 1))  -- 1: in the trash, to be restored or removed
 ) STRICT;
 
 -- The cable, segment by segment from the motor.

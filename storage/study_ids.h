@@ -32,6 +32,9 @@ int index_of(const std::vector<std::int64_t>& ids, std::int64_t id);
 // Makes a running study complete; an Error if it is complete already.
 void mark_complete(Database& database, std::int64_t study_id);
 
+// Into the history: 'begun', 'completed', ... Within the caller's transaction.
+void write_event(Database& database, std::int64_t study_id, std::string_view event);
+
 // Readable ids: study 2's cell number 17 is 2'000'000'017.
 std::int64_t numbered_within_study(std::int64_t study_id, std::int64_t number);
 

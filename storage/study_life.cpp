@@ -4,6 +4,7 @@
 
 #include "capstan/storage/error.h"
 #include "capstan/storage/record_rows.h"
+#include "capstan/storage/report_queries.h"
 #include "capstan/storage/study_ids.h"
 #include "capstan/storage/study_store.h"
 #include "capstan/storage/transaction.h"
@@ -26,6 +27,25 @@ std::string sentence_of(const std::vector<StudySummary>& studies) {
                 study.name + ", " + study.status + ")";
     }
     return text + ".";
+}
+
+std::string command_here;  // of this process
+
+void require_mark(Database& database, std::int64_t study_id) {
+    load_study_ids(database, study_id);  // refuses a study that is not there
+    Statement insert(database, "INSERT OR IGNORE INTO study_mark (study_id) VALUES (?1)");
+    insert.bind(1, study_id);
+    insert.run("mark the study");
+}
+
+void move_to(Database& database, std::int64_t study_id, Shelf shelf) {
+    Transaction transaction(database);
+    require_mark(database, study_id);
+    Statement update(database, "UPDATE study_mark SET is_deleted = ?2 WHERE study_id = ?1");
+    update.bind_all(study_id, shelf == Shelf::trash ? 1 : 0);
+    update.run("mark the study");
+    write_event(database, study_id, shelf == Shelf::trash ? "deleted" : "restored");
+    transaction.commit();
 }
 
 void require_all_units_done(Database& database, std::int64_t study_id) {
@@ -77,21 +97,38 @@ void mark_complete(Database& database, std::int64_t study_id) {
     if (sqlite3_changes(database.connection()) == 0) {
         throw Error("Study " + std::to_string(study_id) + " is complete already; its conclusions stay.");
     }
+    write_event(database, study_id, "completed");
 }
 
-std::vector<StudySummary> list_studies(Database& database) {
+void set_command(std::string command) {
+    command_here = std::move(command);
+}
+
+void write_event(Database& database, std::int64_t study_id, std::string_view event) {
+    Statement insert(
+        database,
+        "INSERT INTO history (study_id, study, event, at_utc, command) SELECT study_id, name, ?2, "
+        "strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?3 FROM study WHERE study_id = ?1");
+    insert.bind_all(study_id, event, std::string_view(command_here));
+    insert.run("write the history");
+}
+
+std::vector<StudySummary> list_studies(Database& database, Shelf shelf) {
     Statement select(database,
-                     "SELECT study_id, study, status, units_done, units FROM v_progress ORDER BY study_id");
+                     std::string("SELECT * FROM (") + std::string(studies_query) + ") WHERE is_deleted = ?1");
+    select.bind(1, shelf == Shelf::trash ? 1 : 0);
     std::vector<StudySummary> studies;
     while (select.step()) {
         studies.push_back({select.get<std::int64_t>(0), select.get<std::string>(1),
-                           select.get<std::string>(2), select.get<int>(3), select.get<int>(4)});
+                           select.get<std::string>(2), select.get<int>(3), select.get<int>(4),
+                           select.get<std::string>(5), select.get<std::string>(6),
+                           select.get<std::string>(7)});
     }
     return studies;
 }
 
-std::int64_t find_study(Database& database, std::string_view id_or_name_or_latest) {
-    const std::vector<StudySummary> studies = list_studies(database);
+std::int64_t find_study(Database& database, std::string_view id_or_name_or_latest, Shelf shelf) {
+    const std::vector<StudySummary> studies = list_studies(database, shelf);
     const std::optional<std::int64_t> id = as_id(id_or_name_or_latest);
     for (const StudySummary& study : studies) {
         if (id && study.study_id == *id) return *id;
@@ -100,8 +137,10 @@ std::int64_t find_study(Database& database, std::string_view id_or_name_or_lates
         if (study->name == id_or_name_or_latest) return study->study_id;
     }
     if (id_or_name_or_latest == "latest" && !studies.empty()) return studies.back().study_id;
-    throw Error(database.path().string() + " has no study '" + std::string(id_or_name_or_latest) + "'. " +
-                sentence_of(studies));
+    throw Error(database.path().string() +
+                (shelf == Shelf::trash ? " has no deleted study '" : " has no study '") +
+                std::string(id_or_name_or_latest) + "'. " +
+                (shelf == Shelf::trash && studies.empty() ? "Its trash is empty." : sentence_of(studies)));
 }
 
 std::optional<ShardRecord> read_shard(Database& database) {
@@ -134,9 +173,32 @@ void finish_study(Database& database, std::int64_t study_id,
     transaction.commit();
 }
 
+void annotate_study(Database& database, std::int64_t study_id, const std::optional<std::string>& note,
+                    const std::optional<std::string>& tags) {
+    Transaction transaction(database);
+    require_mark(database, study_id);
+    Statement update(
+        database,
+        "UPDATE study_mark SET note = ifnull(?2, note), tags = ifnull(?3, tags) WHERE study_id = ?1");
+    update.bind(1, study_id);
+    if (note) update.bind(2, std::string_view(*note));
+    if (tags) update.bind(3, std::string_view(*tags));
+    update.run("write the note");
+    transaction.commit();
+}
+
+void trash_study(Database& database, std::int64_t study_id) {
+    move_to(database, study_id, Shelf::trash);
+}
+
+void restore_study(Database& database, std::int64_t study_id) {
+    move_to(database, study_id, Shelf::studies);
+}
+
 void delete_study(Database& database, std::int64_t study_id) {
     Transaction transaction(database);
     load_study_ids(database, study_id);  // refuses a study that is not there
+    write_event(database, study_id, "removed");
     Statement statement(database,
                         "DELETE FROM study WHERE study_id = ?1");  // the rest follows by ON DELETE CASCADE
     statement.bind(1, study_id);

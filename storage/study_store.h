@@ -38,8 +38,19 @@ void finish_study(Database& database, std::int64_t study_id,
                   const std::vector<RecommendationRecord>& recommendations,
                   const std::vector<PaperComparisonRecord>& paper_comparison);
 
-// Deletes the study and everything that belongs to it.
+// Removes the study and everything that belongs to it.
 void delete_study(Database& database, std::int64_t study_id);
+
+// Into the trash and out of it. What is there keeps all its rows, but is found by no name, number or list.
+void trash_study(Database& database, std::int64_t study_id);
+void restore_study(Database& database, std::int64_t study_id);
+
+// A note in words; tags are words with blanks between them. What is not given stays.
+void annotate_study(Database& database, std::int64_t study_id, const std::optional<std::string>& note,
+                    const std::optional<std::string>& tags);
+
+// What the history calls the command that this process runs. Before any study is written.
+void set_command(std::string command);
 
 // ---- finding (study_life.cpp)
 
@@ -49,13 +60,18 @@ struct StudySummary {
     std::string status;  // 'running' or 'complete'
     int units_done = 0;
     int units = 0;
+    std::string begun_utc;  // empty: before there was a history
+    std::string note;
+    std::string tags;
 };
 
-std::vector<StudySummary> list_studies(Database& database);  // oldest first
+enum class Shelf { studies, trash };
+std::vector<StudySummary> list_studies(Database& database, Shelf shelf = Shelf::studies);  // oldest first
 
 // '3' is the study with that id; 'latest' the one begun last; any other text the last one begun under that
 // name. No such study: an Error that lists what there is.
-std::int64_t find_study(Database& database, std::string_view id_or_name_or_latest);
+std::int64_t find_study(Database& database, std::string_view id_or_name_or_latest,
+                        Shelf shelf = Shelf::studies);
 
 // Which shard the file is; nothing for a file of complete studies.
 std::optional<ShardRecord> read_shard(Database& database);

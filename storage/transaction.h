@@ -25,6 +25,7 @@ class Transaction {
     void commit() {
         database_.execute("COMMIT", "finish writing");
         committed_ = true;
+        database_.require_in_place();
     }
 
   private:

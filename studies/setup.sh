@@ -2,8 +2,8 @@
 
 build_packages=(
     g++ cmake ninja-build ccache
-    libeigen3-dev libtbb-dev libsqlite3-dev libboost-program-options-dev libboost-math-dev
-    librandom123-dev libhwy-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev
+    libeigen3-dev libtbb-dev libsqlite3-dev libboost-dev libboost-program-options-dev
+    librandom123-dev libhwy-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
     zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libmatio-dev libhdf5-dev libminizip-dev
     libexpat1-dev nodejs npm
     pybind11-dev python3-dev python3-numpy # the Python module; CAPSTAN_PYTHON=OFF builds without it

@@ -16,8 +16,8 @@ struct KeyProblem {
     bool operator==(const KeyProblem&) const = default;
 };
 
-/// Input that no model can be built from. Lists every problem found, one a line: what is wrong, why it
-/// matters, what to try.
+/// Input that no model can be built from. Lists the problems found, one a line: what is wrong, why it
+/// matters, what to try. Of a long list equal problems are counted, and only the first 50 are told.
 class InvalidInput : public std::runtime_error {
   public:
     explicit InvalidInput(std::vector<std::string> problems);

@@ -54,7 +54,7 @@
   const allOf = (table) => [...Array(table.rows).keys()];
 
   function load() {
-    study = JSON.parse(document.getElementById("study-data").textContent);
+    study = { tables: {}, figures: {}, ...JSON.parse(document.getElementById("study-data").textContent) };  // a page may have none
     tables = {};
     for (const [name, table] of Object.entries(study.tables)) {
       let rows;
@@ -136,12 +136,12 @@
     return filled;
   }
 
-  function specOf(figure, trim) {
+  function specOf(figure, trim, width_px) {
     const info = about(figure);
     const datasets = {};
     for (const table of info.tables) datasets[table] = rowsOf(figure, table);
     const rows = datasets[info.tables[0]];
-    const room = figure.querySelector(".chart").clientWidth - trim;
+    const room = (width_px ?? figure.querySelector(".chart").clientWidth) - trim;
     let columns = info.columns_by ? distinct(rows, info.columns_by).length : info.columns ?? 1;
     const template = { ...study.figures[figure.dataset.figure] };
     let frame = info.frame_width_px;
@@ -287,17 +287,38 @@
 
   // ---- a figure and its data as files
   const scale_of_pixels = 2;  // sharp in print
-  const drawnView = async (figure) => {
-    if (!figure.view) await draw(figure);
-    return figure.view;
-  };
+  // In the colours of print, whatever the theme of the screen is. The page itself is not painted in between.
+  function specOnPaper(figure, width_px) {
+    const state = document.documentElement.dataset;
+    if (onPaper()) return specOf(figure, 0, width_px);
+    state.paper = "";
+    try {
+      return specOf(figure, 0, width_px);
+    } finally {
+      delete state.paper;
+    }
+  }
+  const viewOnPaper = (figure, width_px) =>
+    new vega.View(vega.parse(vegaLite.compile(specOnPaper(figure, width_px)).spec), { renderer: "none" }).runAsync();
   const ways = {
-    SVG: async (figure) => new Blob([await (await drawnView(figure)).toSVG()], { type: "image/svg+xml" }),
+    SVG: async (figure) => new Blob([await (await viewOnPaper(figure)).toSVG()], { type: "image/svg+xml" }),
     PNG: async (figure) => {
-      const canvas = await (await drawnView(figure)).toCanvas(scale_of_pixels);
+      const canvas = await (await viewOnPaper(figure)).toCanvas(scale_of_pixels);
       return new Promise((made) => canvas.toBlob(made, "image/png"));
     },
   };
+  // `capstan report --figures` opens the page with #figures=WIDTH and reads what this leaves in it.
+  async function leaveFigureFiles(width_px) {
+    const files = [];
+    for (const figure of document.querySelectorAll("figure[data-figure]")) {
+      if (rowsOf(figure, about(figure).tables[0]).length === 0) continue;
+      const view = await viewOnPaper(figure, width_px);
+      files.push({ name: figure.id, svg: await view.toSVG(), png: (await view.toCanvas(4)).toDataURL("image/png") });
+    }
+    const place = document.body.appendChild(document.createElement("pre"));
+    place.id = "figure-files";
+    place.textContent = btoa(unescape(encodeURIComponent(JSON.stringify(files))));
+  }
   function hand_over(name, blob) {
     const link = document.createElement("a");
     link.download = name;
@@ -395,5 +416,11 @@
     setFilter(filter) { passes = filter; return drawAll(); },
     reload() { load(); attach(); return drawAll(); },
   };
-  window.capstanPage.reload();
+  const asked = /^#figures=(\d+)$/.exec(location.hash);
+  if (asked) {
+    load();
+    leaveFigureFiles(Number(asked[1]));
+  } else {
+    window.capstanPage.reload();
+  }
 })();

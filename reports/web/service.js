@@ -1,5 +1,5 @@
 "use strict";
-// The front page of `capstan serve`: studies, the queue, diagnoses, the query box.
+// The front page of `capstan serve`: studies, the queue, diagnoses.
 (() => {
   const at = (id) => document.getElementById(id);
 
@@ -18,7 +18,7 @@
     made.append(...children);
     return made;
   }
-  globalThis.capstanPage = { at, ask, element };  // for import.js
+  globalThis.capstanPage = { at, ask, get, post, element };  // for import.js and query.js
   const cell = (...children) => element("td", {}, ...children);
   const link = (href, text) => element("a", { href, textContent: text });
 
@@ -29,39 +29,96 @@
     return [element("progress", { max: 1, value: fraction, ariaLabel: "done" }), " " + words];
   }
 
-  function showStudies(studies, jobs) {
-    at("study-table").tBodies[0].replaceChildren(...studies.toReversed().map((study) => {
-      const job = jobs.findLast((each) => each.study_id === study.study_id);
-      const idle = study.status === "running" && !(job && ["queued", "running"].includes(job.state));
-      const resume = element("button", { type: "button", className: "plain", textContent: "Resume", ariaLabel: "Resume study " + study.study_id });
-      resume.addEventListener("click", () => act(post("/api/studies/" + study.study_id + "/resume")));
-      return element("tr", {},
-        element("th", { scope: "row" }, link("/studies/" + study.study_id, "Study " + study.study_id)), cell(study.name),
-        cell(idle ? "stopped" : study.status), cell(...bar(study.units ? study.units_done / study.units : 0, study.units_done + " of " + study.units + " units")),
-        cell(...(idle ? [resume] : job ? ["job " + job.job] : [])));
-    }));
+  function plainButton(textContent, ariaLabel, action) {
+    const button = element("button", { type: "button", className: "plain", textContent, ariaLabel });
+    button.addEventListener("click", action);
+    return button;
   }
 
+  // ---- the table of studies: two can be chosen and compared
+  const chosen = new Set();
+  function showComparison() {
+    const pair = [...chosen].sort((a, b) => a - b);
+    at("compare").disabled = pair.length !== 2;
+    at("compare").textContent = pair.length === 2 ? `Compare ${pair[0]} and ${pair[1]}` : "Compare two";
+  }
+  at("compare").addEventListener("click", () => {
+    const [first, second] = [...chosen].sort((a, b) => a - b);
+    location.href = `/studies/${first}/compare/${second}`;
+  });
+  const words = (study) => [study.name, study.note, study.tags].join(" ").toLowerCase();
+  const isWanted = (study) => at("study-filter").value.toLowerCase().split(/\s+/).every((word) => words(study).includes(word));
+
+  const rerun = async (id) => post("/api/studies", { config_toml: await (await ask(`/api/studies/${id}/config`)).text() });
+  async function remove(id) {
+    await post(`/api/studies/${id}/delete`);
+    chosen.delete(id);
+    const undo = plainButton("Undo", "Bring study " + id + " back", () => {
+      at("undo").replaceChildren();
+      act(post(`/api/studies/${id}/restore`));
+    });
+    at("undo").replaceChildren(`Study ${id} is in the trash. `, undo);
+  }
+
+  function studyRow(study, jobs) {
+    const id = study.study_id;
+    const job = jobs.findLast((each) => each.study_id === id);
+    const busy = job && ["queued", "running"].includes(job.state);
+    const idle = study.status === "running" && !busy;
+    const box = element("input", { type: "checkbox", checked: chosen.has(id), ariaLabel: "Choose study " + id });
+    box.addEventListener("change", () => { box.checked ? chosen.add(id) : chosen.delete(id); showComparison(); });
+    const notes = [study.note, ...study.tags.split(" ").filter(Boolean).map((tag) => "#" + tag)].filter(Boolean).join(" ");
+    const begun = study.begun_utc ? new Date(study.begun_utc).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" }) : "";
+    const actions = [
+      ...(idle ? [plainButton("Resume", "Resume study " + id, () => act(post(`/api/studies/${id}/resume`)))] : []),
+      plainButton("Run again", "Run study " + id + " again", () => act(rerun(id))),
+      ...(busy ? [] : [plainButton("Delete", "Delete study " + id, () => act(remove(id)))]),
+    ];
+    return element("tr", {},
+      element("th", { scope: "row" }, box, " ", link("/studies/" + id, "Study " + id)),
+      cell(study.name, ...(notes ? [element("div", { className: "quiet", textContent: notes })] : [])), cell(begun),
+      cell(idle ? "stopped" : study.status, ...(job ? [" (job " + job.job + ")"] : [])),
+      cell(...bar(study.units ? study.units_done / study.units : 0, study.units_done + " of " + study.units + " units")),
+      element("td", { className: "buttons" }, ...actions));
+  }
+  function showStudies(studies, jobs) {
+    at("study-table").tBodies[0].replaceChildren(...studies.toReversed().filter(isWanted).map((study) => studyRow(study, jobs)));
+  }
+
+  // What runs and waits comes first, then what ended last.
+  const ofInterest = (jobs) => {
+    const under_way = jobs.filter((job) => ["running", "queued"].includes(job.state));
+    const ended = jobs.filter((job) => !under_way.includes(job)).toReversed();
+    return { shown: [...under_way.slice(0, 30), ...ended.slice(0, 20)], under_way: under_way.length };
+  };
   function showJobs(jobs) {
-    at("job-table").tBodies[0].replaceChildren(...jobs.toReversed().slice(0, 20).map((job) => {
+    const { shown, under_way } = ofInterest(jobs);
+    at("stop-all").hidden = under_way < 2;
+    at("stop-all").textContent = `Stop all ${under_way} jobs`;
+    at("job-table").tBodies[0].replaceChildren(...shown.map((job) => {
       const activity = [job.activity, job.seconds_left > 0 ? "about " + seconds(job.seconds_left) + " left" : ""].filter(Boolean).join(", ");
       const does = ["queued", "running"].includes(job.state) ? "stop" : ["stopped", "failed"].includes(job.state) ? "resume" : "";
-      const button = element("button", { type: "button", className: "plain", textContent: does === "stop" ? "Stop" : "Resume", ariaLabel: does + " job " + job.job });
-      button.addEventListener("click", () => act(post("/api/jobs/" + job.job + "/" + does)));
-      const result = job.study_id ? link("/studies/" + job.study_id, "study " + job.study_id) : job.diagnosis_id ? link("#diagnosis-" + job.diagnosis_id, "diagnosis " + job.diagnosis_id) : "";
+      const button = plainButton(does === "stop" ? "Stop" : "Resume", does + " job " + job.job, () => act(post("/api/jobs/" + job.job + "/" + does)));
+      const result = job.study_id ? link("/studies/" + job.study_id, "study " + job.study_id) : job.diagnosis_id ? link("/diagnoses/" + job.diagnosis_id, "diagnosis " + job.diagnosis_id) : "";
       const row = element("tr", {}, element("th", { scope: "row", textContent: "Job " + job.job }), cell(job.kind + " " + job.title), cell(job.state),
         cell(...(job.state === "running" ? bar(job.fraction, activity) : [job.message])), cell(result), cell(...(does ? [button] : [])));
       row.dataset.state = job.state;
       return row;
     }));
   }
+  at("stop-all").addEventListener("click", () => act(post("/api/jobs/stop")));
+  at("study-filter").addEventListener("input", () => refresh());
 
-  let shownDiagnoses = "";
+  let shownState = "", shownDiagnoses = "";
   async function refresh() {
     try {
       const [studies, jobs, diagnoses] = await Promise.all([get("/api/studies"), get("/api/jobs"), get("/api/diagnoses")]);
-      showStudies(studies, jobs);
-      showJobs(jobs);
+      const state = JSON.stringify([studies, jobs, at("study-filter").value]);
+      if (state !== shownState) {  // what has not changed keeps its focus
+        showStudies(studies, jobs);
+        showJobs(jobs);
+        shownState = state;
+      }
       if (JSON.stringify(diagnoses) !== shownDiagnoses) showDiagnoses(diagnoses);
       shownDiagnoses = JSON.stringify(diagnoses);
       at("notice").textContent = "";
@@ -83,18 +140,41 @@
     if (name) at("config-text").value = await (await ask("/api/configs/" + encodeURIComponent(name))).text();
   });
   at("config-text").addEventListener("input", () => { at("config-name").value = ""; });
-  at("start-form").addEventListener("submit", async (event) => {
-    event.preventDefault();
-    at("start-problem").textContent = "";
-    const name = at("config-name").value;
+  const wish = () => at("config-name").value ? { config: at("config-name").value } : { config_toml: at("config-text").value };
+  const asks_above_s = 60;
+  async function start() {
+    at("start-cost").hidden = true;
     try {
-      await post("/api/studies", name ? { config: name } : { config_toml: at("config-text").value });
+      await post("/api/studies", wish());
+      at("start-cost-words").textContent = "";
       await refresh();
       at("studies").scrollIntoView();
     } catch (error) {
       at("start-problem").textContent = error.message;
     }
+  }
+  // Short studies start at once; of others the user sees the cost and decides.
+  at("start-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    at("start-problem").textContent = "";
+    at("start-cost").hidden = true;
+    if (!at("config-name").value && !at("config-text").value.trim()) {
+      at("start-problem").textContent = "Choose a configuration, or write one.";
+      return;
+    }
+    at("start-cost-words").textContent = "Estimating the cost …";
+    let cost = { known: false };
+    try {
+      cost = await (await post("/api/studies/cost", wish())).json();
+    } catch { /* the start says what is wrong */ }
+    at("start-cost-words").textContent = "";
+    if (!cost.known || cost.seconds <= asks_above_s) return start();
+    at("start-cost-words").textContent = `${cost.studies === 1 ? "The study takes" : cost.studies + " studies take"} about ${seconds(cost.seconds)} on this machine.`;
+    at("start-cost").hidden = false;
+    at("start-anyway").focus();
   });
+  at("start-anyway").addEventListener("click", start);
+  at("start-not").addEventListener("click", () => { at("start-cost").hidden = true; at("start-cost-words").textContent = ""; });
 
   // ---- diagnoses
   const percent = (fraction) => fraction == null ? "" : Math.round(100 * fraction) + "%";
@@ -107,12 +187,13 @@
     more.addEventListener("toggle", async () => {
       if (!more.open || more.lastChild.childElementCount) return;
       const rows = await (await post("/api/query", { sql: `SELECT place, effect, probability_fraction FROM diagnosis_effect WHERE diagnosis_id = ${row.diagnosis_id} ORDER BY place` })).json();
-      more.lastChild.append(tableOf(rows));
+      more.lastChild.append(capstanPage.tableOf(rows));
     });
     const card = element("article", { className: "card verdict-card", id: "diagnosis-" + row.diagnosis_id },
       element("h3", { textContent: `${row.recording}: ${row.verdict} (${percent(row.confidence_fraction)})` }),
       element("p", { textContent: row.sentence + (row.component && row.component !== "none" ? ` In ${row.component}${row.cable_end ? ", at the " + row.cable_end + " end" : ""}${row.position_m == null ? "" : ", about " + digits(row.position_m) + " m from the motor"}.` : "") }),
-      channel, more);
+      channel, more, element("p", { className: "buttons" }, link("/diagnoses/" + row.diagnosis_id, "The whole diagnosis: numbers, curves, model"), " ",
+        element("a", { href: `/api/diagnoses/${row.diagnosis_id}/model`, download: "", textContent: "Corrected model" })));
     card.dataset.verdict = row.verdict;
     return card;
   }
@@ -133,48 +214,8 @@
     }
   });
 
-  // ---- query box
-  function tableOf(rows) {
-    const columns = rows.length ? Object.keys(rows[0]) : [];
-    const table = element("table");
-    const className = (name) => typeof rows[0][name] === "number" ? "number" : "";
-    table.createTHead().append(element("tr", {}, ...columns.map((name) => element("th", { scope: "col", className: className(name), textContent: name }))));
-    table.createTBody().append(...rows.slice(0, 1000).map((row) => element("tr", {}, ...columns.map((name) => {
-      const value = row[name];
-      const number = typeof value === "number";
-      return element("td", { className: number ? "number" : "", textContent: number && !Number.isInteger(value) ? value.toPrecision(6) : value ?? "" });
-    }))));
-    return table;
-  }
-  at("query-form").addEventListener("submit", async (event) => {
-    event.preventDefault();
-    at("query-problem").textContent = "";
-    at("query-count").textContent = "…";
-    try {
-      const rows = await (await post("/api/query", { sql: at("sql").value })).json();
-      at("query-count").textContent = rows.length + (rows.length === 1 ? " row" : " rows") + (rows.length > 1000 ? ", the first 1000 shown" : "");
-      at("query-rows").replaceChildren(tableOf(rows));
-      at("query-rows").hidden = rows.length === 0;
-    } catch (error) {
-      at("query-count").textContent = "";
-      at("query-rows").hidden = true;
-      at("query-problem").textContent = error.message;
-    }
-  });
-  at("query-csv").addEventListener("click", async () => {
-    at("query-problem").textContent = "";
-    try {
-      const answer = await post("/api/query", { sql: at("sql").value, format: "csv" });
-      const address = URL.createObjectURL(await answer.blob());
-      element("a", { href: address, download: "capstan-query.csv" }).click();
-      setTimeout(() => URL.revokeObjectURL(address), 60000);
-    } catch (error) {
-      at("query-problem").textContent = error.message;
-    }
-  });
-
   async function begin() {
-    await Promise.all([listConfigs(), ask("/api/schema").then((answer) => answer.text()).then((text) => { at("schema").textContent = text; }), refresh()]);
+    await Promise.all([listConfigs(), refresh()]);
     document.documentElement.dataset.ready = "yes";
     for (;;) {
       await new Promise((wake) => setTimeout(wake, document.hidden ? 5000 : 1000));

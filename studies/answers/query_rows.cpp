@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "capstan/answers/study_answers.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/platform/wrapped_text.h"
 
 namespace capstan::answers {
@@ -21,7 +22,7 @@ bool is_number(const QueryValue& value) {
 // Line breaks would tear a table apart.
 std::string on_one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+    return printable(text);
 }
 
 struct ForPeople {
@@ -49,6 +50,14 @@ std::string without_trailing_blanks(std::string line) {
 }
 
 }  // namespace
+
+QueryResult studies_table(storage::Database& database, storage::Shelf shelf) {
+    QueryResult table{{"study_id", "name", "status", "units_done", "units", "begun_utc", "note", "tags"}, {}};
+    for (const storage::StudySummary& study : storage::list_studies(database, shelf))
+        table.rows.push_back({study.study_id, study.name, study.status, std::int64_t{study.units_done},
+                              std::int64_t{study.units}, study.begun_utc, study.note, study.tags});
+    return table;
+}
 
 std::string rows_text(const QueryResult& result) {
     std::vector<std::size_t> width;

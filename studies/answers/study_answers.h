@@ -12,6 +12,7 @@
 #include "capstan/storage/database.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/records.h"
+#include "capstan/storage/study_store.h"
 
 namespace capstan::answers {
 
@@ -28,6 +29,11 @@ reports::Answer replay_answer(const Replay& replayed, const storage::ScenarioRec
 
 /// The effects, the other causes that a diagnosis can name, the layout families and the fusion methods.
 reports::Answer catalogue_answer();
+
+/// The studies, with progress, date, note and tags; as `capstan study list --json` and the service write
+/// them.
+storage::QueryResult studies_table(storage::Database& database,
+                                   storage::Shelf shelf = storage::Shelf::studies);
 
 /// The rows as columns side by side, numbers to the right in six digits.
 std::string rows_text(const storage::QueryResult& result);

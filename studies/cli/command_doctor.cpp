@@ -46,7 +46,7 @@ DatabaseState state_of(const std::string& file) {
     }
     state.is_there = true;
     try {
-        storage::Database database = storage::Database::open_read_only(file);
+        storage::Database database = storage::Database::open_read_only(file, storage::SchemaCheck::none);
         state.health = storage::examine(database);
         state.is_intact = state.health.problems.empty();
         state.words = state.is_intact ? "integrity check passed" : "integrity check failed";
@@ -66,7 +66,7 @@ std::string database_sentence(const std::string& file, const DatabaseState& stat
     if (health.running_studies > 0)
         text += fmt::format(" Not complete: {}; `capstan study resume all --db {}` completes them.",
                             health.running_studies, file);
-    for (const std::string& problem : health.problems) text += " " + problem;
+    for (const std::string& problem : health.problems) text += " " + problem + ".";
     for (const std::string& copy : health.copies)
         text += fmt::format(" {} is a copy from before a migration.", copy);
     return text;
@@ -127,7 +127,7 @@ Command doctor_command() {
                 "Checks the program, the processor and the optional programs, reads every page of the "
                 "database, and checks every reference in it. Changes nothing.",
             .options = {database_option, output_option, json_option, help_option},
-            .examples = {"capstan doctor", "capstan doctor --db results/capstan.db --json"},
+            .examples = {"capstan doctor", "capstan doctor --db other.db --json"},
             .run = run_doctor};
 }
 

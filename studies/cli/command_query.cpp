@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <thread>
 
 #include "capstan/answers/study_answers.h"
 #include "capstan/cli/commands.h"
@@ -16,9 +20,43 @@ namespace capstan::cli {
 
 namespace {
 
-storage::QueryResult answer(storage::Database& database, const std::string& sql) {
+constexpr std::int64_t query_memory_bytes = std::int64_t{512} << 20;
+constexpr std::chrono::milliseconds query_grace{500};
+
+// SQLite looks at the time between the steps of its machine. One step on long strings, and the compilation of
+// a statement, can take minutes: then this ends the program, which only reads.
+class QueryWatch {
+  public:
+    explicit QueryWatch(double time_limit_s)
+        : thread_([time_limit_s](const std::stop_token& stop) {
+              std::mutex mutex;
+              std::unique_lock lock(mutex);
+              const auto limit = std::chrono::duration<double>(time_limit_s) + query_grace;
+              if (std::condition_variable_any().wait_for(lock, stop, limit,
+                                                         [&] { return stop.stop_requested(); }))
+                  return;
+              if (stop.stop_requested()) return;
+              say(fmt::format("capstan query: The query took longer than {:g} s and was stopped.",
+                              time_limit_s));
+              std::_Exit(static_cast<int>(ExitCode::failure));
+          }) {}
+
+  private:
+    std::jthread thread_;
+};
+
+storage::QueryResult answer(storage::Database& database, const Invocation& invocation) {
+    storage::QueryLimits limits{.time_limit_s = invocation.number("time-limit")};
+    if (invocation.has("max-rows"))
+        limits.row_limit = static_cast<std::size_t>(invocation.integer("max-rows"));
+    storage::limit_query_memory(query_memory_bytes);
+    const QueryWatch watch(limits.time_limit_s);
     try {
-        return storage::run_read_only(database, sql);
+        return storage::run_read_only(database, invocation.argument("SQL"), {}, limits);
+    } catch (const storage::QueryTooSlow& error) {
+        throw std::runtime_error(std::string("query: ") + error.what());
+    } catch (const storage::QueryTooLarge& error) {
+        throw std::runtime_error(std::string("query: ") + error.what());
     } catch (const storage::Error& error) {
         throw UsageError(std::string("capstan query: ") + error.what());
     }
@@ -45,7 +83,9 @@ ExitCode run_query(const Invocation& invocation) {
         throw UsageError(
             "capstan query: --format md is for --schema; rows are printed as table, csv or json");
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
-    deliver(invocation, formatted(answer(database, invocation.argument("SQL")), format));
+    const storage::QueryResult result = answer(database, invocation);
+    deliver(invocation, formatted(result, format));
+    if (result.truncated) say(fmt::format("The answer was cut off after {} rows.", result.rows.size()));
     return ExitCode::success;
 }
 
@@ -58,7 +98,7 @@ Command query_command() {
                 "Runs one SELECT on the results database and prints the rows. The views v_error_by_layout, "
                 "v_best_method, v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer "
                 "the usual questions; --schema explains every table, column and unit. A query cannot change "
-                "anything and is stopped after ten seconds.",
+                "anything, is stopped after --time-limit, and gets at most 512 MB of memory.",
             .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
             .options = {{.name = "format",
                          .value = "table|csv|json|md",
@@ -69,6 +109,19 @@ Command query_command() {
                         {.name = "schema",
                          .kind = OptionKind::flag,
                          .meaning = "Print all tables and views with their comments instead."},
+                        {.name = "time-limit",
+                         .kind = OptionKind::number,
+                         .value = "SECONDS",
+                         .meaning = "Stop the query after this time.",
+                         .default_value = "10",
+                         .low = 0.01,
+                         .high = 86400},
+                        {.name = "max-rows",
+                         .kind = OptionKind::integer,
+                         .value = "N",
+                         .meaning = "Cut the answer off after N rows, or after 8 MB, and say so.",
+                         .low = 1,
+                         .high = 1e9},
                         database_option,
                         output_option,
                         {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},

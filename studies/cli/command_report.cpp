@@ -2,7 +2,7 @@
 #include <unistd.h>
 
 #include <charconv>
-#include <cstdio>
+#include <filesystem>
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
@@ -12,6 +12,7 @@
 #include "capstan/cli/watched_run.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/platform/standard_streams.h"
+#include "capstan/printing/printed_page.h"
 #include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/storage/diagnosis_store.h"
@@ -70,20 +71,49 @@ std::string chosen_report(const Invocation& invocation, storage::Database& datab
     return answer_in(reports::study_comparison(database, {other, id}), format);
 }
 
+bool ends_in_pdf(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".pdf";
+}
+
+void require_browser(std::string_view option) {
+    if (printing::browser_on_path().empty())
+        throw UsageError(fmt::format(
+            "capstan report: {} needs a browser such as chromium on PATH (Debian: apt-get install "
+            "chromium), and there is none. Write -o report.html, and print or save from a browser",
+            option));
+}
+
+void write_figures(const Invocation& invocation, const std::string& page) {
+    const std::filesystem::path folder = invocation.text("figures");
+    const auto figures = printing::figures_of(page, static_cast<int>(invocation.integer("width")));
+    std::filesystem::create_directories(folder);
+    for (const printing::FigureFile& figure : figures) write_file(folder / figure.name, figure.bytes);
+    say(fmt::format("Wrote {} figures, each as SVG and PNG, to {}.", figures.size() / 2, folder.string()));
+}
+
 ExitCode run_report(const Invocation& invocation) {
-    const AnswerFormat format = answer_format(invocation, AnswerFormat::html);
     const std::string& file = invocation.text("output");
+    const bool as_pdf = ends_in_pdf(file) && !invocation.has("format") && !invocation.has("json");
+    const bool figures_only = invocation.has("figures") && file == "-";
+    if (as_pdf) require_browser("-o " + file);
+    if (invocation.has("figures")) require_browser("--figures");
+    const AnswerFormat format =
+        as_pdf || figures_only ? AnswerFormat::html : answer_format(invocation, AnswerFormat::html);
     if (invocation.has("diagnosis") && invocation.has("compare"))
         throw UsageError(
             "capstan report: --diagnosis reports on a recording, --compare on two studies; give only one "
             "of them");
-    if (format == AnswerFormat::html && file == "-" && ::isatty(STDOUT_FILENO) == 1) {
+    if (format == AnswerFormat::html && file == "-" && !figures_only && ::isatty(STDOUT_FILENO) == 1) {
         throw UsageError(
             "capstan report: a terminal cannot show an HTML page; name a file with -o report.html, or "
             "read the report here with --format md");
     }
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
-    deliver(invocation, chosen_report(invocation, database, format));
+    if (invocation.has("figures"))
+        write_figures(invocation, chosen_report(invocation, database, AnswerFormat::html));
+    if (figures_only) return ExitCode::success;
+    const std::string text = chosen_report(invocation, database, format);
+    deliver(invocation, as_pdf ? printing::pdf_of(text) : text);
     if (file != "-") say(fmt::format("Wrote {}.", file));
     return ExitCode::success;
 }
@@ -93,13 +123,15 @@ ExitCode run_report(const Invocation& invocation) {
 Command report_command() {
     return {
         .name = "report",
-        .summary = "Write a report: one HTML page, Markdown, CSV or JSON.",
+        .summary = "Write a report: one HTML page, PDF, Markdown, CSV or JSON; or its figures.",
         .description =
             "Writes a study's report. The HTML page is self-contained and needs no network: it shows the "
             "recommendation first, then the figures and their data. Markdown can be read in a terminal, "
             "CSV has the error of every layout, count and method, and JSON has every table. Reports on a "
             "stored diagnosis have the same formats: CSV has one line per number, and JSON is the answer "
-            "of `capstan diagnose --json`.",
+            "of `capstan diagnose --json`. A file that ends in .pdf is the page as a browser prints it. --figures "
+            "writes every figure as SVG and PNG, in the colours of print. Both take some seconds and need "
+            "chromium or chrome.",
         .arguments = {study_argument},
         .options = {{.name = "format",
                      .value = "html|md|csv|json",
@@ -112,11 +144,22 @@ Command report_command() {
                      .value = "NUMBER",
                      .meaning =
                          "Report on a diagnosis stored by `capstan diagnose --db`: its number, or latest."},
+                    {.name = "figures",
+                     .value = "FOLDER",
+                     .meaning = "Write every figure to FOLDER, as SVG and PNG."},
+                    {.name = "width",
+                     .kind = OptionKind::integer,
+                     .value = "PIXELS",
+                     .meaning = "Width of these figures; an inch has 96. A PNG has four times as many.",
+                     .default_value = "700",
+                     .low = printing::smallest_width_px,
+                     .high = printing::largest_width_px},
                     database_option,
                     output_option,
                     {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
                     help_option},
-        .examples = {"capstan report -o report.html", "capstan report paper --format md",
+        .examples = {"capstan report -o report.html", "capstan report -o report.pdf",
+                     "capstan report --figures figures --width 340", "capstan report paper --format md",
                      "capstan report -o errors.csv", "capstan report --compare 1 2 -o comparison.html",
                      "capstan report --diagnosis latest -o diagnosis.html"},
         .run = run_report};

@@ -76,9 +76,8 @@ ExitCode run_serve(const Invocation& invocation) {
 
     std::future<void> running = std::async(std::launch::async, [&] { service.run(); });
     // This thread receives the signals and waits for nothing else.
-    bool stopped = false;
     while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-        if (StopRequest::flag()->load() && !stopped) stopped = service.stop();
+        if (StopRequest::flag()->load()) service.stop();
     }
     running.get();
     return ExitCode::success;
@@ -130,7 +129,7 @@ Command serve_command() {
               .high = 600},
              jobs_option,
              help_option},
-        .examples = {"capstan serve --db results/capstan.db --configs configs", "capstan serve --port 0",
+        .examples = {"capstan serve --configs configs", "capstan serve --port 0",
                      "capstan serve --host 0.0.0.0 --token-file token.txt"},
         .run = run_serve};
 }

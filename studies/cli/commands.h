@@ -13,6 +13,8 @@
     COMMAND(study_show)           \
     COMMAND(study_replay)         \
     COMMAND(study_delete)         \
+    COMMAND(study_restore)        \
+    COMMAND(study_note)           \
     COMMAND(study_merge)          \
     COMMAND(study_plan)           \
     COMMAND(study_submit)         \

@@ -93,6 +93,7 @@ std::string program_help() {
     std::vector<Entry> entries = summaries("");
     entries.push_back({"help COMMAND", "Explain a command, as does capstan COMMAND --help."});
     entries.push_back({"help --book", "Print where the book is; open it in a browser."});
+    entries.push_back({"help TERM", "Explain a term, layout, method or effect; `capstan help terms` lists them."});
     entries.push_back({"--version", "Print the version."});
     return "Usage: capstan COMMAND [options]\n\n"
            "Finds where to put tension sensors in a cable-conduit (Bowden) transmission: simulates the cable,\n"

@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -26,6 +27,8 @@ namespace {
 
 int main(int argument_count, char** arguments) {
     capstan::reserve_standard_streams();
+    std::signal(SIGXFSZ,
+                SIG_IGN);  // a write beyond the limit on file sizes fails, and is reported, like any other
     std::set_terminate(end_in_words);
     return static_cast<int>(capstan::cli::run_program({arguments + 1, arguments + argument_count}));
 }

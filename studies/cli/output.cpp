@@ -52,12 +52,21 @@ AnswerFormat answer_format(const Invocation& invocation, AnswerFormat otherwise)
     if (invocation.has("json")) return AnswerFormat::json;
     if (invocation.has("format")) return format_named(invocation.text("format")).value_or(otherwise);
     const std::string ending = std::filesystem::path(invocation.text("output")).extension().string();
+    for (const std::string_view other : {".pdf", ".svg", ".png", ".jpg", ".tex", ".docx", ".xlsx"}) {
+        if (ending == other)
+            throw UsageError(fmt::format(
+                "capstan {}: -o {}: it writes text, md, csv, json and html, no {}. `capstan report -o FILE.pdf` "
+                "prints a study's page, and `capstan report --figures FOLDER` writes SVG and PNG",
+                invocation.command().name, invocation.text("output"), other));
+    }
     return ending.empty() ? otherwise : format_named(ending.substr(1)).value_or(otherwise);
 }
 
 void deliver_answer(const Invocation& invocation, const reports::Answer& answer) {
     deliver_page(invocation, answer);
-    deliver(invocation, reports::answer_in(answer, answer_format(invocation, AnswerFormat::text)));
+    const AnswerFormat format = answer_format(invocation, AnswerFormat::text);
+    const std::string text = reports::answer_in(answer, format);
+    deliver(invocation, format == AnswerFormat::text ? printable(text) : text);
 }
 
 }  // namespace capstan::cli

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "capstan/answers/glossary.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/command.h"
 #include "capstan/cli/commands.h"
@@ -20,8 +21,10 @@
 #include "capstan/cli/output.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/platform/nearest_name.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/reports/page_frame.h"
 #include "capstan/storage/error.h"
+#include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
 
@@ -45,7 +48,9 @@ FoundCommand find_command_in(const std::vector<std::string>& words) {
     return {};
 }
 
-[[noreturn]] void refuse_unknown(const std::vector<std::string>& words) {
+enum class Wanted { command, explanation };
+
+[[noreturn]] void refuse_unknown(const std::vector<std::string>& words, Wanted wanted = Wanted::command) {
     const bool grouped = !group_help(words[0]).empty();
     const bool second = grouped && words.size() >= 2;
     if (grouped && !second)
@@ -59,6 +64,9 @@ FoundCommand find_command_in(const std::vector<std::string>& words) {
         if (!second && name.find(' ') != std::string::npos) known.push_back(name.substr(0, name.find(' ')));
     }
     if (!second) known.insert(known.end(), {"help", "--help", "--version"});
+    if (!second && wanted == Wanted::explanation) {
+        for (const answers::GlossaryTerm& term : answers::glossary()) known.push_back(term.name);
+    }
     const auto nearest = nearest_name(given, known);
     const bool is_option = given.starts_with("-");
     throw UsageError(fmt::format("capstan: unknown {} '{}'{}\nTry `capstan --help`.",
@@ -80,6 +88,20 @@ ExitCode show_book() {
         "contains it");
 }
 
+// "capstan help posterior_mean", "capstan help viscous friction"; empty if there is no such term.
+std::string explained_terms(const std::vector<std::string>& words) {
+    std::string name;
+    for (const std::string& word : words) name += (name.empty() ? "" : " ") + word;
+    if (name == "terms") return reports::answer_text(answers::glossary_answer());
+    std::string text;
+    for (const answers::GlossaryTerm& term : answers::terms_named(name)) {
+        const std::string also = term.also.empty() ? "" : ", " + term.also;
+        text += fmt::format("{}{}{} ({})\n{}\n", text.empty() ? "" : "\n", term.name, also, term.kind,
+                            wrapped(term.meaning, 96, "  ", "  "));
+    }
+    return text;
+}
+
 ExitCode show_help(const std::vector<std::string>& words) {
     std::string text;
     if (words == std::vector<std::string>{"--book"}) return show_book();
@@ -90,9 +112,24 @@ ExitCode show_help(const std::vector<std::string>& words) {
     } else if (words.size() == 1) {
         text = group_help(words[0]);
     }
-    if (text.empty()) refuse_unknown(words);
+    if (text.empty()) text = explained_terms(words);
+    if (text.empty()) refuse_unknown(words, Wanted::explanation);
     write_standard_output(text);
     return ExitCode::success;
+}
+
+// As it can be typed in a shell.
+std::string quoted(const std::vector<std::string>& words) {
+    std::string line = "capstan";
+    for (const std::string& word : words) {
+        const bool plain = !word.empty() && word.find_first_not_of(
+                                                "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                "0123456789-_./=:,+@%") == std::string::npos;
+        std::string text;
+        for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+        line += plain ? " " + word : " '" + text + "'";
+    }
+    return line;
 }
 
 ExitCode dispatch(const std::vector<std::string>& words) {
@@ -115,6 +152,7 @@ ExitCode dispatch(const std::vector<std::string>& words) {
     }
     const FoundCommand found = find_command_in(words);
     if (found.command == nullptr) refuse_unknown(words);
+    storage::set_command(quoted(words));
     const auto rest = words.begin() + static_cast<std::ptrdiff_t>(found.words);
     return found.command->run(parse_command_line(*found.command, {rest, words.end()}));
 }

@@ -84,7 +84,7 @@ class ValueReading {
         const auto value = node.value_exact<std::int64_t>();
         if (!value) return wrong_type(node, "an integer");
         if (!allowed_.limits.admits(static_cast<double>(*value)))
-            return out_of_range(node, std::to_string(*value));
+            return out_of_range(node, std::to_string(*value), static_cast<double>(*value));
         return *value;
     }
 
@@ -92,7 +92,7 @@ class ValueReading {
         if (!node.is_number()) return wrong_type(node, "a number");
         const double value = *node.value<double>();
         if (!std::isfinite(value)) return refuse(node, "is " + number_text(value) + "; it must be finite");
-        if (!allowed_.limits.admits(value)) return out_of_range(node, number_text(value));
+        if (!allowed_.limits.admits(value)) return out_of_range(node, number_text(value), value);
         return value;
     }
 
@@ -176,9 +176,12 @@ class ValueReading {
         return refuse(node, fmt::format("is {}, but must be {}", type_words(node), wanted));
     }
 
-    Value out_of_range(const toml::node& node, const std::string& value) {
+    Value out_of_range(const toml::node& node, const std::string& text, double value) {
         const std::string unit = allowed_.unit.empty() ? "" : " " + allowed_.unit;
-        return refuse(node, fmt::format("is {}{}, but must be {}", value, unit, allowed_.limits.words()));
+        const Limits& limits = allowed_.limits;
+        const std::string words =
+            value > limits.high ? "at most " + number_text(limits.high) : limits.words();
+        return refuse(node, fmt::format("is {}{}, but must be {}", text, unit, words));
     }
 
     const AllowedValues& allowed_;

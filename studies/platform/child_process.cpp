@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): <csignal> lacks the names of POSIX
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,16 +41,30 @@ struct Pipe {
     void close_write_end() { ::close(std::exchange(write_end, -1)); }
 };
 
+void set_limits(const ChildLimits& limits) {
+    if (limits.nice_increment != 0 && ::nice(limits.nice_increment) == -1) errno = 0;
+    const rlimit memory{limits.memory_bytes, limits.memory_bytes};
+    if (limits.memory_bytes != 0) ::setrlimit(RLIMIT_AS, &memory);
+    // First the signal for too much processor time, a second later the end.
+    const auto seconds = static_cast<rlim_t>(limits.processor_s);
+    const rlimit processor{seconds, seconds + 1};
+    if (seconds != 0) ::setrlimit(RLIMIT_CPU, &processor);
+    if (limits.memory_bytes != 0 || seconds != 0) {
+        const rlimit none{0, 0};
+        ::setrlimit(RLIMIT_CORE, &none);
+    }
+}
+
 // Between fork and exec only calls that are safe in a program of many threads. A failure goes through
 // `failure`, which a successful exec closes.
-[[noreturn]] void exec(char* const* words, int output, int messages, int failure, int nice_increment,
+[[noreturn]] void exec(char* const* words, int output, int messages, int failure, const ChildLimits& limits,
                        pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(127);
     ::dup2(::open("/dev/null", O_RDWR | O_CLOEXEC), STDIN_FILENO);
     ::dup2(output, STDOUT_FILENO);
     ::dup2(messages, STDERR_FILENO);
-    if (::nice(nice_increment) == -1) errno = 0;
+    set_limits(limits);
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -76,7 +91,7 @@ int exit_code_of(pid_t pid) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command_line, int nice_increment) {
+ChildProcess::ChildProcess(const std::vector<std::string>& command_line, const ChildLimits& limits) {
     std::vector<char*> words;
     for (const std::string& word : command_line) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
@@ -84,7 +99,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command_line, int nic
     const pid_t parent = ::getpid();
     pid_ = ::fork();
     if (pid_ == 0)
-        exec(words.data(), output.write_end, messages.write_end, failure.write_end, nice_increment, parent);
+        exec(words.data(), output.write_end, messages.write_end, failure.write_end, limits, parent);
     int error = pid_ < 0 ? errno : 0;
     if (pid_ > 0) {
         failure.close_write_end();
@@ -110,13 +125,23 @@ void ChildProcess::ask_to_stop() const {
     if (!ended_) ::kill(pid_, SIGTERM);
 }
 
-CommandOutput ChildProcess::wait(const std::function<void(const std::string& line)>& on_error_line) {
+CommandOutput ChildProcess::wait(const std::function<void(const std::string& line)>& on_error_line,
+                                 const Patience& patience) {
     CommandOutput result;
+    const auto begun = std::chrono::steady_clock::now();
+    const int pause_ms = patience.longest || patience.unwanted != nullptr ? 50 : -1;
     std::array<pollfd, 2> pipes{{{output_, POLLIN, 0}, {messages_, POLLIN, 0}}};
     const std::array<std::string*, 2> texts{&result.output, &result.messages};
-    std::array<char, 4096> bytes;
+    std::array<char, 65536> bytes;
     while (pipes[0].fd >= 0 || pipes[1].fd >= 0) {
-        if (::poll(pipes.data(), pipes.size(), -1) < 0 && errno != EINTR) break;
+        if (::poll(pipes.data(), pipes.size(), pause_ms) < 0 && errno != EINTR) break;
+        result.is_late = (patience.longest && std::chrono::steady_clock::now() - begun > *patience.longest) ||
+                         (patience.unwanted != nullptr && patience.unwanted->load());
+        result.is_long = result.output.size() + result.messages.size() > patience.max_output_bytes;
+        if (result.is_late || result.is_long) {
+            ::kill(pid_, SIGKILL);
+            break;
+        }
         for (std::size_t k = 0; k < pipes.size(); ++k) {
             if (pipes[k].fd < 0 || pipes[k].revents == 0) continue;
             const ssize_t count = ::read(pipes[k].fd, bytes.data(), bytes.size());
@@ -135,8 +160,9 @@ CommandOutput ChildProcess::wait(const std::function<void(const std::string& lin
     return result;
 }
 
-CommandOutput run_command(const std::vector<std::string>& command_line) {
-    return ChildProcess(command_line).wait();
+CommandOutput run_command(const std::vector<std::string>& command_line, const ChildLimits& limits,
+                          const Patience& patience) {
+    return ChildProcess(command_line, limits).wait({}, patience);
 }
 
 bool is_on_path(const std::string& program) {

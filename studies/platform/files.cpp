@@ -29,6 +29,8 @@ std::string what_to_try(int error) {
         case ENOSPC:
         case EDQUOT:
             return "the disk is full; free some space, or name a file on another disk";
+        case EFBIG:
+            return "it would be larger than a file may be here; see `ulimit -f`";
         case EACCES:
         case EPERM:
         case EROFS:
@@ -178,6 +180,11 @@ void AtomicFile::write_pending() {
 }
 
 void AtomicFile::append(std::string_view text) {
+    if (text.size() >= pending_bytes) {
+        write_pending();
+        if (!write_all(descriptor_, text)) refuse(named_, errno);
+        return;
+    }
     pending_ += text;
     if (pending_.size() >= pending_bytes) write_pending();
 }

@@ -109,7 +109,7 @@ void ProgressDisplay::show(ProgressEvent event) {
     if (!is_first && !is_last && now - last_shown_ < interval) return;
     last_shown_ = now;
     if (!is_terminal_) return say(event.activity + ": " + progress_words(event));
-    write_standard_error("\r" + event.activity + " " + bar(event.fraction) + " " + progress_words(event) +
+    write_standard_error("\r" + printable(event.activity) + " " + bar(event.fraction) + " " + progress_words(event) +
                          "\x1b[K");
     line_is_open_ = true;
 }

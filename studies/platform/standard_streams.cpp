@@ -14,6 +14,28 @@
 
 namespace capstan {
 
+std::string printable(std::string_view text) {
+    std::string shown;
+    shown.reserve(text.size());
+    const auto escape = [&shown](unsigned char byte) {
+        constexpr char digits[] = "0123456789abcdef";
+        shown += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+    };
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const auto byte = static_cast<unsigned char>(text[k]);
+        const auto next = static_cast<unsigned char>(k + 1 < text.size() ? text[k + 1] : '\0');
+        if ((byte < 32 && byte != '\n' && byte != '\t') || byte == 127) {
+            escape(byte);
+        } else if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {  // U+0080 to U+009F in UTF-8
+            escape(next);
+            ++k;
+        } else {
+            shown += text[k];
+        }
+    }
+    return shown;
+}
+
 bool write_all(int descriptor, std::string_view text) noexcept {
     while (!text.empty()) {
         const ssize_t written = ::write(descriptor, text.data(), text.size());
@@ -42,9 +64,10 @@ void write_standard_error(std::string_view text) noexcept {
 }
 
 void say(std::string_view message) noexcept {
-    if (message.ends_with('\n')) return write_standard_error(message);
     try {
-        write_standard_error(std::string(message) + '\n');  // one write: lines of two processes do not mix
+        const std::string shown = printable(message);
+        write_standard_error(
+            message.ends_with('\n') ? shown : shown + '\n');  // one write: lines of two processes do not mix
     } catch (...) {
         write_standard_error(message);
         write_standard_error("\n");
@@ -53,7 +76,9 @@ void say(std::string_view message) noexcept {
 
 void write_standard_output(std::string_view text) {
     std::fflush(stdout);
-    if (write_all(STDOUT_FILENO, text)) return;
+    if (::isatty(STDOUT_FILENO) == 1 ? write_all(STDOUT_FILENO, printable(text))
+                                     : write_all(STDOUT_FILENO, text))
+        return;
     const std::string reason = errno == ENOSPC
                                    ? "the disk is full; free some space, or send the answer to another disk"
                                    : std::strerror(errno);

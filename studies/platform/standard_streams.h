@@ -1,17 +1,23 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace capstan {
 
-/// Writes a message to standard error and ends its line if the message does not. Never throws and never ends
-/// the program: a study goes on when its terminal is closed or the disk of its log is full.
+/// The text with every control character but line ends and tabs as \\x1b, so that no name that a file holds
+/// can steer a terminal.
+std::string printable(std::string_view text);
+
+/// Writes a message to standard error, printable, and ends its line if the message does not. Never throws and
+/// never ends the program: a study goes on when its terminal is closed or the disk of its log is full.
 void say(std::string_view message) noexcept;
 
 /// As `say`, without a line end.
 void write_standard_error(std::string_view text) noexcept;
 
-/// Writes to standard output and makes sure that the text arrived. Throws std::runtime_error if it did not.
+/// Writes to standard output, printable if that is a terminal, and makes sure that the text arrived. Throws
+/// std::runtime_error if it did not.
 void write_standard_output(std::string_view text);
 
 /// Opens /dev/null for each standard stream that is closed, so that no other file gets its number and

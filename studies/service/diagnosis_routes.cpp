@@ -11,32 +11,29 @@ namespace capstan::service {
 namespace {
 
 // For display only: the files in the folder of the queue have other names.
-std::string title_of(const httplib::Request& request) {
-    const std::string name = request.get_file_value("log").filename;
+std::string title_of(const http::Request& request) {
+    const std::string& name = request.part("log")->filename;
     const std::string title = name.substr(name.find_last_of("/\\") + 1);
     return title.empty() ? "recording" : title.substr(0, 200);
 }
 
-Job start(RouteContext& context, const httplib::Request& request) {
+Job start(RouteContext& context, const http::Request& request) {
     for (const char* part : {"log", "sidecar"}) {
-        if (!request.has_file(part))
+        if (request.part(part) == nullptr)
             throw BadRequest(std::string("the part '") + part +
                              "' is missing: send NAME.csv as 'log' and NAME.json as 'sidecar'");
     }
-    const std::string sidecar = request.get_file_value("sidecar").content;
+    const std::string_view sidecar = request.part("sidecar")->content;
     if (!nlohmann::json::parse(sidecar, nullptr, false).is_object())
         throw BadRequest("the sidecar is not a JSON object");
-    return context.queue.add_diagnosis(title_of(request), request.get_file_value("log").content, sidecar);
+    return context.queue.add_diagnosis(title_of(request), request.part("log")->content, sidecar);
 }
 
 // What the command wrote, if the diagnosis was made here. Otherwise what the database holds, which lacks the
 // experiments that would distinguish its explanations.
 std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
-    for (const Job& job : context.queue.jobs()) {
-        if (job.kind != JobKind::diagnosis || job.state != JobState::done || job.result_id != diagnosis_id)
-            continue;
-        if (std::string answer = context.queue.answer_of(job); !answer.empty()) return answer;
-    }
+    if (std::string answer = context.queue.answer_of(diagnosis_id, "answer.json"); !answer.empty())
+        return answer;
     storage::Database database = context.open();
     for (const auto& each : storage::list_diagnoses(database)) {
         if (each.diagnosis_id == diagnosis_id)
@@ -49,16 +46,23 @@ std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
 }  // namespace
 
 std::vector<Route> diagnosis_routes(RouteContext& context) {
-    const auto list = [&](const httplib::Request&, httplib::Response& response) {
+    const auto list = [&](const http::Request&, http::Response& response) {
         storage::Database database = context.open();
         send_text(response, answers::rows_json(storage::run_read_only(database, storage::diagnoses_query)),
                   "application/json");
     };
-    const auto start_diagnosis = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto start_diagnosis = [&](const http::Request& request, http::Response& response) {
         send_json(response, job_json(start(context, request)), 202);
     };
-    const auto show = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto show = [&](const http::Request& request, http::Response& response) {
         send_text(response, answer_of(context, number_in_path(request)), "application/json");
+    };
+    const auto model = [&](const http::Request& request, http::Response& response) {
+        std::string text = context.queue.answer_of(number_in_path(request), "model.toml");
+        if (text.empty()) throw BadRequest("the model of this diagnosis is not kept here", 404);
+        response.add_header("Content-Disposition",
+                            "attachment; filename=\"model-" + request.path_values.front() + ".toml\"");
+        send_text(response, std::move(text), "application/toml");
     };
     return {
         {"get", "/api/diagnoses", "listDiagnoses", "The stored diagnoses, newest first: v_diagnosis",
@@ -71,9 +75,16 @@ std::vector<Route> diagnosis_routes(RouteContext& context) {
          json_of("Job"),
          start_diagnosis,
          202,
-         {400, 413},
+         {400, 413, 503, 507},
          {{"log", "binary", "NAME.csv"}, {"sidecar", "binary", "NAME.json"}},
          "multipart/form-data"},
+        {"get",
+         "/api/diagnoses/{diagnosis_id}/model",
+         "diagnosedModel",
+         "The corrected model of the bench, as `capstan diagnose --save` writes it, if the service made the diagnosis",
+         "The model",
+         {{"application/toml", "string"}},
+         model},
         {"get", "/api/diagnoses/{diagnosis_id}", "showDiagnosis",
          "As `capstan diagnose --json` writes it. A diagnosis that was not made by this service lacks "
          "`non_identifiable`, which the database does not keep",

@@ -25,22 +25,31 @@ const nlohmann::json& found_in(const nlohmann::json& body, const char* name) {
 
 }  // namespace
 
-void send_text(httplib::Response& response, const std::string& text, const char* content_type) {
+void send_text(http::Response& response, std::string text, const char* content_type) {
     response.status = 200;
-    response.set_content(text, content_type);
+    response.content_type = content_type;
+    response.text = std::make_shared<http::KeptText>(std::move(text));
 }
 
-void send_json(httplib::Response& response, const ordered_json& json, int status) {
+void send_kept(http::Response& response, std::shared_ptr<const http::KeptText> text,
+               const char* content_type) {
+    response.status = 200;
+    response.content_type = content_type;
+    response.text = std::move(text);
+    response.is_kept = true;
+}
+
+void send_json(http::Response& response, const ordered_json& json, int status) {
+    send_text(response, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n",
+              "application/json");
     response.status = status;
-    response.set_content(json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n",
-                         "application/json");
 }
 
-void send_error(httplib::Response& response, int status, const std::string& message) {
+void send_error(http::Response& response, int status, const std::string& message) {
     send_json(response, {{"error", message}}, status);
 }
 
-nlohmann::json body_of(const httplib::Request& request) {
+nlohmann::json body_of(const http::Request& request) {
     auto body = nlohmann::json::parse(request.body, nullptr, false);
     if (!body.is_object()) throw BadRequest("the body must be a JSON object");
     return body;
@@ -60,8 +69,8 @@ std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char
     return numbers;
 }
 
-std::int64_t number_in_path(const httplib::Request& request, std::size_t match) {
-    const std::string text = request.matches[match];
+std::int64_t number_in_path(const http::Request& request, std::size_t which) {
+    const std::string& text = request.path_values.at(which);
     std::int64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size())

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <httplib.h>
-
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "capstan/http/response.h"
 #include "capstan/service/bad_request.h"
 
 namespace capstan::service {
@@ -15,14 +15,17 @@ namespace capstan::service {
 using nlohmann::ordered_json;
 
 /// As the commands write JSON: indented, ended by a line break.
-void send_json(httplib::Response& response, const ordered_json& json, int status = 200);
-void send_text(httplib::Response& response, const std::string& text, const char* content_type);
+void send_json(http::Response& response, const ordered_json& json, int status = 200);
+void send_text(http::Response& response, std::string text, const char* content_type);
+/// A text that is sent again, and compressed for clients that accept it.
+void send_kept(http::Response& response, std::shared_ptr<const http::KeptText> text,
+               const char* content_type);
 
 /// {"error": message}
-void send_error(httplib::Response& response, int status, const std::string& message);
+void send_error(http::Response& response, int status, const std::string& message);
 
 /// The body as a JSON object; a BadRequest if it is not one.
-nlohmann::json body_of(const httplib::Request& request);
+nlohmann::json body_of(const http::Request& request);
 
 /// A member of the body; a BadRequest that names it if it is missing or of another type.
 template <class Value>
@@ -42,7 +45,8 @@ int member<int>(const nlohmann::json& body, const char* name);
 template <>
 std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char* name);
 
-/// The number in the path, matched by its pattern; patterns count from 1.
-std::int64_t number_in_path(const httplib::Request& request, std::size_t match = 1);
+/// A number in the path, the first unless another is asked for. A BadRequest (404) if it is larger than any
+/// number of ours.
+std::int64_t number_in_path(const http::Request& request, std::size_t which = 0);
 
 }  // namespace capstan::service

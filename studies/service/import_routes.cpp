@@ -77,12 +77,12 @@ ordered_json roles() {
     return list;
 }
 
-ordered_json suggestion(const RouteContext& context, const httplib::Request& request) {
+ordered_json suggestion(const RouteContext& context, const http::Request& request) {
     const ImportFolder folder(request, context.options.commands);
     ordered_json json = ordered_json::parse(folder.import({"--list", "--json"}));
     std::vector<std::string> words{"--suggest", "--json"};
-    if (request.has_file("kind") && !request.get_file_value("kind").content.empty())
-        words.insert(words.end(), {"--kind=" + request.get_file_value("kind").content});
+    if (const http::FormPart* kind = request.part("kind"); kind != nullptr && !kind->content.empty())
+        words.push_back("--kind=" + std::string(kind->content));
     ordered_json failures = ordered_json::array();
     std::string toml = "[channels]\n";
     json["guesses"] = ordered_json::array();
@@ -158,7 +158,7 @@ ordered_json curves_of(const Recording& recording) {
     return curves;
 }
 
-ordered_json trial(const RouteContext& context, const httplib::Request& request) {
+ordered_json trial(const RouteContext& context, const http::Request& request) {
     const ImportFolder folder(request, context.options.commands);
     std::string answer;
     const Recording recording = read_recording(folder.import_recording(answer));
@@ -167,7 +167,7 @@ ordered_json trial(const RouteContext& context, const httplib::Request& request)
     return json;
 }
 
-Job diagnose(RouteContext& context, const httplib::Request& request) {
+Job diagnose(RouteContext& context, const http::Request& request) {
     const ImportFolder folder(request, context.options.commands);
     std::string answer;
     std::filesystem::path samples = folder.import_recording(answer);
@@ -179,21 +179,21 @@ Job diagnose(RouteContext& context, const httplib::Request& request) {
 }  // namespace
 
 std::vector<Route> import_routes(RouteContext& context) {
-    const auto suggest = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto suggest = [&](const http::Request& request, http::Response& response) {
         send_json(response, suggestion(context, request));
     };
-    const auto edit = [](const httplib::Request& request, httplib::Response& response) {
+    const auto edit = [](const http::Request& request, http::Response& response) {
         send_json(response, edited(body_of(request)));
     };
-    const auto try_import = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto try_import = [&](const http::Request& request, http::Response& response) {
         send_json(response, trial(context, request));
     };
-    const auto start = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto start = [&](const http::Request& request, http::Response& response) {
         send_json(response, job_json(diagnose(context, request)), 202);
     };
     const ApiField logs{"log", "[binary]", "The files, at most 32: text, MATLAB, HDF5, ROS bag, MCAP, XLSX"};
     const ApiField mapping{"mapping", "string", "The text of import.toml"};
-    return {
+    std::vector<Route> routes{
         {"post",
          "/api/import/suggestion",
          "suggestMapping",
@@ -238,10 +238,11 @@ std::vector<Route> import_routes(RouteContext& context) {
          json_of("Job"),
          start,
          202,
-         {400, 408, 413, 503},
+         {400, 408, 413, 503, 507},
          {logs, mapping},
          "multipart/form-data"},
     };
+    return in_lane(Lane::imports, std::move(routes));
 }
 
 }  // namespace capstan::service

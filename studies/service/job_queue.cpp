@@ -8,6 +8,7 @@
 
 #include "capstan/platform/files.h"
 #include "capstan/platform/progress.h"
+#include "capstan/service/bad_request.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
@@ -18,7 +19,10 @@ namespace {
 
 constexpr int nice_increment = 5;  // the service answers requests before a job goes on
 constexpr int signal_code = 128;   // above: ended by a signal, or by a request to end (the program's 130)
-constexpr std::size_t max_jobs = 1000;  // in the list; the oldest finished jobs are dropped
+constexpr std::size_t max_jobs = 1000;               // in the list; the oldest that have ended are dropped
+constexpr std::size_t max_waiting = 500;             // a sweep may have some hundred
+constexpr std::uintmax_t max_job_bytes = 4UL << 30;  // of the files of all jobs
+constexpr std::chrono::hours kept_for{24 * 30};      // an ended job and its files
 
 std::int64_t last_id(const JobCommands& commands, JobKind kind) {
     storage::Database database = storage::Database::open_read_only(commands.database);
@@ -75,31 +79,65 @@ int JobQueue::next_number() const {
     return jobs_.empty() ? 1 : jobs_.back().number + 1;
 }
 
-Job JobQueue::add(Job job) {
-    jobs_.push_back(std::move(job));
-    while (jobs_.size() > max_jobs) {
-        const auto ended = std::ranges::find_if(jobs_, [](const Job& each) {
-            return each.state == JobState::done || each.state == JobState::failed;
-        });
-        if (ended == jobs_.end()) break;
-        jobs_.erase(ended);
-    }
+void JobQueue::require_room(std::size_t jobs, std::uintmax_t bytes) const {
+    const std::lock_guard lock(mutex_);
+    const auto waiting = std::ranges::count(jobs_, JobState::queued, &Job::state);
+    if (static_cast<std::size_t>(waiting) + jobs > max_waiting)
+        throw BadRequest(fmt::format("{} jobs wait already; at most {} may. Stop some, or come back later",
+                                     waiting, max_waiting),
+                         503);
+    if (folder_.bytes() + bytes > max_job_bytes)
+        throw BadRequest(fmt::format("the files of all jobs would exceed {} GB; remove old ones from {}",
+                                     max_job_bytes >> 30, folder_.path().string()),
+                         507);
+}
+
+// The newest stays, so that no number is given twice.
+void JobQueue::drop_old() {
+    const auto now = std::filesystem::file_time_type::clock::now();
+    std::size_t count = jobs_.size();
+    std::erase_if(jobs_, [&](const Job& job) {
+        if (&job == &jobs_.back() || (job.state != JobState::done && job.state != JobState::failed))
+            return false;
+        const auto written = folder_.last_write(job.number);
+        if (count <= max_jobs && (!written || now - *written < kept_for)) return false;
+        folder_.remove(job.number);
+        --count;
+        return true;
+    });
+}
+
+void JobQueue::keep() {
+    drop_old();
     folder_.write(jobs_);
     changed_.notify_all();
+}
+
+Job JobQueue::add(Job job) {
+    jobs_.push_back(std::move(job));
+    keep();
     return jobs_.back();
 }
 
-Job JobQueue::add_study(const std::string& name, const std::string& config_toml) {
+std::vector<Job> JobQueue::add_studies(const std::vector<std::pair<std::string, std::string>>& named_toml) {
     const std::lock_guard lock(mutex_);
-    Job job;
-    job.number = next_number();
-    job.title = name;
-    job.file = fmt::format("{}/study.toml", job.number);
-    folder_.write_file(job.file, config_toml);
-    return add(std::move(job));
+    std::vector<Job> added;
+    int number = next_number();
+    for (const auto& [name, toml] : named_toml) {
+        Job job;
+        job.number = number++;
+        job.title = name;
+        job.file = fmt::format("{}/study.toml", job.number);
+        folder_.write_file(job.file, toml);
+        added.push_back(std::move(job));
+    }
+    jobs_.insert(jobs_.end(), added.begin(), added.end());
+    keep();
+    return added;
 }
 
-Job JobQueue::add_diagnosis(const std::string& name, const std::string& log, const std::string& sidecar) {
+Job JobQueue::add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar) {
+    require_room(1, log.size() + sidecar.size());
     const std::lock_guard lock(mutex_);
     Job job;
     job.number = next_number();
@@ -113,6 +151,7 @@ Job JobQueue::add_diagnosis(const std::string& name, const std::string& log, con
 }
 
 Job JobQueue::add_resume(const std::string& name, std::int64_t study_id) {
+    require_room(1, 0);
     const std::lock_guard lock(mutex_);
     Job job;
     job.number = next_number();
@@ -152,9 +191,23 @@ bool JobQueue::resume(int number) {
     return false;
 }
 
-std::string JobQueue::answer_of(const Job& job) const {
-    const std::filesystem::path file = folder_.path() / fmt::format("{}/answer.json", job.number);
-    return std::filesystem::exists(file) ? read_file(file) : "";
+std::filesystem::path JobQueue::file_of(const Job& job, const std::string& name) const {
+    return folder_.path() / std::to_string(job.number) / name;
+}
+
+std::string JobQueue::answer_of(std::int64_t diagnosis_id, const std::string& name) const {
+    for (const Job& job : jobs()) {
+        if (job.kind != JobKind::diagnosis || job.state != JobState::done || job.result_id != diagnosis_id)
+            continue;
+        if (const auto file = file_of(job, name); std::filesystem::exists(file)) return read_file(file);
+    }
+    return "";
+}
+
+int JobQueue::stop_all() {
+    int stopped = 0;
+    for (const Job& job : jobs()) stopped += stop(job.number) ? 1 : 0;
+    return stopped;
 }
 
 void JobQueue::change(int number, const std::function<void(Job&)>& to) {
@@ -226,8 +279,10 @@ bool JobQueue::is_complete(const Job& job) const {
 std::vector<std::string> JobQueue::command_line(const Job& job) const {
     std::vector<std::string> words{commands_.program};
     if (job.kind == JobKind::diagnosis) {
-        words.insert(words.end(), {"diagnose", (folder_.path() / job.file).string(), "--json", "-o",
-                                   (folder_.path() / fmt::format("{}/answer.json", job.number)).string()});
+        const auto beside = [&](const char* name) { return file_of(job, name).string(); };
+        words.insert(words.end(),
+                     {"diagnose", (folder_.path() / job.file).string(), "--json", "-o", beside("answer.json"),
+                      "--html", beside("page.html"), "--save", beside("model.toml")});
     } else if (job.result_id) {
         words.insert(words.end(), {"study", "resume", std::to_string(*job.result_id), "--json"});
     } else {
@@ -272,7 +327,8 @@ void JobQueue::run(Job job) {
     });
     {
         const std::lock_guard lock(mutex_);
-        child_ = std::make_unique<ChildProcess>(command_line(job), nice_increment);
+        child_ =
+            std::make_unique<ChildProcess>(command_line(job), ChildLimits{.nice_increment = nice_increment});
         if (ending_ || stop_asked_) child_->ask_to_stop();
     }
     std::string messages;

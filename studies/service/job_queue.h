@@ -1,11 +1,14 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "capstan/platform/child_process.h"
@@ -19,6 +22,8 @@ struct JobCommands {
     std::string program;   ///< path of capstan
     std::string database;  ///< path of the results database
     int threads = 0;       ///< of a job; 0: all processors
+    const std::atomic<bool>* ending =
+        nullptr;  ///< the service ends: a process of a request is not waited for
 };
 
 /// Runs jobs one after the other, in the order they came. Every change of the list is on the disk before a
@@ -34,9 +39,13 @@ class JobQueue {
     std::vector<Job> jobs() const;
     std::optional<Job> find(int number) const;
 
-    Job add_study(const std::string& name, const std::string& config_toml);
+    /// Throws BadRequest if so many more jobs would be too many (503), or their files too large (507).
+    void require_room(std::size_t jobs, std::uintmax_t bytes) const;
+
+    /// Configurations by the name of their study: all of them become jobs, or none.
+    std::vector<Job> add_studies(const std::vector<std::pair<std::string, std::string>>& named_toml);
     /// `log` and `sidecar` are the bytes of NAME.csv and NAME.json.
-    Job add_diagnosis(const std::string& name, const std::string& log, const std::string& sidecar);
+    Job add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar);
     /// A study that was begun without this queue, or whose job is forgotten.
     Job add_resume(const std::string& name, std::int64_t study_id);
 
@@ -44,17 +53,24 @@ class JobQueue {
     bool stop(int number);
     bool resume(int number);
 
-    /// What a finished diagnosis wrote with --json; empty if it wrote nothing.
-    std::string answer_of(const Job& job) const;
+    /// How many that waited or ran; the running one ends after its unit.
+    int stop_all();
+
+    /// What the job of a stored diagnosis wrote: answer.json, page.html or model.toml. Empty if it was not
+    /// made here, or its files are gone.
+    std::string answer_of(std::int64_t diagnosis_id, const std::string& name) const;
 
   private:
     void work();
     void run(Job job);
     std::vector<std::string> command_line(const Job& job) const;
+    std::filesystem::path file_of(const Job& job, const std::string& name) const;
     std::optional<std::int64_t> result_of(const Job& job) const;
     bool is_complete(const Job& job) const;
     void on_output(int number, const std::string& line, std::string& messages);
     Job add(Job job);
+    void keep();              // what was added; while locked
+    void drop_old();          // while locked
     int next_number() const;  // while locked
     void change(int number, const std::function<void(Job&)>& to);
 

@@ -1,5 +1,6 @@
 // Running studies: starting them from a text or a named configuration, watching, stopping and resuming them.
 #include <algorithm>
+#include <limits>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/config/config_writer.h"
@@ -23,23 +24,20 @@ std::vector<StudyPlan> studies_of(const std::string& toml, const std::string& na
     }
 }
 
+// A bench is simulated at the shell; it is no study.
+bool is_study(const std::filesystem::path& file) {
+    return read_file(file).find("\nkind = \"bench\"") == std::string::npos;
+}
+
 std::vector<std::string> config_names(const ServiceOptions& options) {
     std::vector<std::string> names;
     if (!options.configs) return names;
     for (const auto& entry : std::filesystem::directory_iterator(*options.configs)) {
-        if (entry.is_regular_file() && entry.path().extension() == ".toml")
+        if (entry.is_regular_file() && entry.path().extension() == ".toml" && is_study(entry.path()))
             names.push_back(entry.path().filename().string());
     }
     std::sort(names.begin(), names.end());
     return names;
-}
-
-// Accepts only names that are in the folder, so that no path leads out of it.
-std::string config_named(const ServiceOptions& options, const std::string& name) {
-    const auto names = config_names(options);
-    if (std::find(names.begin(), names.end(), name) == names.end())
-        throw BadRequest("there is no configuration '" + name + "'", 404);
-    return read_file(*options.configs / name);
 }
 
 ordered_json start(RouteContext& context, const nlohmann::json& body) {
@@ -47,10 +45,14 @@ ordered_json start(RouteContext& context, const nlohmann::json& body) {
     const std::string name = by_name ? member<std::string>(body, "config") : "configuration";
     const std::string toml =
         by_name ? config_named(context.options, name) : member<std::string>(body, "config_toml");
+    const std::vector<StudyPlan> plans =
+        studies_of(toml, name, by_name ? context.options.configs : std::nullopt);
+    context.queue.require_room(plans.size(), plans.size() * toml.size());
+    std::vector<std::pair<std::string, std::string>> named_toml;
+    for (const StudyPlan& plan : plans)
+        named_toml.emplace_back(plan.name, config::config_text(plan, config::Comments::none));
     ordered_json started = ordered_json::array();
-    for (const StudyPlan& plan : studies_of(toml, name, by_name ? context.options.configs : std::nullopt))
-        started.push_back(
-            job_json(context.queue.add_study(plan.name, config::config_text(plan, config::Comments::none))));
+    for (const Job& job : context.queue.add_studies(named_toml)) started.push_back(job_json(job));
     return started;
 }
 
@@ -71,41 +73,55 @@ void require(bool holds, const char* what) {
     if (!holds) throw BadRequest(what, 409);
 }
 
-Job job_of(RouteContext& context, const httplib::Request& request) {
-    const auto job = context.queue.find(static_cast<int>(number_in_path(request)));
+Job job_of(RouteContext& context, const http::Request& request) {
+    const std::int64_t number = number_in_path(request);
+    const auto job = number <= std::numeric_limits<int>::max() ? context.queue.find(static_cast<int>(number))
+                                                               : std::nullopt;
     if (!job) throw BadRequest("there is no such job", 404);
     return *job;
 }
 
 }  // namespace
 
+// Accepts only names that are in the folder, so that no path leads out of it.
+std::string config_named(const ServiceOptions& options, const std::string& name) {
+    const auto names = config_names(options);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        throw BadRequest("there is no configuration '" + name + "'", 404);
+    return read_file(*options.configs / name);
+}
+
 std::vector<Route> job_routes(RouteContext& context) {
-    const auto list_configs = [&](const httplib::Request&, httplib::Response& response) {
+    const auto list_configs = [&](const http::Request&, http::Response& response) {
         send_json(response, config_names(context.options));
     };
-    const auto show_config = [&](const httplib::Request& request, httplib::Response& response) {
-        send_text(response, config_named(context.options, request.matches[1]), "text/plain; charset=utf-8");
+    const auto show_config = [&](const http::Request& request, http::Response& response) {
+        send_text(response, config_named(context.options, request.path_values.front()),
+                  "text/plain; charset=utf-8");
     };
-    const auto start_studies = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto start_studies = [&](const http::Request& request, http::Response& response) {
         send_json(response, start(context, body_of(request)), 202);
     };
-    const auto resume_stored = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto resume_stored = [&](const http::Request& request, http::Response& response) {
         send_json(response, resume_study(context, number_in_path(request)), 202);
     };
-    const auto list_jobs = [&](const httplib::Request&, httplib::Response& response) {
+    const auto list_jobs = [&](const http::Request&, http::Response& response) {
         ordered_json list = ordered_json::array();
         for (const Job& job : context.queue.jobs()) list.push_back(job_json(job));
         send_json(response, list);
     };
-    const auto show_job = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto show_job = [&](const http::Request& request, http::Response& response) {
         send_json(response, job_json(job_of(context, request)));
     };
-    const auto stop_job = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto stop_job = [&](const http::Request& request, http::Response& response) {
         const Job job = job_of(context, request);
         require(context.queue.stop(job.number), "only a queued or running job can be stopped");
         send_json(response, job_json(*context.queue.find(job.number)), 202);
     };
-    const auto resume_job = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto stop_all = [&](const http::Request&, http::Response& response) {
+        send_json(response, {{"stopped", context.queue.stop_all()}}, 202);
+    };
+    const auto resume_job = [&](const http::Request& request, http::Response& response) {
         const Job job = job_of(context, request);
         require(context.queue.resume(job.number), "only a stopped or failed job can be resumed");
         send_json(response, job_json(*context.queue.find(job.number)), 202);
@@ -129,7 +145,7 @@ std::vector<Route> job_routes(RouteContext& context) {
          json_of("[Job]"),
          start_studies,
          202,
-         {400, 404},
+         {400, 404, 503, 507},
          {{"config", "string", "A name of /api/configs; or", false},
           {"config_toml", "string", "the text of a configuration", false}}},
         {"post",
@@ -143,6 +159,9 @@ std::vector<Route> job_routes(RouteContext& context) {
          {409}},
         {"get", "/api/jobs", "listJobs", "The queue, oldest first", "Jobs", json_of("[Job]"), list_jobs},
         {"get", "/api/jobs/{job}", "showJob", "One job", "The job", json_of("Job"), show_job},
+        {"post", "/api/jobs/stop", "stopAllJobs",
+         "Stop every queued job, and the running one after its current unit", "How many", json_of("object"),
+         stop_all, 202},
         {"post",
          "/api/jobs/{job}/stop",
          "stopJob",

@@ -98,7 +98,7 @@ ordered_json score_json(const LayoutScore& score) {
 }  // namespace
 
 std::vector<Route> layout_routes(RouteContext& context) {
-    const auto score = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto score = [&](const http::Request& request, http::Response& response) {
         const LayoutQuestion question = question_of(body_of(request));
         try {
             send_json(response, score_json(scorer_of(context, number_in_path(request))->score(question)));
@@ -106,10 +106,10 @@ std::vector<Route> layout_routes(RouteContext& context) {
             throw BadRequest(error.what());
         }
     };
-    const auto offers = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto offers = [&](const http::Request& request, http::Response& response) {
         send_json(response, offers_json(placer_of(context, number_in_path(request))->answer()));
     };
-    const auto place = [&](const httplib::Request& request, httplib::Response& response) {
+    const auto place = [&](const http::Request& request, http::Response& response) {
         std::vector<int> sensors = member<std::vector<int>>(body_of(request), "sensors");
         for (int& sensor : sensors) --sensor;
         const std::shared_ptr<HandPlacer> placer = placer_of(context, number_in_path(request));
@@ -119,38 +119,40 @@ std::vector<Route> layout_routes(RouteContext& context) {
             throw BadRequest(error.what());
         }
     };
-    return {{"get",
-             "/api/studies/{study_id}/sensors",
-             "listSensors",
-             "What can be bought in a study over worlds, and which sensors it recommends",
-             "Sensors by number, from 1",
-             json_of("object"),
-             offers,
-             200,
-             {400, 409}},
-            {"post",
-             "/api/studies/{study_id}/sensors",
-             "placeSensors",
-             "The expected error with these sensors, in the worlds of the study",
-             "The error, and how it compares with no sensor and with the recommended set",
-             json_of("PlacedSensors"),
-             place,
-             200,
-             {400, 409},
-             {{"sensors", "[integer]", "Numbers of listSensors"}}},
-            {"post",
-             "/api/studies/{study_id}/layout",
-             "scoreLayout",
-             "The expected error with sensors at these nodes, from the study's instants and draws",
-             "The error, and the error at each node",
-             json_of("LayoutScore"),
-             score,
-             200,
-             {400},
-             {{"nodes", "[integer]", "From 1 at the motor"},
-              {"method", "string", "As in fusion_method.method"},
-              {"regime", "string"},
-              {"noise", "integer", "Which of the study's noise levels, from 1"}}}};
+    std::vector<Route> routes{
+        {"get",
+         "/api/studies/{study_id}/sensors",
+         "listSensors",
+         "What can be bought in a study over worlds, and which sensors it recommends",
+         "Sensors by number, from 1",
+         json_of("object"),
+         offers,
+         200,
+         {400, 409}},
+        {"post",
+         "/api/studies/{study_id}/sensors",
+         "placeSensors",
+         "The expected error with these sensors, in the worlds of the study",
+         "The error, and how it compares with no sensor and with the recommended set",
+         json_of("PlacedSensors"),
+         place,
+         200,
+         {400, 409},
+         {{"sensors", "[integer]", "Numbers of listSensors"}}},
+        {"post",
+         "/api/studies/{study_id}/layout",
+         "scoreLayout",
+         "The expected error with sensors at these nodes, from the study's instants and draws",
+         "The error, and the error at each node",
+         json_of("LayoutScore"),
+         score,
+         200,
+         {400},
+         {{"nodes", "[integer]", "From 1 at the motor"},
+          {"method", "string", "As in fusion_method.method"},
+          {"regime", "string"},
+          {"noise", "integer", "Which of the study's noise levels, from 1"}}}};
+    return in_lane(Lane::scores, std::move(routes));
 }
 
 }  // namespace capstan::service

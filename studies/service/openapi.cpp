@@ -18,7 +18,10 @@ const std::vector<std::pair<std::string, std::vector<ApiField>>>& components() {
           {"name", "string"},
           {"status", "running|complete"},
           {"units_done", "integer"},
-          {"units", "integer"}}},
+          {"units", "integer"},
+          {"begun_utc", "string", "As 2026-01-31T12:00:00Z; empty if that is unknown"},
+          {"note", "string"},
+          {"tags", "string", "Words with blanks between them"}}},
         {"Job",
          {{"job", "integer", "Its number, from 1"},
           {"kind", "study|diagnosis"},
@@ -140,13 +143,12 @@ std::string openapi_text(const std::vector<Route>& routes) {
 
 std::vector<Route> api_routes(RouteContext& context) {
     std::vector<Route> routes;
-    for (const auto& part :
-         {study_routes, layout_routes, job_routes, diagnosis_routes, import_routes, query_routes})
+    for (const auto& part : {study_routes, study_action_routes, layout_routes, job_routes, diagnosis_routes,
+                             import_routes, query_routes})
         for (Route& route : part(context)) routes.push_back(std::move(route));
     routes.push_back(
         {"get", "/openapi.json", "openapi", "This description", "OpenAPI 3", json_of("object"), {}});
-    routes.back().handler = [text = openapi_text(routes)](const httplib::Request&,
-                                                          httplib::Response& response) {
+    routes.back().handler = [text = openapi_text(routes)](const http::Request&, http::Response& response) {
         send_text(response, text, "application/json");
     };
     return routes;

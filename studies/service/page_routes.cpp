@@ -1,8 +1,17 @@
 // The pages, and the scripts and styles that they load.
+#include <fmt/format.h>
+
+#include "capstan/answers/glossary.h"
+#include "capstan/answers/recording_answers.h"
+#include "capstan/placement/stored_study.h"
 #include "capstan/reports/embedded_files.h"
+#include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/service/exchange.h"
+#include "capstan/service/page_policy.h"
 #include "capstan/service/routes.h"
+#include "capstan/storage/diagnosis_store.h"
+#include "capstan/storage/error.h"
 
 namespace capstan::service {
 
@@ -20,42 +29,87 @@ constexpr WebFile web_files[] = {
     {"page.js", "text/javascript"},
     {"live.js", "text/javascript"},
     {"service.js", "text/javascript"},
+    {"query.js", "text/javascript"},
     {"import.js", "text/javascript"},
     {"page.css", "text/css"},
     {"service.css", "text/css"},
+    {"notices.txt", "text/plain; charset=utf-8"},
 };
+
+constexpr const char* html = "text/html; charset=utf-8";
+
+// A page that holds its scripts in itself.
+void send_whole_page(http::Response& response, std::shared_ptr<const http::KeptText> page) {
+    response.add_header(policy_header, whole_page_policy());
+    send_kept(response, std::move(page), html);
+}
+
+// As its job wrote it, with curves; otherwise what the database holds.
+std::string diagnosis_page(RouteContext& context, std::int64_t id) {
+    if (std::string page = context.queue.answer_of(id, "page.html"); !page.empty()) return page;
+    storage::Database database = context.open();
+    for (const auto& each : storage::list_diagnoses(database)) {
+        if (each.diagnosis_id == id)
+            return reports::answer_html(
+                answers::stored_diagnosis_answer(storage::load_diagnosis(database, id)));
+    }
+    throw BadRequest(fmt::format("there is no diagnosis {}", id), 404);
+}
+
+std::string comparison_page(RouteContext& context, std::int64_t first, std::int64_t second) {
+    storage::Database database = context.open();
+    for (const std::int64_t id : {first, second}) {
+        study_state(database, id);
+        if (load_stored_study(database, id).plan.uncertainty.is_stated)
+            throw BadRequest(
+                fmt::format("study {} is over worlds; only studies at instants can be compared", id));
+    }
+    try {
+        return reports::answer_html(reports::study_comparison(database, {first, second}));
+    } catch (const storage::Error& error) {
+        throw BadRequest(error.what(), 409);
+    }
+}
 
 }  // namespace
 
-void add_page_routes(httplib::Server& server, RouteContext& context) {
-    server.Get("/", [&context](const httplib::Request& request, httplib::Response& response) {
-        // The address that `capstan serve` prints carries the token once; later requests carry it in a
-        // cookie.
-        if (request.has_param("token")) {
-            if (!same_secret(request.get_param_value("token"), context.options.access.token))
-                throw BadRequest("The token is wrong.", 401);
-            response.set_header("Set-Cookie", "capstan_token=" + context.options.access.token +
-                                                  "; HttpOnly; SameSite=Strict; Path=/");
-            response.set_redirect("/", 303);
-            return;
-        }
-        send_text(response, std::string(reports::embedded_file("service.html")), "text/html; charset=utf-8");
-    });
+void add_page_routes(http::Server& server, RouteContext& context) {
+    const auto front = http::KeptText::of_program(reports::embedded_file("service.html"));
+    server.add("GET", "/",
+               [front](const http::Request&, http::Response& response) { send_kept(response, front, html); });
+    const auto words = std::make_shared<http::KeptText>(reports::answer_html(answers::glossary_answer()));
+    server.add("GET", "/glossary",
+               [words](const http::Request&, http::Response& response) { send_whole_page(response, words); });
     for (const WebFile& file : web_files) {
-        server.Get(std::string("/web/") + file.name,
-                   [&file](const httplib::Request&, httplib::Response& response) {
-                       const std::string_view text = reports::embedded_file(file.name);
-                       response.set_header("Cache-Control", "max-age=3600");
-                       response.set_content(text.data(), text.size(), file.content_type);
+        const auto text = http::KeptText::of_program(reports::embedded_file(file.name));
+        server.add("GET", std::string("/web/") + file.name,
+                   [&file, text](const http::Request&, http::Response& response) {
+                       response.add_header("Cache-Control", "max-age=3600");
+                       send_kept(response, text, file.content_type);
                    });
     }
-    server.Get(R"(/studies/(\d+))", [&context](const httplib::Request& request, httplib::Response& response) {
+    const auto study = [&context](const http::Request& request, http::Response& response) {
         storage::Database database = context.open();
         const std::int64_t id = number_in_path(request);
-        const auto page =
-            context.about_study("page", database, id, [&] { return reports::study_live_html(database, id); });
-        response.set_content(*page, "text/html; charset=utf-8");
-    });
+        send_kept(
+            response,
+            context.about_study("page", database, id, [&] { return reports::study_live_html(database, id); }),
+            html);
+    };
+    const auto reports_lane = static_cast<std::size_t>(Lane::reports);
+    server.add("GET", "/studies/{study_id}", study, reports_lane);
+    const auto diagnosis = [&context](const http::Request& request, http::Response& response) {
+        const std::int64_t id = number_in_path(request);
+        send_whole_page(response, context.reports.get(fmt::format("diagnosis {}", id), "stored",
+                                                      ReportShelf::Freshness::exact,
+                                                      [&] { return diagnosis_page(context, id); }));
+    };
+    server.add("GET", "/diagnoses/{diagnosis_id}", diagnosis, reports_lane);
+    const auto compare = [&context](const http::Request& request, http::Response& response) {
+        const std::int64_t first = number_in_path(request), second = number_in_path(request, 1);
+        send_whole_page(response, std::make_shared<http::KeptText>(comparison_page(context, first, second)));
+    };
+    server.add("GET", "/studies/{study_id}/compare/{other_id}", compare, reports_lane);
 }
 
 }  // namespace capstan::service

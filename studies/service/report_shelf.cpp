@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::chrono::milliseconds moment{500};
 constexpr std::size_t max_places = 32;  // of studies and questions that are looked at now
-constexpr std::size_t max_bytes = 16'000'000;
+constexpr std::size_t max_bytes = 20'000'000;
+constexpr std::size_t compressed_part = 4;       // of a text, its compressed form: at most a fourth
 constexpr std::size_t largest_kept = 4'000'000;  // the report of 100,000 cells has 3.5 million
 
 }  // namespace
@@ -44,10 +45,10 @@ void ReportShelf::drop_the_oldest() {
     }
 }
 
-std::shared_ptr<const std::string> ReportShelf::get(const std::string& name, const std::string& state,
-                                                    Freshness freshness, const Maker& make) {
+std::shared_ptr<const http::KeptText> ReportShelf::get(const std::string& name, const std::string& state,
+                                                       Freshness freshness, const Maker& make) {
     const auto kept = place(name);
-    const auto look = [&](Clock::duration age) -> std::shared_ptr<const std::string> {
+    const auto look = [&](Clock::duration age) -> std::shared_ptr<const http::KeptText> {
         const std::lock_guard lock(kept->reading);
         if (kept->state == state) return kept->text;
         const bool will_do = freshness != Freshness::exact && Clock::now() - kept->made < age;
@@ -62,9 +63,10 @@ std::shared_ptr<const std::string> ReportShelf::get(const std::string& name, con
         making.lock();
     }
     if (auto text = look(moment)) return text;  // made while this one waited
-    auto text = std::make_shared<const std::string>(make());
-    if (text->size() > largest_kept) return text;
-    make_room(name, text->size());
+    auto text = std::make_shared<const http::KeptText>(make());
+    const std::size_t bytes = text->plain().size();
+    if (bytes > largest_kept) return text;
+    make_room(name, bytes + bytes / compressed_part);
     const std::lock_guard lock(kept->reading);
     kept->text = text;
     kept->state = state;

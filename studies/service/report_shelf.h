@@ -8,6 +8,8 @@
 #include <mutex>
 #include <string>
 
+#include "capstan/http/kept_text.h"
+
 namespace capstan::service {
 
 /// A cache of texts that are expensive to make. A text is kept until the state that it was made from changes.
@@ -25,8 +27,8 @@ class ReportShelf {
     };
 
     /// `state`: what the text depends on, as "12 of 40 units".
-    std::shared_ptr<const std::string> get(const std::string& name, const std::string& state,
-                                           Freshness freshness, const Maker& make);
+    std::shared_ptr<const http::KeptText> get(const std::string& name, const std::string& state,
+                                              Freshness freshness, const Maker& make);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -35,7 +37,7 @@ class ReportShelf {
         std::mutex making;   // held while a text is made
         std::mutex reading;  // held for a look at what follows
         std::string state;
-        std::shared_ptr<const std::string> text;
+        std::shared_ptr<const http::KeptText> text;
         Clock::time_point made;
     };
     struct Entry {

@@ -6,6 +6,11 @@
 
 namespace capstan::service {
 
+std::vector<Route> in_lane(Lane lane, std::vector<Route> routes) {
+    for (Route& route : routes) route.lane = lane;
+    return routes;
+}
+
 StudyState study_state(storage::Database& database, std::int64_t study_id) {
     for (const storage::StudySummary& study : storage::list_studies(database)) {
         if (study.study_id == study_id)
@@ -15,10 +20,10 @@ StudyState study_state(storage::Database& database, std::int64_t study_id) {
     throw BadRequest(fmt::format("there is no study {}", study_id), 404);
 }
 
-std::shared_ptr<const std::string> RouteContext::about_study(const std::string& what,
-                                                             storage::Database& database,
-                                                             std::int64_t study_id,
-                                                             const ReportShelf::Maker& make) {
+std::shared_ptr<const http::KeptText> RouteContext::about_study(const std::string& what,
+                                                                storage::Database& database,
+                                                                std::int64_t study_id,
+                                                                const ReportShelf::Maker& make) {
     const StudyState state = study_state(database, study_id);
     return reports.get(
         what + " " + std::to_string(study_id), state.words,

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <httplib.h>
-
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "capstan/http/server.h"
 #include "capstan/service/layout_scorer.h"
 #include "capstan/service/report_shelf.h"
 #include "capstan/service/service.h"
@@ -28,11 +27,21 @@ struct RouteContext {
 
     /// A text about a study, made when the study has gone on since; of one that is complete never an older
     /// one.
-    std::shared_ptr<const std::string> about_study(const std::string& what, storage::Database& database,
-                                                   std::int64_t study_id, const ReportShelf::Maker& make);
+    std::shared_ptr<const http::KeptText> about_study(const std::string& what, storage::Database& database,
+                                                      std::int64_t study_id, const ReportShelf::Maker& make);
 
     storage::Database open() const { return storage::Database::open_read_only(options.commands.database); }
 };
+
+/// Kinds of work that do not wait for each other, with how much of each is done at once.
+enum class Lane : std::size_t {
+    quick,    ///< lists, files, the queue
+    reports,  ///< what reads a whole study
+    scores,   ///< solves cables
+    queries,  ///< a guest's SQL, each in a process of its own
+    imports,  ///< uploaded files, each in a process of its own
+};
+std::vector<http::LaneLimits> lane_limits();  // by Lane
 
 /// A value of the interface: its name, its type and what it means. Types are those of OpenAPI ("integer",
 /// "string", "object", "binary"), the name of a component ("Job"), "[T]" for an array, "T?" for T or null,
@@ -52,23 +61,31 @@ struct Route {
     std::string summary;
     std::string answer;                               ///< what comes back
     std::map<std::string, std::string> answer_types;  ///< by content type, as ApiField::type
-    httplib::Server::Handler handler;
+    http::Handler handler;
     int status = 200;              ///< of a success
     std::vector<int> failures{};   ///< other statuses; a path with braces also has 404
     std::vector<ApiField> body{};  ///< of a post
     std::string body_type = "application/json";
+    Lane lane = Lane::quick;
 };
 
 inline std::map<std::string, std::string> json_of(std::string type) {
     return {{"application/json", std::move(type)}};
 }
 
+/// The same routes, answered in this lane.
+std::vector<Route> in_lane(Lane lane, std::vector<Route> routes);
+
 std::vector<Route> study_routes(RouteContext& context);
+std::vector<Route> study_action_routes(RouteContext& context);
 std::vector<Route> layout_routes(RouteContext& context);
 std::vector<Route> job_routes(RouteContext& context);
 std::vector<Route> diagnosis_routes(RouteContext& context);
 std::vector<Route> import_routes(RouteContext& context);
 std::vector<Route> query_routes(RouteContext& context);
+
+/// The text of a stored configuration; a BadRequest (404) if the folder has none of the name.
+std::string config_named(const ServiceOptions& options, const std::string& name);
 
 /// All of them, and /openapi.json, which describes them.
 std::vector<Route> api_routes(RouteContext& context);
@@ -77,7 +94,7 @@ std::vector<Route> api_routes(RouteContext& context);
 std::string openapi_text(const std::vector<Route>& routes);
 
 /// The pages for people, which are not part of the interface.
-void add_page_routes(httplib::Server& server, RouteContext& context);
+void add_page_routes(http::Server& server, RouteContext& context);
 
 /// What every answer about a study depends on: its status and how many units are done.
 struct StudyState {

@@ -33,8 +33,8 @@ class Service {
     /// Answers until stop() is called from another thread; then ends the job under way, which goes on at the
     /// next start.
     void run();
-    /// Once is enough. False if run() has not begun to answer yet: to be tried again.
-    bool stop();
+    /// From any thread, also before run().
+    void stop();
 
   private:
     struct Parts;

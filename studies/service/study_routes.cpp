@@ -11,12 +11,12 @@ namespace capstan::service {
 
 namespace {
 
-using Handler = httplib::Server::Handler;
-using StudyHandler = std::function<void(storage::Database&, std::int64_t study_id, httplib::Response&)>;
+using Handler = http::Handler;
+using StudyHandler = std::function<void(storage::Database&, std::int64_t study_id, http::Response&)>;
 
 // For the paths /api/studies/{study_id}/...; an unknown study is a 404.
 Handler of_study(const RouteContext& context, const StudyHandler& answer) {
-    return [&context, answer](const httplib::Request& request, httplib::Response& response) {
+    return [&context, answer](const http::Request& request, http::Response& response) {
         storage::Database database = context.open();
         const std::int64_t id = number_in_path(request);
         study_state(database, id);
@@ -35,30 +35,29 @@ std::string recommendation_json(storage::Database& database, std::int64_t study_
 }  // namespace
 
 std::vector<Route> study_routes(RouteContext& context) {
-    const auto list = [&](const httplib::Request&, httplib::Response& response) {
+    const auto list = [&](const http::Request&, http::Response& response) {
         storage::Database database = context.open();
-        send_text(response, answers::rows_json(storage::run_read_only(database, storage::studies_query)),
-                  "application/json");
+        send_text(response, answers::rows_json(answers::studies_table(database)), "application/json");
     };
     const auto rows_of = [&](std::string_view query) {
         return of_study(
-            context, [query](storage::Database& database, std::int64_t id, httplib::Response& response) {
+            context, [query](storage::Database& database, std::int64_t id, http::Response& response) {
                 send_text(response, answers::rows_json(storage::run_read_only(database, query, {id})),
                           "application/json");
             });
     };
-    const auto show = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
+    const auto show = [&](storage::Database& database, std::int64_t id, http::Response& response) {
         send_text(response, reports::answer_json(answers::study_answer(database, id)), "application/json");
     };
-    const auto recommend = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
+    const auto recommend = [&](storage::Database& database, std::int64_t id, http::Response& response) {
         send_text(response, recommendation_json(database, id), "application/json");
     };
-    const auto report = [&](storage::Database& database, std::int64_t id, httplib::Response& response) {
+    const auto report = [&](storage::Database& database, std::int64_t id, http::Response& response) {
         const auto text = context.about_study("report", database, id,
                                               [&] { return reports::study_report_json(database, id); });
-        send_text(response, *text, "application/json");
+        send_kept(response, text, "application/json");
     };
-    return {
+    std::vector<Route> routes{
         {"get", "/api/studies", "listStudies", "The studies, oldest first; as `capstan study list --json`",
          "Studies", json_of("[Study]"), list},
         {"get", "/api/studies/{study_id}", "showStudy", "As `capstan study show --json`", "The study",
@@ -80,6 +79,7 @@ std::vector<Route> study_routes(RouteContext& context) {
          "Every table of the report, as `capstan report --format json`", "Tables", json_of("object"),
          of_study(context, report)},
     };
+    return in_lane(Lane::reports, std::move(routes));
 }
 
 }  // namespace capstan::service

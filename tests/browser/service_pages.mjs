@@ -128,6 +128,99 @@ async function diagnose(page) {
   check((await page.$$(".verdict-card tbody tr")).length > 3, "every cause has its probability");
 }
 
+// Dates, undo, run again, compare two; what costs much is asked for.
+async function manageStudies(browser) {
+  const page = await open(browser, "/");
+  await page.waitForSelector("html[data-ready=yes]");
+  const rows = () => page.$$eval("#study-table tbody tr", (all) => all.length);
+  const comesTo = (count) => page.waitForFunction((wanted) => document.querySelectorAll("#study-table tbody tr").length === wanted, count);
+  await comesTo(2);
+  check(/\d{4}/.test(await text(page, "#study-table tbody tr td:nth-of-type(2)")), "a study says when it was begun");
+  await page.fill("#study-filter", "instants");
+  await comesTo(1);
+  await page.fill("#study-filter", "");
+  await comesTo(2);
+  await page.click('[aria-label="Delete study 2"]');
+  await comesTo(1);
+  await page.click('[aria-label="Bring study 2 back"]');
+  await comesTo(2);
+  await page.focus('[aria-label="Run study 1 again"]');
+  await page.keyboard.press("Enter");
+  await comesTo(3);
+  await page.waitForFunction(() => [...document.querySelectorAll("#study-table tbody tr")].every((row) => row.textContent.includes("complete")));
+  await page.check('[aria-label="Choose study 1"]');
+  check(await page.$eval("#compare", (each) => each.disabled), "one study cannot be compared");
+  await page.check('[aria-label="Choose study 3"]');
+  await page.click("#compare");
+  await page.waitForSelector("main section");
+  check(/\/studies\/1\/compare\/3$/.test(page.url()), "two studies are compared: " + page.url());
+  await page.goto(new URL("/", address).href);
+  await page.waitForSelector("html[data-ready=yes]");
+
+  await page.selectOption("#config-name", "atlas.toml");
+  await page.click("#start-form button[type=submit]");
+  await page.waitForSelector("#start-cost:not([hidden])");
+  check(/\d+ studies take about .* on this machine/.test(await text(page, "#start-cost-words")), "the cost is told: " + await text(page, "#start-cost-words"));
+  await page.locator("#start").screenshot({ path: join(folder, "service_cost.png") });
+  await page.click("#start-not");
+  check(!(await page.$("#job-table tr[data-state=running]")), "nothing was started");
+  await page.click("#start-form button[type=submit]");
+  await page.waitForSelector("#start-cost:not([hidden])");
+  await page.click("#start-anyway");
+  await page.waitForSelector("#stop-all:not([hidden])");
+  await page.click("#stop-all");
+  await page.waitForFunction(() => document.querySelector("#stop-all").hidden);
+  check(await page.$$eval("#job-table tr[data-state=stopped]", (all) => all.length) > 10, "all jobs are stopped");
+  const benches = await page.$$eval("#config-name option", (all) => all.filter((each) => each.value.startsWith("bench-")).length);
+  check(benches === 0, "a bench is not offered as a study");
+  check(await rows() >= 3, "the studies stay");
+  await page.setViewportSize({ width: 390, height: 844 });
+  check(await overflow(page) <= 0, "the front page fits a telephone");
+  await page.screenshot({ path: join(folder, "service_front_390.png"), fullPage: true });
+  await page.close();
+}
+
+async function openWholePages(browser) {
+  const page = await open(browser, "/diagnoses/1");
+  await page.waitForSelector("main figure[data-figure] svg");
+  await page.waitForSelector("html[data-drawn=yes]");
+  check((await page.$$("main figure[data-figure] svg")).length > 2, "the diagnosis has its curves");
+  await page.screenshot({ path: join(folder, "service_diagnosis.png") });
+  for (const [width, dark] of [[390, false], [390, true]]) {
+    await page.setViewportSize({ width, height: 844 });
+    await page.emulateMedia({ colorScheme: dark ? "dark" : "light" });
+    await page.waitForFunction(() => document.documentElement.dataset.drawn === "yes");
+    check(await overflow(page) <= 0, "the diagnosis fits a telephone");
+  }
+  await page.screenshot({ path: join(folder, "service_diagnosis_390_dark.png") });
+  const model = await (await fetch(new URL("/api/diagnoses/1/model", address))).text();
+  check(model.includes("[") && model.includes("="), "the corrected model can be downloaded: " + model.slice(0, 60));
+  await page.goto(new URL("/glossary", address).href);
+  check((await text(page, "main")).includes("regret"), "the glossary explains regret");
+  await page.close();
+}
+
+async function shareAQuery(browser) {
+  const page = await open(browser, "/");
+  await page.waitForSelector("html[data-schema=yes]");
+  await page.fill("#sql", "SELECT sensor_count, mean_abs_error_N FROM ");
+  await page.click("#schema-names summary:has-text('v_best_method')");
+  await page.click("#schema-names details[open] .name >> nth=0");
+  check((await page.$eval("#sql", (each) => each.value)).endsWith("FROM v_best_method"), "a click puts a name into the query");
+  await page.click("#query-form button[type=submit]");
+  await page.waitForSelector("#query-rows tbody tr");
+  const other = await open(browser, new URL(page.url()).hash ? "/" + new URL(page.url()).hash : "/");
+  await other.waitForSelector("#query-rows tbody tr");
+  const column = () => other.$$eval("#query-rows tbody td:nth-child(2)", (all) => all.map((each) => Number(each.textContent)));
+  await other.click("#query-rows th:nth-child(2) button");
+  const rising = await column();
+  check(rising.every((value, k) => k === 0 || rising[k - 1] <= value), "a click sorts the rows");
+  await other.click("#query-rows th:nth-child(2) button");
+  check((await column())[0] === Math.max(...rising), "a second one sorts them the other way");
+  await other.close();
+  await page.close();
+}
+
 // The file is that of a laboratory: other names, degrees, milliseconds, and two columns whose names say nothing.
 async function importALog(page) {
   const silent = complaints.length;
@@ -233,6 +326,9 @@ try {
   check(await overflow(front) <= 0, "nor on a narrow screen");
   await front.screenshot({ path: join(folder, "service_front_narrow_dark.png"), fullPage: true });
   await watchCellsFill(browser);
+  await manageStudies(browser);
+  await openWholePages(browser);
+  await shareAQuery(browser);
 
   check(complaints.length === 0, "the console is silent: " + complaints.slice(0, 3).join(" | "));
   const strangers = requests.filter((url) => !url.startsWith(address));

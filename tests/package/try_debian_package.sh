@@ -20,6 +20,7 @@ for name in capstan libcapstan-dev capstan-doc python3-capstan; do
     dpkg-deb --info "$package"
     dpkg-deb --extract "$package" "$work/$name"
     test -s "$work/$name/usr/share/doc/$name/copyright"
+    grep -q "University of Washington" "$work/$name/usr/share/doc/$name/notices.txt"
 done
 
 needs() {  # package, what it must say that it needs
@@ -29,7 +30,7 @@ needs() {  # package, what it must say that it needs
         [[ $depends == *$library* ]] || { echo "$1 does not say that it needs $library: $depends" >&2; exit 1; }
     done
 }
-needs capstan libc6 libsqlite3-0 libtbb12 libcpp-httplib0
+needs capstan libc6 libsqlite3-0 libtbb12
 needs libcapstan-dev libeigen3-dev libhwy-dev libtbb-dev
 test -s "$work/libcapstan-dev/usr/include/capstan/gap/diagnosis.h"
 test ! -e "$work/capstan/usr/include"

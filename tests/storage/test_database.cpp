@@ -16,7 +16,7 @@ namespace {
 using Opener = Database (*)(const std::filesystem::path&);
 const std::vector<Opener> all_openers{
     [](const std::filesystem::path& path) { return Database::open_or_create(path); }, Database::open_existing,
-    Database::open_read_only};
+    [](const std::filesystem::path& path) { return Database::open_read_only(path); }};
 
 void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "capstan/storage/diagnosis_store.h"
+#include "capstan/storage/health.h"
 #include "capstan/storage/migration.h"
 #include "capstan/storage/schema.h"
 #include "example_study.h"
@@ -66,6 +67,7 @@ TEST(Migrating, ADiagnosisOfVersionTwoOpensWithoutIntervalsAndPresence) {
         database.execute("ALTER TABLE diagnosis_number DROP COLUMN high_in_unit", "go back");
         database.execute("ALTER TABLE diagnosis_effect DROP COLUMN present_fraction", "go back");
         database.execute("ALTER TABLE diagnosis_effect DROP COLUMN varies", "go back");
+        database.execute("DROP TABLE history; DROP TABLE study_mark", "go back");
         database.execute("PRAGMA user_version = 2", "go back");
     }
     Database database = Database::open_existing(folder / "results.db");
@@ -76,6 +78,22 @@ TEST(Migrating, ADiagnosisOfVersionTwoOpensWithoutIntervalsAndPresence) {
     EXPECT_FALSE(old.causes.at(0).numbers.at(0).low_in_unit);
     EXPECT_EQ(old.effects.at(0).probability_fraction, 0.9);
     EXPECT_FALSE(old.effects.at(0).present_fraction);
+    EXPECT_TRUE(schema_problems(database).empty());
+}
+
+// A study of version 4 has no date, and its number is not given again.
+TEST(Migrating, AStudyOfVersionFourGetsAHistoryFromThenOn) {
+    const TemporaryFolder folder;
+    {
+        Database database = Database::open_or_create(folder / "results.db");
+        begin_study(database, example_study());
+        database.execute("DROP TABLE history; DROP TABLE study_mark; PRAGMA user_version = 4", "go back");
+    }
+    Database database = Database::open_existing(folder / "results.db");
+    EXPECT_EQ(list_studies(database).at(0).begun_utc, "");
+    delete_study(database, 1);
+    EXPECT_EQ(begin_study(database, example_study()), 2);
+    EXPECT_EQ(list_studies(database).at(0).begun_utc.size(), std::string("2026-01-31T12:00:00Z").size());
 }
 
 TEST(Migrating, EveryOlderVersionHasAMigration) {

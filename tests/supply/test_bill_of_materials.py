@@ -18,7 +18,7 @@ OF_THE_COMPILER = ("libstdc++", "libgcc", "libc6", "linux-libc")
 # An include of the source and the package that brings it; a new one has to be added here, knowingly.
 PACKAGE_OF_INCLUDE = {
     "Eigen": "libeigen3-dev", "Random123": "librandom123-dev", "boost": "libboost1.74-dev", "fmt": "libfmt-dev",
-    "httplib.h": "libcpp-httplib-dev", "hwy": "libhwy-dev", "nlohmann": "nlohmann-json3-dev", "openssl": "libssl-dev",
+    "hwy": "libhwy-dev", "nlohmann": "nlohmann-json3-dev", "openssl": "libssl-dev",
     "sqlite3.h": "libsqlite3-dev", "tbb": "libtbb-dev", "oneapi": "libtbb-dev", "toml++": "libtomlplusplus-dev",
     "bzlib.h": "libbz2-dev", "expat.h": "libexpat1-dev", "hdf5.h": "libhdf5-dev", "lz4frame.h": "liblz4-dev",
     "matio.h": "libmatio-dev", "minizip": "libminizip-dev", "zlib.h": "zlib1g-dev", "zstd.h": "libzstd-dev",

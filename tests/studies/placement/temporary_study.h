@@ -37,7 +37,7 @@ class TemporaryStudy {
 
     Dump dump() {
         Dump tables;
-        for (const auto& row : rows("SELECT name FROM sqlite_schema WHERE type = 'table'")) {
+        for (const auto& row : rows("SELECT name FROM sqlite_schema WHERE type = 'table' AND name != 'history'")) {
             const std::string table = std::get<std::string>(row[0]);
             tables[table] = rows("SELECT * FROM " + table);
             std::sort(tables[table].begin(), tables[table].end());

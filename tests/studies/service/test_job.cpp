@@ -31,10 +31,10 @@ TEST(ReportShelf, KeepsATextUntilItsStateChanges) {
     ReportShelf shelf;
     int made = 0;
     const auto make = [&] { return std::to_string(++made); };
-    EXPECT_EQ(*shelf.get("a", "1 of 2", exact, make), "1");
-    EXPECT_EQ(*shelf.get("a", "1 of 2", exact, make), "1");
-    EXPECT_EQ(*shelf.get("b", "1 of 2", exact, make), "2");
-    EXPECT_EQ(*shelf.get("a", "2 of 2", exact, make), "3");
+    EXPECT_EQ(shelf.get("a", "1 of 2", exact, make)->plain(), "1");
+    EXPECT_EQ(shelf.get("a", "1 of 2", exact, make)->plain(), "1");
+    EXPECT_EQ(shelf.get("b", "1 of 2", exact, make)->plain(), "2");
+    EXPECT_EQ(shelf.get("a", "2 of 2", exact, make)->plain(), "3");
 }
 
 TEST(ReportShelf, DropsTheLeastRecentlyUsedTexts) {

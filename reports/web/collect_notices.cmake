@@ -1,0 +1,26 @@
+# The copyright notices of what the chart scripts contain: cmake -D folder=node_modules -D output=notices.txt -P ...
+# Equal licences are written once, below the names of those that have them.
+file(GLOB packages LIST_DIRECTORIES true ${folder}/*)
+list(FILTER packages INCLUDE REGEX
+     "/(vega[^/]*|d3-[^/]*|delaunator|robust-predicates|internmap|topojson-client|fast-json-patch|json-stringify-pretty-compact|semver|tslib)$")
+set(texts "")
+foreach(path IN LISTS packages)
+    cmake_path(GET path FILENAME name)
+    file(GLOB licence ${path}/LICENSE* ${path}/LICENCE*)
+    if(NOT licence)
+        continue()  # types only
+    endif()
+    list(GET licence 0 licence)
+    file(SHA256 ${licence} hash)
+    list(APPEND hashes ${hash})
+    list(APPEND names_${hash} ${name})
+    set(file_${hash} ${licence})
+endforeach()
+list(REMOVE_DUPLICATES hashes)
+set(notices "The figures are drawn by these works of others.\n")
+foreach(hash IN LISTS hashes)
+    list(JOIN names_${hash} ", " names)
+    file(READ ${file_${hash}} text)
+    string(APPEND notices "\n---- ${names}\n\n${text}")
+endforeach()
+file(WRITE ${output} "${notices}")

@@ -1,0 +1,161 @@
+// What people do with stored studies: notes, the trash, the history, and what a study would cost.
+#include <fmt/format.h>
+
+#include "capstan/answers/study_answers.h"
+#include "capstan/platform/child_process.h"
+#include "capstan/platform/files.h"
+#include "capstan/service/exchange.h"
+#include "capstan/service/import_folder.h"
+#include "capstan/service/routes.h"
+#include "capstan/storage/error.h"
+#include "capstan/storage/study_store.h"
+
+namespace capstan::service {
+
+namespace {
+
+constexpr std::string_view history_query =
+    "SELECT event, at_utc, command FROM history WHERE study_id = ?1 ORDER BY event_id";
+constexpr std::chrono::seconds cost_limit{60};
+constexpr std::size_t longest_note = 2000;
+
+storage::Database writable(const RouteContext& context) {
+    return storage::Database::open_existing(context.options.commands.database);
+}
+
+std::string short_text(const nlohmann::json& body, const char* name) {
+    auto text = member<std::string>(body, name);
+    if (text.size() > longest_note)
+        throw BadRequest(fmt::format("'{}' may have {} bytes at most", name, longest_note));
+    return text;
+}
+
+ordered_json moved(RouteContext& context, std::int64_t id, storage::Shelf to) {
+    storage::Database database = writable(context);
+    try {
+        storage::find_study(database, std::to_string(id),
+                            to == storage::Shelf::trash ? storage::Shelf::studies : storage::Shelf::trash);
+    } catch (const storage::Error& error) {
+        throw BadRequest(error.what(), 404);
+    }
+    to == storage::Shelf::trash ? storage::trash_study(database, id) : storage::restore_study(database, id);
+    return {{"study_id", id}, {"deleted", to == storage::Shelf::trash}};
+}
+
+void annotate(RouteContext& context, std::int64_t id, const nlohmann::json& body) {
+    std::optional<std::string> note, tags;
+    if (body.contains("note")) note = short_text(body, "note");
+    if (body.contains("tags")) tags = short_text(body, "tags");
+    storage::Database database = writable(context);
+    study_state(database, id);
+    storage::annotate_study(database, id, note, tags);
+}
+
+// `capstan study plan` in a process of its own: its pilot computes for a second.
+ordered_json cost(const RouteContext& context, const nlohmann::json& body) {
+    const auto toml = body.contains("config")
+                          ? config_named(context.options, member<std::string>(body, "config"))
+                          : member<std::string>(body, "config_toml");
+    const PrivateFolder folder("capstan-cost");
+    write_file(folder.path() / "study.toml", toml);
+    const CommandOutput ended = run_command(
+        {context.options.commands.program, "study", "plan", (folder.path() / "study.toml").string(), "--json",
+         "--seconds", "1"},
+        {.nice_increment = 5, .processor_s = 60}, {cost_limit, 1 << 20, context.options.commands.ending});
+    ordered_json answer = {{"known", false}};
+    if (ended.exit_code != 0) return answer;  // of worlds, or wrong: then the start says what
+    const auto plan = nlohmann::json::parse(ended.output, nullptr, false);
+    if (!plan.is_object()) return answer;
+    const double core_hours = plan.value("one_run_core_hours", 0.0);
+    const int cores = std::max(
+        1, static_cast<int>(context.options.commands.threads > 0 ? context.options.commands.threads
+                                                                 : std::thread::hardware_concurrency()));
+    return {{"known", true},
+            {"studies", plan.value("studies", 1)},
+            {"processor_s", 3600.0 * core_hours},
+            {"seconds", 3600.0 * core_hours / cores}};
+}
+
+}  // namespace
+
+std::vector<Route> study_action_routes(RouteContext& context) {
+    const auto list_deleted = [&](const http::Request&, http::Response& response) {
+        storage::Database database = context.open();
+        send_text(response, answers::rows_json(answers::studies_table(database, storage::Shelf::trash)),
+                  "application/json");
+    };
+    const auto remove = [&](const http::Request& request, http::Response& response) {
+        send_json(response, moved(context, number_in_path(request), storage::Shelf::trash));
+    };
+    const auto restore = [&](const http::Request& request, http::Response& response) {
+        send_json(response, moved(context, number_in_path(request), storage::Shelf::studies));
+    };
+    const auto note = [&](const http::Request& request, http::Response& response) {
+        annotate(context, number_in_path(request), body_of(request));
+        send_json(response, {{"study_id", number_in_path(request)}});
+    };
+    const auto show_config = [&](const http::Request& request, http::Response& response) {
+        storage::Database database = context.open();
+        const std::int64_t id = number_in_path(request);
+        study_state(database, id);
+        send_text(response, storage::load_study(database, id).study.config_toml, "text/plain; charset=utf-8");
+    };
+    const auto history = [&](const http::Request& request, http::Response& response) {
+        storage::Database database = context.open();
+        const std::int64_t id = number_in_path(request);
+        study_state(database, id);
+        send_text(response, answers::rows_json(storage::run_read_only(database, history_query, {id})),
+                  "application/json");
+    };
+    const auto tell_cost = [&](const http::Request& request, http::Response& response) {
+        send_json(response, cost(context, body_of(request)));
+    };
+    const ApiField by_name{"config", "string", "A name of /api/configs; or", false};
+    const ApiField by_text{"config_toml", "string", "the text of a configuration", false};
+    std::vector<Route> routes{
+        {"get", "/api/studies/deleted", "listDeleted", "The trash; as `capstan study list --deleted --json`",
+         "Studies", json_of("[Study]"), list_deleted},
+        {"post", "/api/studies/{study_id}/delete", "deleteStudy",
+         "Move a study to the trash, as `capstan study delete`", "Its number", json_of("object"), remove},
+        {"post", "/api/studies/{study_id}/restore", "restoreStudy", "Bring a deleted study back",
+         "Its number", json_of("object"), restore},
+        {"post",
+         "/api/studies/{study_id}/note",
+         "annotateStudy",
+         "Give a study a note and tags, as `capstan study note`",
+         "Its number",
+         json_of("object"),
+         note,
+         200,
+         {400},
+         {{"note", "string", "stays if absent", false},
+          {"tags", "string", "words with blanks between them", false}}},
+        {"get",
+         "/api/studies/{study_id}/config",
+         "studyConfig",
+         "The configuration of a study with every key, from which it can be run again",
+         "TOML",
+         {{"text/plain", "string"}},
+         show_config},
+        {"get", "/api/studies/{study_id}/history", "studyHistory",
+         "What was done to a study, when and by which command", "Events", json_of("[object]"), history},
+    };
+    routes = in_lane(Lane::reports, std::move(routes));
+    routes.push_back(
+        {"post",
+         "/api/studies/cost",
+         "studyCost",
+         "What the studies of a configuration would cost on this machine; `known` is false of a study "
+         "over worlds and of a configuration that cannot run",
+         "The cost",
+         json_of("object"),
+         tell_cost,
+         200,
+         {400, 404, 503},
+         {by_name, by_text},
+         "application/json",
+         Lane::imports});
+    return routes;
+}
+
+}  // namespace capstan::service
