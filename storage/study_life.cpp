@@ -206,4 +206,16 @@ void delete_study(Database& database, std::int64_t study_id) {
     transaction.commit();
 }
 
+void forget_study(Database& database, std::int64_t study_id) {
+    Transaction transaction(database);
+    load_study_ids(database, study_id);
+    for (const char* sql :
+         {"DELETE FROM study WHERE study_id = ?1", "DELETE FROM history WHERE study_id = ?1"}) {
+        Statement statement(database, sql);
+        statement.bind(1, study_id);
+        statement.run("forget the study");
+    }
+    transaction.commit();
+}
+
 }  // namespace capstan::storage

@@ -40,6 +40,9 @@ void finish_study(Database& database, std::int64_t study_id,
 
 // Removes the study and everything that belongs to it.
 void delete_study(Database& database, std::int64_t study_id);
+/// The same without a trace in the history: a step on the way to a study, which nobody asked for. Its number
+/// is free again.
+void forget_study(Database& database, std::int64_t study_id);
 
 // Into the trash and out of it. What is there keeps all its rows, but is found by no name, number or list.
 void trash_study(Database& database, std::int64_t study_id);

@@ -27,7 +27,19 @@ std::vector<std::string> labels_of(const StudyDescription& study, int set_index)
 }
 
 const std::vector<int>& nodes_of(const StudyDescription& study, int set_index) {
+    if (set_index < 0 || static_cast<std::size_t>(set_index) >= study.sensor_sets.size())
+        throw storage::Error(
+            "A recommendation names a sensor set that the study does not have. The file is damaged; `capstan "
+            "doctor` examines it.");
     return study.sensor_sets[static_cast<std::size_t>(set_index)].nodes;
+}
+
+const std::string& noise_label(const StudyDescription& study, int noise_index) {
+    if (noise_index < 0 || static_cast<std::size_t>(noise_index) >= study.noise_levels.size())
+        throw storage::Error(
+            "A recommendation names a noise level that the study does not have. The file is damaged; `capstan "
+            "doctor` examines it.");
+    return study.noise_levels[static_cast<std::size_t>(noise_index)].label;
 }
 
 std::vector<double> places_of(const StudyDescription& study, const std::vector<int>& nodes) {
@@ -64,9 +76,8 @@ std::string scope_title(const RecommendationRecord& record) {
 }
 
 Data recommendation_data(const StudyDescription& study, const RecommendationRecord& r) {
-    Data data = {{"noise", study.noise_levels[static_cast<std::size_t>(r.noise_index)].label},
-                 {"scope", r.scope},
-                 {"scope_title", scope_title(r)}};
+    Data data = {
+        {"noise", noise_label(study, r.noise_index)}, {"scope", r.scope}, {"scope_title", scope_title(r)}};
     if (r.scope == "regime") data["regime"] = r.regime;
     data["sensor_count"] = r.sensor_count;
     data.update(choice_data(study, r.set_index, r.method));
@@ -146,8 +157,7 @@ std::string headline_of(const Conclusions& conclusions) {
         "use {}, {}, fused by {}. Expected tension error over the duty cycle with sensor noise {}: {:.3f} N.",
         counted(static_cast<std::size_t>(last.sensor_count), "sensor"),
         place_words(conclusions.study, nodes_of(conclusions.study, last.set_index)),
-        title_of_method(last.method),
-        conclusions.study.noise_levels[static_cast<std::size_t>(last.noise_index)].label, last.error_N);
+        title_of_method(last.method), noise_label(conclusions.study, last.noise_index), last.error_N);
 }
 
 // ---- what the numbers take for granted
@@ -294,21 +304,20 @@ reports::Answer truth_answer(storage::Database& database, std::int64_t model_id,
         if (best == nullptr) continue;
         const bool stays = is_as_good(*best, given);
         changes += stays ? 0 : 1;
-        rows.push_back(
-            {{"noise", model.study.noise_levels[static_cast<std::size_t>(given.noise_index)].label},
-             {"regime", given.regime},
-             {"advice_stays", stays},
-             {"model",
-              {{"nodes", nodes_of(model.study, given.set_index)},
-               {"method", title_of_method(given.method)},
-               {"expected_error_N", searched_error_N(given)},
-               {"true_error_N", error_N(database, truth_id, given)}}},
-             {"truth",
-              {{"nodes", nodes_of(truth.study, best->set_index)},
-               {"method", title_of_method(best->method)},
-               {"true_error_N", searched_error_N(*best)},
-               {"error_on_independent_draws_N", best->error_N},
-               {"interval_95_N", Data::list({best->interval_low_N, best->interval_high_N})}}}});
+        rows.push_back({{"noise", noise_label(model.study, given.noise_index)},
+                        {"regime", given.regime},
+                        {"advice_stays", stays},
+                        {"model",
+                         {{"nodes", nodes_of(model.study, given.set_index)},
+                          {"method", title_of_method(given.method)},
+                          {"expected_error_N", searched_error_N(given)},
+                          {"true_error_N", error_N(database, truth_id, given)}}},
+                        {"truth",
+                         {{"nodes", nodes_of(truth.study, best->set_index)},
+                          {"method", title_of_method(best->method)},
+                          {"true_error_N", searched_error_N(*best)},
+                          {"error_on_independent_draws_N", best->error_N},
+                          {"interval_95_N", Data::list({best->interval_low_N, best->interval_high_N})}}}});
     }
     reports::Answer answer{.id = "truth",
                            .kind = "Advice where the true cable is not the model",

@@ -69,7 +69,7 @@ class Doubling {
         if (doublings_ > 0 && !run_round(program_version, options)) return outcome_;
         while (look() > resolution_.tolerance_N && can_double()) {
             // The intermediate study was not requested.
-            if (is_own_) storage::delete_study(database_, outcome_.run.study_id);
+            if (is_own_) storage::forget_study(database_, outcome_.run.study_id);
             ++doublings_;
             if (!run_round(program_version, options)) return outcome_;
         }

@@ -39,7 +39,7 @@ class Scale(CapstanTest):
         for pragma in ("journal_mode = OFF", "synchronous = OFF", "foreign_keys = OFF", "cache_size = -200000"):
             connection.execute("PRAGMA " + pragma)
         tables = [row[0] for row in connection.execute("SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite%'")]
-        shift = {"study_id": 1, "cell_id": 10 ** 9, "recommendation_id": 10 ** 9}
+        shift = {"study_id": 1, "cell_id": 10 ** 9, "recommendation_id": 10 ** 9, "event_id": 10 ** 6}
         for table in ("scenario", "noise_level", "sensor_set", "layout"):
             shift[table + "_id"] = connection.execute(f"SELECT max({table}_id) FROM {table}").fetchone()[0]
         for table in LEFT_OUT:

@@ -90,7 +90,7 @@ TEST(BenchKeys, EveryEffectOfTheCatalogueHasItsKeys) {
     const BenchPlan plan = plan_of("[effect.local_bend_cable_A]\nangle_rad = 0.5\n");
     EXPECT_THAT(effects_there(plan.effects), ElementsAre("local_bend (cable A)"));
     EXPECT_THAT(bench_problems_in("[effect.backlash_motor]\nhalf_gap_rad = 2\n"),
-                ElementsAre(HasSubstr("is 2 rad, but must be 0 to 1")));
+                ElementsAre(HasSubstr("is 2 rad, but must be at most 1")));
 }
 
 TEST(BenchKeys, FrictionAtRestIsAtLeastThatOfSliding) {
