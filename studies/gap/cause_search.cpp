@@ -82,7 +82,6 @@ CauseSearch::Model::Model(const Recording& recording, const EffectsTwinOptions& 
 CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& options)
     : options_(options),
       run_count_(recording.runs.size()),
-      is_undescribed_(recording.nominal_is_fitted),
       fine_(recording, {options.segments, options.stride}, options.threads),
       coarse_(recording, coarse_options(recording, options.stride), options.threads),
       evidence_(fine_.fitter.independent_samples()),
@@ -185,7 +184,7 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
 ScoredFit CauseSearch::without_cause(const Level& level) {
     const Hypothesis nominal = with_cause(nominal_hypothesis(level.bench), &level.causes.front(), {});
     ScoredFit best = fitted(level, nominal, {});
-    if (level.bench.is_measured() || !is_undescribed_) return best;
+    if (&level != &described_ || level.bench.is_measured()) return best;
     constexpr double starts[][nominal_coordinates] = {{0.0, 0.0, -1.0}, {0.0, 0.5, -1.0}, {0.0, 0.0, 1.0}};
     for (const auto& from : starts) {
         if (is_out_of_time()) break;

@@ -85,7 +85,6 @@ class CauseSearch {
 
     CauseSearchOptions options_;
     std::size_t run_count_;
-    bool is_undescribed_;  // a drive or band of unknown geometry
     Model fine_;
     Model coarse_;
     Evidence evidence_;

@@ -32,7 +32,7 @@ const std::string& page_policy() {
     return policy;
 }
 
-const std::string& whole_page_policy() {
+const std::string& self_contained_page_policy() {
     static const std::string policy = [] {
         std::string hashes;
         for (const char* name : {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js", "page.js"})

@@ -10,7 +10,7 @@ const std::string& page_policy();
 
 /// The same for a page that holds its scripts in itself, as a report does: these scripts, by their hashes,
 /// and no other.
-const std::string& whole_page_policy();
+const std::string& self_contained_page_policy();
 
 inline constexpr const char* policy_header = "Content-Security-Policy";
 

@@ -40,7 +40,7 @@ constexpr const char* html = "text/html; charset=utf-8";
 
 // A page that holds its scripts in itself.
 void send_whole_page(http::Response& response, std::shared_ptr<const http::KeptText> page) {
-    response.add_header(policy_header, whole_page_policy());
+    response.add_header(policy_header, self_contained_page_policy());
     send_kept(response, std::move(page), html);
 }
 

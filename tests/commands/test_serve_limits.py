@@ -39,7 +39,7 @@ class Limits(ServiceTest):
         self.addCleanup(connection.close)
         return connection
 
-    def told(self, connection):
+    def received_from(self, connection):
         """Everything that the service sends until it closes the connection."""
         text = b""
         try:
@@ -52,7 +52,7 @@ class Limits(ServiceTest):
     def status_of(self, request):
         connection = self.connect()
         connection.sendall(request.encode())
-        told = self.told(connection)
+        told = self.received_from(connection)
         self.assertEqual(told.count(b"HTTP/1.1 "), 1, told[:200])
         return int(told.split()[1])
 
@@ -111,7 +111,7 @@ class Limits(ServiceTest):
         print(f"100 slow senders: 50 requests of another client, the slowest took {1e3 * longest:.0f} ms")
         self.assertEqual(self.of_process("Threads"), threads)
         for connection in slow:
-            self.assertEqual(self.told(connection), b"")  # closed, without an answer
+            self.assertEqual(self.received_from(connection), b"")  # closed, without an answer
         print(f"the slow senders had their connections for {time.monotonic() - begin:.1f} s")
 
     def test_an_address_has_a_limited_number_of_connections(self):
@@ -121,7 +121,7 @@ class Limits(ServiceTest):
         for _ in range(3):  # from the same address: a client that asks at once comes before those that wait
             self.assertEqual(self.status_of(self.head()), 200)
         self.assertLessEqual(len(list(pathlib.Path(f"/proc/{self.process.pid}/fd").iterdir())), open_before + 130)
-        self.assertEqual(self.told(silent[0]), b"")
+        self.assertEqual(self.received_from(silent[0]), b"")
         self.assertEqual(self.ask("GET", "/api/studies")[0], 200)
 
     def test_encoded_bodies_are_refused_and_never_decoded(self):
@@ -203,7 +203,7 @@ class Limits(ServiceTest):
                                      start="POST /api/query HTTP/1.1").encode())
         self.assertEqual(connection.recv(100), b"HTTP/1.1 100 Continue\r\n\r\n")
         connection.sendall(body.encode())
-        self.assertTrue(self.told(connection).startswith(b"HTTP/1.1 200 OK\r\n"))
+        self.assertTrue(self.received_from(connection).startswith(b"HTTP/1.1 200 OK\r\n"))
         post = "POST /api/query HTTP/1.1"
         kind = "Content-Type: application/json"
         self.assertEqual(self.status_of(self.head(kind, "Content-Length: 2000000", "Expect: 100-continue", start=post)), 413)
@@ -239,7 +239,7 @@ class Limits(ServiceTest):
         self.serve()
         connection = self.connect()
         connection.sendall(self.head(start="HEAD / HTTP/1.1").encode())
-        head, body = self.told(connection).split(b"\r\n\r\n", 1)
+        head, body = self.received_from(connection).split(b"\r\n\r\n", 1)
         self.assertIn(b"Content-Length: ", head)
         self.assertEqual(body, b"")
 

@@ -1,13 +1,9 @@
-// Bytes of strangers to the HTTP server alone: whatever comes, the answer is one answer of HTTP, the handlers see
-// only what is well-formed, and the server goes on. The first byte says whether the rest is a complete request, a
-// form, or a path.
-#include <arpa/inet.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <array>
+// Bytes of strangers to the HTTP server alone: whatever comes, the answer is one answer of HTTP, the handlers
+// see only what is well-formed, and the server goes on. The first byte says whether the rest is a complete
+// request, a form, or a path.
 #include <thread>
 
+#include "answer_to.h"
 #include "capstan/http/multipart.h"
 #include "capstan/http/server.h"
 #include "capstan/http/target.h"
@@ -34,23 +30,7 @@ class Echo {
         thread_.join();
     }
 
-    std::string answer_to(const std::string& request) const {
-        const int connection = ::socket(AF_INET, SOCK_STREAM, 0);
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_port = htons(static_cast<std::uint16_t>(port_));
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        std::string answer;
-        if (::connect(connection, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-            ::send(connection, request.data(), request.size(), MSG_NOSIGNAL);
-            ::shutdown(connection, SHUT_WR);
-            std::array<char, 65536> buffer;
-            for (ssize_t now = 0; (now = ::recv(connection, buffer.data(), buffer.size(), 0)) > 0;)
-                answer.append(buffer.data(), static_cast<std::size_t>(now));
-        }
-        ::close(connection);
-        return answer;
-    }
+    int port() const { return port_; }
 
   private:
     static http::ServerOptions options() {
@@ -103,7 +83,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         if (const auto target = http::parse_target(input))
             fuzz::demand(target->path.starts_with('/'), "a path begins with a slash");
     } else {
-        const std::string answer = echo.answer_to(input);
+        const std::string answer = fuzz::answer_to(input, echo.port());
         fuzz::demand(answer.empty() || answer.starts_with("HTTP/1.1 "), "an answer is HTTP");
         fuzz::demand(!answer.starts_with("HTTP/1.1 500"), "no failure of our own");
     }

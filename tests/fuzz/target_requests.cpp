@@ -1,13 +1,9 @@
 // Requests to the service: bodies of every route that takes one, paths, and complete requests. Every
 // answer is HTTP and reports an error of the sender, never one of the service (500).
-#include <arpa/inet.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <array>
 #include <memory>
 #include <thread>
 
+#include "answer_to.h"
 #include "capstan/service/service.h"
 #include "sample_database.h"
 #include "target.h"
@@ -39,29 +35,6 @@ class Host {
     service::Service service_;
     std::thread thread_;
 };
-
-std::string answer_to(const std::string& request, int port) {
-    const int connection = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    std::string answer;
-    if (::connect(connection, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-        for (std::size_t sent = 0; sent < request.size();) {
-            const ssize_t now =
-                ::send(connection, request.data() + sent, request.size() - sent, MSG_NOSIGNAL);
-            if (now <= 0) break;
-            sent += static_cast<std::size_t>(now);
-        }
-        ::shutdown(connection, SHUT_WR);
-        std::array<char, 65536> buffer;
-        for (ssize_t now = 0; (now = ::recv(connection, buffer.data(), buffer.size(), 0)) > 0;)
-            answer.append(buffer.data(), static_cast<std::size_t>(now));
-    }
-    ::close(connection);
-    return answer;
-}
 
 std::string post(const std::string& path, const std::string& type, const std::string& body, int port) {
     return "POST " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
@@ -100,7 +73,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static int jobs = 0;
     if (size == 0) return 0;
     const std::string text = fuzz::text_of(data, size);
-    const std::string answer = answer_to(request_of(text[0], text.substr(1), host->port()), host->port());
+    const std::string answer =
+        fuzz::answer_to(request_of(text[0], text.substr(1), host->port()), host->port());
     const std::string head = answer.substr(0, answer.find('\n'));
     fuzz::demand(answer.empty() || answer.starts_with("HTTP/1.1 "), "an answer is HTTP: " + head);
     fuzz::demand(!answer.starts_with("HTTP/1.1 500"), "no failure of our own: " + answer);
