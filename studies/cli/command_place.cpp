@@ -69,7 +69,9 @@ ExitCode run_place(const Invocation& invocation) {
     options.runners_up = static_cast<int>(invocation.integer("runners-up"));
     if (invocation.has("until-resolved")) options.resolve_to_N = invocation.number("until-resolved");
     options.on_progress = [](const std::string& message) { say(message); };
+    ShownWork work(invocation, config.plan.name);
     const PlacementAnswer answer = place_sensors(config.plan, options);
+    work.end();
     if (invocation.has("stats")) {
         say(fmt::format(
             "wall time: {:.2f} s to score {} candidates, {:.2f} s on independent draws, {:.2f} s in all",
