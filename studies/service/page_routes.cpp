@@ -65,7 +65,7 @@ std::string comparison_page(RouteContext& context, std::int64_t first, std::int6
                 fmt::format("study {} is over worlds; only studies at instants can be compared", id));
     }
     try {
-        return reports::answer_html(reports::study_comparison(database, {first, second}));
+        return reports::answer_html(reports::study_comparison({database, first}, {database, second}));
     } catch (const storage::Error& error) {
         throw BadRequest(error.what(), 409);
     }
