@@ -68,7 +68,7 @@
   };
 
   function rowsOf(figure, name) {
-    const { regime, recommendation, run } = figure.dataset;
+    const { regime, recommendation, run, cable } = figure.dataset;
     const { knowledge } = about(figure);
     const table = study.tables[name];
     let numbers = allOf(table);
@@ -79,6 +79,7 @@
     if (regime) keep("regime", (value) => value === regime);
     if (recommendation) keep("recommendation_id", (value) => value === Number(recommendation));
     else { const noise = chosenNoise(); keep("noise_level_id", (value) => value === noise); }
+    if (cable) keep("cable", (value) => value === cable);
     if (run) keep("run", (value) => value === Number(run));
     if (knowledge) keep("knowledge", (value) => knowledge.includes(value));
     return rowsAt(table, numbers).filter(passes);
@@ -136,6 +137,19 @@
     return filled;
   }
 
+  // On a narrow screen the columns of a facet become rows; with rows already, each panel names both.
+  const narrowest_panel_px = 150;
+  function oneBelowTheOther(template) {
+    const { row, column } = template.facet;
+    const header = { labelFontWeight: 600, ...row?.header, ...column.header, orient: "top", labelAnchor: "start" };
+    if (!row) {
+      template.facet = { row: { ...column, header } };
+      return;
+    }
+    template.transform = [...(template.transform ?? []), { calculate: `datum['${row.field}'] + ', ' + datum['${column.field}']`, as: "row_and_column" }];
+    template.facet = { row: { field: "row_and_column", title: null, sort: null, header } };
+  }
+
   function specOf(figure, trim, width_px) {
     const info = about(figure);
     const datasets = {};
@@ -152,6 +166,13 @@
       frame = frame / columns;
       columns = 1;
     }
+    const beside = (room - frame - (info.gap_px ?? 0) * (columns - 1)) / columns;
+    if (template.facet?.column && columns > 1 && beside < narrowest_panel_px) {
+      oneBelowTheOther(template);
+      const panels = columns * (info.rows_by ? distinct(rows, info.rows_by).length : 1);
+      figure.querySelector(".chart").style.minHeight = panels * (info.panel_height_px + 44) + info.frame_height_px + "px";
+      columns = 1;
+    }
     const labels = template.data?.name === "paper_comparison" ? Math.min(frame - 30, room * 0.45) : frame;
     if (labels < frame) frame = labels + 30;
     const width = Math.max(110, Math.floor((room - frame - (info.gap_px ?? 0) * (columns - 1)) / columns));
@@ -162,21 +183,22 @@
       "@objective": rows[0]?.scope === "minimax_regret" ? "largest regret [N]" : "mean tension error [N]",
       "@family_order": named.family.domain,
     };
-    for (const name of ["ink", "quiet", "accent", "sensor", "soft", "paper"]) words["@" + name] = css("--" + name);
+    for (const name of ["ink", "quiet", "accent", "sensor", "soft", "paper", "known", "unknown"]) words["@" + name] = css("--" + name);
     const spec = fill(template, named, words);
     delete spec.usermeta;
     const title = figure.querySelector("h3").firstChild.textContent;
     const caption = figure.querySelector("figcaption").textContent;
-    return { ...spec, datasets, description: title + ". " + caption, config: theme(), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
+    return { ...spec, datasets, description: title + ". " + caption, config: theme(room), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
   }
 
-  function theme() {
+  const narrow_px = 520;
+  function theme(room = Infinity) {
     const ink = css("--ink"), quiet = css("--quiet"), line = css("--line"), font = css("--font");
     return {
       font, view: { stroke: line },
       axis: { labelColor: quiet, titleColor: ink, gridColor: line, domainColor: line, tickColor: line, labelFontSize: 11, titleFontSize: 12, titleFontWeight: 500, titlePadding: 8 },
-      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18 },
-      header: { labelColor: ink, titleColor: ink, labelFontSize: 12, labelFontWeight: 600, labelLimit: 400 },
+      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18, ...(room < narrow_px && { columns: Math.max(1, Math.floor((room - 80) / 110)) }) },
+      header: { labelColor: ink, titleColor: ink, labelFontSize: 12, labelFontWeight: 600, labelLimit: Math.min(400, room - 100) },
       title: { color: ink, fontSize: 12, fontWeight: 600 },
       mark: { aria: false },
     };
@@ -217,6 +239,10 @@
       done.finalize();
       done = await vegaEmbed(place, specOf(figure, excess + 1), options);
     }
+    // What Vega marks as a symbol without a name is part of the chart, which has one; a chart that scrolls can be reached.
+    for (const part of chart.querySelectorAll("svg g[role]:not([aria-label])")) part.removeAttribute("role");
+    if (chart.scrollWidth > chart.clientWidth) chart.tabIndex = 0;
+    else chart.removeAttribute("tabindex");
     figure.view = done.view;
     const data = figure.querySelector("details.data");
     if (data.open) showRows(figure);
@@ -288,22 +314,21 @@
   // ---- a figure and its data as files
   const scale_of_pixels = 2;  // sharp in print
   // In the colours of print, whatever the theme of the screen is. The page itself is not painted in between.
-  function specOnPaper(figure, width_px) {
+  function asOnPaper(make) {
     const state = document.documentElement.dataset;
-    if (onPaper()) return specOf(figure, 0, width_px);
+    if (onPaper()) return make();
     state.paper = "";
     try {
-      return specOf(figure, 0, width_px);
+      return make();
     } finally {
       delete state.paper;
     }
   }
-  const viewOnPaper = (figure, width_px) =>
-    new vega.View(vega.parse(vegaLite.compile(specOnPaper(figure, width_px)).spec), { renderer: "none" }).runAsync();
+  const viewOnPaper = (make) => new vega.View(vega.parse(vegaLite.compile(asOnPaper(make)).spec), { renderer: "none" }).runAsync();
   const ways = {
-    SVG: async (figure) => new Blob([await (await viewOnPaper(figure)).toSVG()], { type: "image/svg+xml" }),
-    PNG: async (figure) => {
-      const canvas = await (await viewOnPaper(figure)).toCanvas(scale_of_pixels);
+    SVG: async (make) => new Blob([await (await viewOnPaper(make)).toSVG()], { type: "image/svg+xml" }),
+    PNG: async (make) => {
+      const canvas = await (await viewOnPaper(make)).toCanvas(scale_of_pixels);
       return new Promise((made) => canvas.toBlob(made, "image/png"));
     },
   };
@@ -312,7 +337,7 @@
     const files = [];
     for (const figure of document.querySelectorAll("figure[data-figure]")) {
       if (rowsOf(figure, about(figure).tables[0]).length === 0) continue;
-      const view = await viewOnPaper(figure, width_px);
+      const view = await viewOnPaper(() => specOf(figure, 0, width_px));
       files.push({ name: figure.id, svg: await view.toSVG(), png: (await view.toCanvas(4)).toDataURL("image/png") });
     }
     const place = document.body.appendChild(document.createElement("pre"));
@@ -326,11 +351,11 @@
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);
   }
-  function saveButtons(figure) {
+  // `tables`: [words of the button, name of the file, columns, rows when asked]
+  function buttonsOf(name, title, make, tables) {
     const group = document.createElement("div");
     group.className = "save";
     group.setAttribute("role", "group");
-    const title = figure.querySelector("h3").firstChild.textContent.trim();
     group.setAttribute("aria-label", "Save: " + title);
     const add = (words, save) => {
       const button = group.appendChild(document.createElement("button"));
@@ -339,14 +364,14 @@
       button.setAttribute("aria-label", words + " of " + title);
       button.addEventListener("click", save);
     };
-    for (const [way, made] of Object.entries(ways))
-      add(way, async () => hand_over(figure.id + "." + way.toLowerCase(), await made(figure)));
-    const { tables: names } = about(figure);
-    for (const name of names) {
-      add(names.length === 1 ? "CSV" : "CSV: " + name.replaceAll("_", " "), () =>
-        hand_over(figure.id + "-" + name + ".csv", new Blob([csv(study.tables[name].columns, rowsOf(figure, name))], { type: "text/csv" })));
-    }
+    for (const [way, made] of Object.entries(ways)) add(way, async () => hand_over(name + "." + way.toLowerCase(), await made(make)));
+    for (const [words, file, columns, rows] of tables) add(words, () => hand_over(file + ".csv", new Blob([csv(columns(), rows())], { type: "text/csv" })));
     return group;
+  }
+  function saveButtons(figure) {
+    const { tables: names } = about(figure);
+    return buttonsOf(figure.id, figure.querySelector("h3").firstChild.textContent.trim(), () => specOf(figure, 0),
+      names.map((name) => [names.length === 1 ? "CSV" : "CSV: " + name.replaceAll("_", " "), figure.id + "-" + name, () => study.tables[name].columns, () => rowsOf(figure, name)]));
   }
 
   function showRows(figure) {
@@ -411,7 +436,10 @@
   // For a page that changes while it is open.
   window.capstanPage = {
     tables: () => tables,
+    rowsOf,
+    about,
     titles: () => study.regime_titles,
+    saveButtons: (name, title, make, rows) => buttonsOf(name, title, make, [["CSV", name, () => Object.keys(rows()[0]), rows]]),
     looks: (rows) => ({ ...scales(rows), theme: theme() }),
     setFilter(filter) { passes = filter; return drawAll(); },
     reload() { load(); attach(); return drawAll(); },
