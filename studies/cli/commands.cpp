@@ -22,7 +22,9 @@ constexpr CommandTime times[] = {
      "As long as a study with the new number of repetitions. Shows progress and the time left."},
     {"study replay", "As long as one repetition of the study, mostly less than 2 s."},
     {"study merge", "Some seconds per gigabyte of shards. Shows progress."},
-    {"study plan", "As long as --seconds says, 10 s by default."},
+    {"study plan",
+     "The --seconds of its pilot, and the true motion of every study of the sweep: 20 s for configs/atlas.toml. Shows "
+     "progress and the time left."},
     {"place",
      "10 s for 11 nodes and 1000 repetitions; twice as long for each further node, and in proportion to the "
      "repetitions; a configuration with [uncertainty] takes minutes. Shows progress and the time left."},
