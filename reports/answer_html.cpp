@@ -37,12 +37,19 @@ std::string figures_html(const Tables& tables, const std::string& page, const st
     std::string html;
     for (const Figure& figure : figures()) {
         if (figure.page != page || figure.section != section) continue;
-        if (figure.per != "run") {
+        if (figure.per != "run" && figure.per != "run and cable") {
             html += figure_html(tables, figure, {});
             continue;
         }
-        for (const Row& run : tables["run"].each())
-            html += figure_html(tables, figure, {.regime = {}, .run = run.integer("run")});
+        const bool by_cable = figure.per == "run and cable";
+        for (const Row& run : tables["run"].each()) {
+            for (const char* cable : {"A", "B"}) {
+                FigureRows rows{.regime = {}, .run = run.integer("run")};
+                if (by_cable) rows.cable = cable;
+                html += figure_html(tables, figure, rows);
+                if (!by_cable) break;
+            }
+        }
     }
     return html;
 }

@@ -15,7 +15,7 @@ struct Figure {
     std::string title;                         // a heading
     std::map<std::string, std::string> paper;  // regime -> the paper's figure it redraws
     std::string caption;                       // what to see, one or two sentences
-    std::string per;                     // drawn once per 'regime', 'recommendation', 'run' or 'study' (page)
+    std::string per;  // drawn once per 'regime', 'recommendation', 'run', 'run and cable' or 'study' (page)
     std::vector<std::string> tables;     // of storage::report_queries(); all must have rows
     std::vector<std::string> knowledge;  // rows to draw by what the method knows; empty: all
     int panel_height_px = 0;

@@ -18,6 +18,7 @@ bool is_shown(const Table& table, const Row& row, const Figure& figure, const Fi
         return false;
     }
     if (shown.run != 0 && table.has_column("run") && row.integer("run") != shown.run) return false;
+    if (!shown.cable.empty() && table.has_column("cable") && row.text("cable") != shown.cable) return false;
     if (figure.knowledge.empty() || !table.has_column("knowledge")) return true;
     return std::find(figure.knowledge.begin(), figure.knowledge.end(), row.text("knowledge")) !=
            figure.knowledge.end();
@@ -61,13 +62,17 @@ std::string figure_html(const Tables& tables, const Figure& figure, const Figure
         id += fmt::format("-{}", rows.run);
         title = fmt::format("Run {}: {}", rows.run, figure.title);
     }
+    if (!rows.cable.empty()) {
+        id += fmt::format("-{}", rows.cable);
+        title = fmt::format("Run {}, cable {}: {}", rows.run, rows.cable, figure.title);
+    }
     const auto original = figure.paper.find(rows.regime);
     const std::string paper =
         original == figure.paper.end()
             ? ""
             : fmt::format(R"( <span class="paper-figure">paper: {}</span>)", escape_html(original->second));
     return fmt::format(
-        R"(<figure id="{id}" data-figure="{figure}" data-regime="{regime}" data-recommendation="{recommendation}" data-run="{run}">
+        R"(<figure id="{id}" data-figure="{figure}" data-regime="{regime}" data-recommendation="{recommendation}" data-run="{run}" data-cable="{cable}">
 <h3 id="{id}-title">{title}{paper}</h3>
 <div class="chart" role="group" aria-labelledby="{id}-title" aria-describedby="{id}-caption" style="min-height:{height}px"></div>
 <figcaption id="{id}-caption">{caption}</figcaption>
@@ -77,6 +82,7 @@ std::string figure_html(const Tables& tables, const Figure& figure, const Figure
         fmt::arg("id", escape_html(id)), fmt::arg("figure", escape_html(figure.id)),
         fmt::arg("regime", escape_html(rows.regime)),
         fmt::arg("recommendation", rows.recommendation_id == 0 ? "" : std::to_string(rows.recommendation_id)),
+        fmt::arg("cable", escape_html(rows.cable)),
         fmt::arg("run", rows.run == 0 ? "" : std::to_string(rows.run)), fmt::arg("title", escape_html(title)),
         fmt::arg("paper", paper),
         fmt::arg("height", chart_height_px(tables[figure.tables.front()], figure, rows)),

@@ -8,16 +8,18 @@
 namespace capstan::reports {
 namespace {
 
-constexpr const char* script_names[] = {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js", "page.js"};
+constexpr const char* live_scripts[] = {"pins.js", "hand.js", "live.js"};
 
 std::string scripts(PageFiles files) {
     std::string html;
     if (files == PageFiles::served) {
-        for (const char* name : script_names)
+        for (const char* name : page_scripts)
             html += fmt::format("<script src=\"/web/{}\"></script>\n", name);
-        return html + "<script src=\"/web/live.js\"></script>\n";
+        for (const char* name : live_scripts)
+            html += fmt::format("<script src=\"/web/{}\"></script>\n", name);
+        return html;
     }
-    for (const char* name : script_names) {
+    for (const char* name : page_scripts) {
         html += fmt::format("<script data-file=\"{}\">{}</script>\n", name, embedded_file(name));
     }
     return html;

@@ -21,8 +21,12 @@ struct PageFrame {
 
 enum class PageFiles {
     inside,  // the page is one self-contained file
-    served,  // style and scripts come from the service that sent the page, which adds live.js
+    served,  // style and scripts come from the service that sent the page, which adds its own
 };
+
+/// The scripts of every page, in the order in which they run.
+inline constexpr const char* page_scripts[] = {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js",
+                                               "page.js",     "figure_data.js",   "player.js"};
 
 /// Of this build, "0.2.0".
 std::string program_version();

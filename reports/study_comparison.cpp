@@ -64,9 +64,13 @@ std::vector<SettingDifference> setting_differences(const std::string& first_toml
 
 constexpr storage::QueryLimits patient{.time_limit_s = 300};  // the limit of a report
 
+constexpr double normal_95 = 1.959963984540054;
+
 struct Comparison {
     storage::StudyRecord first;
     storage::StudyRecord second;
+    std::string first_title;
+    std::string second_title;
     std::vector<Table> tables;
 
     const Table& operator[](std::string_view name) const {
@@ -75,32 +79,83 @@ struct Comparison {
     }
 };
 
-Table read(storage::Database& database, const ComparedStudies& studies, const char* name, const char* meaning,
-           std::string_view sql) {
-    auto result = storage::run_read_only(database, sql, {studies.first, studies.second}, patient);
+// The rows of both, sorted by the columns `order`.
+Table beside(const ComparedStudy& first, const ComparedStudy& second, const char* name, const char* meaning,
+             std::string_view sql, const std::vector<const char*>& order) {
+    auto result = storage::run_read_only(first.database, sql, {first.study_id, "first"}, patient);
+    auto other = storage::run_read_only(second.database, sql, {second.study_id, "second"}, patient);
+    result.rows.insert(result.rows.end(), other.rows.begin(), other.rows.end());
+    std::vector<std::size_t> columns;
+    for (const char* column : order)
+        columns.push_back(static_cast<std::size_t>(
+            std::find(result.columns.begin(), result.columns.end(), column) - result.columns.begin()));
+    std::stable_sort(result.rows.begin(), result.rows.end(), [&](const auto& a, const auto& b) {
+        for (const std::size_t k : columns)
+            if (a[k] != b[k]) return a[k] < b[k];
+        return false;
+    });
     return {name, meaning, std::move(result.columns), std::move(result.rows)};
 }
 
-Comparison compare(storage::Database& database, const ComparedStudies& studies) {
-    Comparison comparison{storage::load_study(database, studies.first).study,
-                          storage::load_study(database, studies.second).study,
-                          {}};
+// Errors of both where regime, noise label, layout family, count and method are the same. Intervals of
+// differences take the two studies' draws for independent.
+Table common_errors(const ComparedStudy& first, const ComparedStudy& second) {
+    constexpr std::size_t key_columns = 5, title = 5, error = 6, standard_error = 7;
+    const auto sql = storage::compared_errors_query;
+    const auto one = storage::run_read_only(first.database, sql, {first.study_id}, patient);
+    const auto other = storage::run_read_only(second.database, sql, {second.study_id}, patient);
+    const auto key_of = [](const std::vector<Value>& row) {
+        return std::vector<Value>(row.begin(), row.begin() + key_columns);
+    };
+    std::map<std::vector<Value>, const std::vector<Value>*> of_other;
+    for (const auto& row : other.rows) of_other[key_of(row)] = &row;
+    Table table{"compared_error",
+                "Errors of what both have, by layout, count and method",
+                {"regime", "noise", "family", "sensor_count", "method", "method_title", "first_error_N",
+                 "second_error_N", "difference_N", "interval_low_N", "interval_high_N"},
+                {}};
+    for (const auto& row : one.rows) {
+        const auto found = of_other.find(key_of(row));
+        if (found == of_other.end()) continue;
+        const auto number = [](const std::vector<Value>& from, std::size_t k) {
+            return std::get<double>(from[k]);
+        };
+        const double first_N = number(row, error), second_N = number(*found->second, error);
+        const double first_error = number(row, standard_error),
+                     second_error = number(*found->second, standard_error);
+        const double half_N = normal_95 * std::sqrt(first_error * first_error + second_error * second_error);
+        std::vector<Value> line = found->first;
+        const double difference_N = second_N - first_N;
+        line.insert(line.end(), {row[title], first_N, second_N, difference_N, difference_N - half_N,
+                                 difference_N + half_N});
+        table.rows.push_back(std::move(line));
+    }
+    return table;
+}
+
+std::string title_of(const ComparedStudy& study, const std::string& name, bool with_file) {
+    return fmt::format("study {} ({}){}", study.study_id, name,
+                       with_file ? " of " + study.database.path().filename().string() : "");
+}
+
+Comparison compare(const ComparedStudy& first, const ComparedStudy& second) {
+    Comparison comparison;
+    comparison.first = storage::load_study(first.database, first.study_id).study;
+    comparison.second = storage::load_study(second.database, second.study_id).study;
+    const bool with_file = first.database.path() != second.database.path();
+    comparison.first_title = title_of(first, comparison.first.name, with_file);
+    comparison.second_title = title_of(second, comparison.second.name, with_file);
     Table settings{"settings", "In what the configurations differ", {"key", "first", "second"}, {}};
     for (const auto& each : setting_differences(comparison.first.config_toml, comparison.second.config_toml))
         settings.rows.push_back({each.key, each.first, each.second});
     comparison.tables = {
         std::move(settings),
-        read(database, studies, "compared_recommendation", "What each recommends",
-             storage::compared_recommendations_query),
-        read(database, studies, "compared_best", "The best of each number of sensors, direction unknown",
-             storage::compared_best_query),
-        read(database, studies, "compared_error", "Errors of what both have, by layout, count and method",
-             storage::compared_errors_query)};
+        beside(first, second, "compared_recommendation", "What each recommends",
+               storage::compared_recommendations_query, {"scope", "regime", "noise", "series"}),
+        beside(first, second, "compared_best", "The best of each number of sensors, direction unknown",
+               storage::compared_best_query, {"question", "series", "sensor_count"}),
+        common_errors(first, second)};
     return comparison;
-}
-
-std::string title_of(const storage::StudyRecord& study) {
-    return fmt::format("study {} ({})", study.study_id, study.name);
 }
 
 // How many of the common errors differ significantly in the second study.
@@ -123,7 +178,7 @@ Data recommendation_rows(const Comparison& comparison) {
     for (const Row& row : comparison["compared_recommendation"].each()) {
         const std::string regime = row.text("regime");
         rows.push_back(
-            {{"study", row.text("series")},
+            {{"study", row.text("series") == "first" ? comparison.first_title : comparison.second_title},
              {"for", regime.empty() ? row.text("scope") : regime_title(regime)},
              {"noise", row.text("noise")},
              {"nodes", row.text("nodes")},
@@ -166,47 +221,48 @@ Data largest_rows(const Comparison& comparison) {
 
 }  // namespace
 
-Answer study_comparison(storage::Database& database, const ComparedStudies& studies) {
-    const Comparison comparison = compare(database, studies);
+Answer study_comparison(const ComparedStudy& first, const ComparedStudy& second) {
+    const Comparison comparison = compare(first, second);
     Answer answer{.id = "comparison",
                   .kind = "Comparison of two studies",
-                  .title = title_of(comparison.first) + " and " + title_of(comparison.second),
+                  .title = comparison.first_title + " and " + comparison.second_title,
                   .headline = verdict(comparison)};
     answer.values = Data::record();
     for (const Table& table : comparison.tables) answer.values[table.name] = data_of(table);
-    answer.sections = {{.id = "settings",
-                        .heading = "Settings that differ",
-                        .tables = {{"settings",
-                                    "",
-                                    {{"key", "key"}, {"first", "first study"}, {"second", "second study"}},
-                                    answer.values["settings"]}}},
-                       {.id = "advice",
-                        .heading = "Recommendations",
-                        .tables = {{"recommendations",
-                                    "",
-                                    {{"study", "study"},
-                                     {"for", "for"},
-                                     {"noise", "noise"},
-                                     {"nodes", "nodes"},
-                                     {"method", "method"},
-                                     {"error_N", "error", "N", ".3f"},
-                                     {"interval_95_N", "95% interval", "N", ".3f"}},
-                                    recommendation_rows(comparison)}}},
-                       {.id = "errors",
-                        .heading = "Estimation error",
-                        .tables = {{"differences",
-                                    "The most significant differences, second minus first",
-                                    {{"regime", "regime"},
-                                     {"noise", "noise"},
-                                     {"layout", "layout"},
-                                     {"sensor_count", "sensors"},
-                                     {"method", "method"},
-                                     {"first_error_N", "first", "N", ".3f"},
-                                     {"second_error_N", "second", "N", ".3f"},
-                                     {"difference_N", "difference", "N", "+.3f"},
-                                     {"interval_95_N", "95% interval", "N", "+.3f"}},
-                                    largest_rows(comparison)}},
-                        .note = "The intervals treat the draws of the two studies as independent."}};
+    answer.sections = {
+        {.id = "settings",
+         .heading = "Settings that differ",
+         .tables = {{"settings",
+                     "",
+                     {{"key", "key"}, {"first", comparison.first_title}, {"second", comparison.second_title}},
+                     answer.values["settings"]}}},
+        {.id = "advice",
+         .heading = "Recommendations",
+         .tables = {{"recommendations",
+                     "",
+                     {{"study", "study"},
+                      {"for", "for"},
+                      {"noise", "noise"},
+                      {"nodes", "nodes"},
+                      {"method", "method"},
+                      {"error_N", "error", "N", ".3f"},
+                      {"interval_95_N", "95% interval", "N", ".3f"}},
+                     recommendation_rows(comparison)}}},
+        {.id = "errors",
+         .heading = "Estimation error",
+         .tables = {{"differences",
+                     "The most significant differences, second minus first",
+                     {{"regime", "regime"},
+                      {"noise", "noise"},
+                      {"layout", "layout"},
+                      {"sensor_count", "sensors"},
+                      {"method", "method"},
+                      {"first_error_N", "first", "N", ".3f"},
+                      {"second_error_N", "second", "N", ".3f"},
+                      {"difference_N", "difference", "N", "+.3f"},
+                      {"interval_95_N", "95% interval", "N", "+.3f"}},
+                     largest_rows(comparison)}},
+         .note = "The intervals treat the draws of the two studies as independent."}};
     answer.csv_table = "compared_error";
     answer.drawn = comparison.tables;
     return answer;

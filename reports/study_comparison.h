@@ -1,6 +1,7 @@
 #pragma once
-// Two studies of one database compared: the differences of their configurations, their recommendations, and
-// the errors of the layouts and methods that both have. Reads only; an unknown study is a storage::Error.
+// Two studies compared, of one database or of two: the differences of their configurations, their
+// recommendations, and the errors of the layouts and methods that both have. Reads only; an unknown study is
+// a storage::Error.
 
 #include <cstdint>
 
@@ -9,11 +10,12 @@
 
 namespace capstan::reports {
 
-struct ComparedStudies {
-    std::int64_t first = 0;  // study_id
-    std::int64_t second = 0;
+struct ComparedStudy {
+    storage::Database& database;
+    std::int64_t study_id = 0;
 };
 
-Answer study_comparison(storage::Database& database, const ComparedStudies& studies);
+/// Where the databases differ, the studies are named with their files.
+Answer study_comparison(const ComparedStudy& first, const ComparedStudy& second);
 
 }  // namespace capstan::reports

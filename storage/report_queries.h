@@ -23,9 +23,8 @@ const std::vector<ReportQuery>& report_queries();
 // The database must have been opened with open_read_only. An unknown study gives empty tables.
 QueryResult read_report_table(Database& database, const ReportQuery& query, std::int64_t study_id);
 
-// Two studies (?1, ?2) beside each other.
-// Errors of both where regime, noise label, layout family, count and method are the same. Intervals of
-// differences take the two studies' draws for independent.
+// A study (?1) to be compared with another one; ?2 is the word that its rows begin with.
+// Its errors, by regime, noise label, layout family, method and count.
 extern const std::string_view compared_errors_query;
 
 // The best that needs no known direction, by count: one row a study, regime, noise label and count.

@@ -1,5 +1,6 @@
 "use strict";
-// Draws the page's figures from its tables and redraws them when the noise level, theme or width changes.
+// Draws the page's figures from its tables and redraws them when the noise level, theme or width changes. Their files and
+// rows are in figure_data.js.
 (() => {
   let study, tables;  // set by load()
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -68,7 +69,7 @@
   };
 
   function rowsOf(figure, name) {
-    const { regime, recommendation, run } = figure.dataset;
+    const { regime, recommendation, run, cable } = figure.dataset;
     const { knowledge } = about(figure);
     const table = study.tables[name];
     let numbers = allOf(table);
@@ -79,6 +80,7 @@
     if (regime) keep("regime", (value) => value === regime);
     if (recommendation) keep("recommendation_id", (value) => value === Number(recommendation));
     else { const noise = chosenNoise(); keep("noise_level_id", (value) => value === noise); }
+    if (cable) keep("cable", (value) => value === cable);
     if (run) keep("run", (value) => value === Number(run));
     if (knowledge) keep("knowledge", (value) => knowledge.includes(value));
     return rowsAt(table, numbers).filter(passes);
@@ -136,6 +138,19 @@
     return filled;
   }
 
+  // On a narrow screen the columns of a facet become rows; with rows already, each panel names both.
+  const narrowest_panel_px = 150;
+  function oneBelowTheOther(template) {
+    const { row, column } = template.facet;
+    const header = { labelFontWeight: 600, ...row?.header, ...column.header, orient: "top", labelAnchor: "start" };
+    if (!row) {
+      template.facet = { row: { ...column, header } };
+      return;
+    }
+    template.transform = [...(template.transform ?? []), { calculate: `datum['${row.field}'] + ', ' + datum['${column.field}']`, as: "row_and_column" }];
+    template.facet = { row: { field: "row_and_column", title: null, sort: null, header } };
+  }
+
   function specOf(figure, trim, width_px) {
     const info = about(figure);
     const datasets = {};
@@ -152,6 +167,13 @@
       frame = frame / columns;
       columns = 1;
     }
+    const beside = (room - frame - (info.gap_px ?? 0) * (columns - 1)) / columns;
+    if (template.facet?.column && columns > 1 && beside < narrowest_panel_px) {
+      oneBelowTheOther(template);
+      const panels = columns * (info.rows_by ? distinct(rows, info.rows_by).length : 1);
+      figure.querySelector(".chart").style.minHeight = panels * (info.panel_height_px + 44) + info.frame_height_px + "px";
+      columns = 1;
+    }
     const labels = template.data?.name === "paper_comparison" ? Math.min(frame - 30, room * 0.45) : frame;
     if (labels < frame) frame = labels + 30;
     const width = Math.max(110, Math.floor((room - frame - (info.gap_px ?? 0) * (columns - 1)) / columns));
@@ -162,21 +184,22 @@
       "@objective": rows[0]?.scope === "minimax_regret" ? "largest regret [N]" : "mean tension error [N]",
       "@family_order": named.family.domain,
     };
-    for (const name of ["ink", "quiet", "accent", "sensor", "soft", "paper"]) words["@" + name] = css("--" + name);
+    for (const name of ["ink", "quiet", "accent", "sensor", "soft", "paper", "known", "unknown"]) words["@" + name] = css("--" + name);
     const spec = fill(template, named, words);
     delete spec.usermeta;
     const title = figure.querySelector("h3").firstChild.textContent;
     const caption = figure.querySelector("figcaption").textContent;
-    return { ...spec, datasets, description: title + ". " + caption, config: theme(), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
+    return { ...spec, datasets, description: title + ". " + caption, config: theme(room), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
   }
 
-  function theme() {
+  const narrow_px = 520;
+  function theme(room = Infinity) {
     const ink = css("--ink"), quiet = css("--quiet"), line = css("--line"), font = css("--font");
     return {
       font, view: { stroke: line },
       axis: { labelColor: quiet, titleColor: ink, gridColor: line, domainColor: line, tickColor: line, labelFontSize: 11, titleFontSize: 12, titleFontWeight: 500, titlePadding: 8 },
-      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18 },
-      header: { labelColor: ink, titleColor: ink, labelFontSize: 12, labelFontWeight: 600, labelLimit: 400 },
+      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18, ...(room < narrow_px && { columns: Math.max(1, Math.floor((room - 80) / 110)) }) },
+      header: { labelColor: ink, titleColor: ink, labelFontSize: 12, labelFontWeight: 600, labelLimit: Math.min(400, room - 100) },
       title: { color: ink, fontSize: 12, fontWeight: 600 },
       mark: { aria: false },
     };
@@ -217,9 +240,13 @@
       done.finalize();
       done = await vegaEmbed(place, specOf(figure, excess + 1), options);
     }
+    // What Vega marks as a symbol without a name is part of the chart, which has one; a chart that scrolls can be reached.
+    for (const part of chart.querySelectorAll("svg g[role]:not([aria-label])")) part.removeAttribute("role");
+    if (chart.scrollWidth > chart.clientWidth) chart.tabIndex = 0;
+    else chart.removeAttribute("tabindex");
     figure.view = done.view;
     const data = figure.querySelector("details.data");
-    if (data.open) showRows(figure);
+    if (data.open) window.capstanPage.showRows(figure);
   }
 
   // For printing: synchronous, in black, as wide as the paper.
@@ -267,138 +294,6 @@
     performance.mark("all figures are drawn");
   }
 
-  // ---- the rows behind a figure
-  const shown = (value) => typeof value === "number" && !Number.isInteger(value) ? value.toPrecision(4) : value ?? "";
-  const field = (value) => /[",\r\n]/.test(value) ? '"' + String(value).replaceAll('"', '""') + '"' : value ?? "";
-  const csv = (columns, rows) => [columns, ...rows.map((row) => columns.map((column) => row[column]))].map((line) => line.map(field).join(",")).join("\r\n") + "\r\n";
-
-  function download(name, columns, rows) {
-    const link = document.createElement("a");
-    link.textContent = name + ".csv";
-    link.download = name + ".csv";
-    link.href = "#";
-    link.addEventListener("click", () => {  // made on demand, so that the page holds no copies
-      const address = URL.createObjectURL(new Blob([csv(columns, rows())], { type: "text/csv" }));
-      link.href = address;
-      setTimeout(() => URL.revokeObjectURL(address), 60000);
-    });
-    return link;
-  }
-
-  // ---- a figure and its data as files
-  const scale_of_pixels = 2;  // sharp in print
-  // In the colours of print, whatever the theme of the screen is. The page itself is not painted in between.
-  function specOnPaper(figure, width_px) {
-    const state = document.documentElement.dataset;
-    if (onPaper()) return specOf(figure, 0, width_px);
-    state.paper = "";
-    try {
-      return specOf(figure, 0, width_px);
-    } finally {
-      delete state.paper;
-    }
-  }
-  const viewOnPaper = (figure, width_px) =>
-    new vega.View(vega.parse(vegaLite.compile(specOnPaper(figure, width_px)).spec), { renderer: "none" }).runAsync();
-  const ways = {
-    SVG: async (figure) => new Blob([await (await viewOnPaper(figure)).toSVG()], { type: "image/svg+xml" }),
-    PNG: async (figure) => {
-      const canvas = await (await viewOnPaper(figure)).toCanvas(scale_of_pixels);
-      return new Promise((made) => canvas.toBlob(made, "image/png"));
-    },
-  };
-  // `capstan report --figures` opens the page with #figures=WIDTH and reads what this leaves in it.
-  async function leaveFigureFiles(width_px) {
-    const files = [];
-    for (const figure of document.querySelectorAll("figure[data-figure]")) {
-      if (rowsOf(figure, about(figure).tables[0]).length === 0) continue;
-      const view = await viewOnPaper(figure, width_px);
-      files.push({ name: figure.id, svg: await view.toSVG(), png: (await view.toCanvas(4)).toDataURL("image/png") });
-    }
-    const place = document.body.appendChild(document.createElement("pre"));
-    place.id = "figure-files";
-    place.textContent = btoa(unescape(encodeURIComponent(JSON.stringify(files))));
-  }
-  function hand_over(name, blob) {
-    const link = document.createElement("a");
-    link.download = name;
-    link.href = URL.createObjectURL(blob);
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-  }
-  function saveButtons(figure) {
-    const group = document.createElement("div");
-    group.className = "save";
-    group.setAttribute("role", "group");
-    const title = figure.querySelector("h3").firstChild.textContent.trim();
-    group.setAttribute("aria-label", "Save: " + title);
-    const add = (words, save) => {
-      const button = group.appendChild(document.createElement("button"));
-      button.type = "button";
-      button.textContent = words;
-      button.setAttribute("aria-label", words + " of " + title);
-      button.addEventListener("click", save);
-    };
-    for (const [way, made] of Object.entries(ways))
-      add(way, async () => hand_over(figure.id + "." + way.toLowerCase(), await made(figure)));
-    const { tables: names } = about(figure);
-    for (const name of names) {
-      add(names.length === 1 ? "CSV" : "CSV: " + name.replaceAll("_", " "), () =>
-        hand_over(figure.id + "-" + name + ".csv", new Blob([csv(study.tables[name].columns, rowsOf(figure, name))], { type: "text/csv" })));
-    }
-    return group;
-  }
-
-  function showRows(figure) {
-    const place = figure.querySelector(".data-rows");
-    place.replaceChildren();
-    for (const name of about(figure).tables) {
-      const { columns, meaning } = study.tables[name];
-      const rows = rowsOf(figure, name);
-      const words = document.createElement("p");
-      words.append(meaning + " – ", rows.length + " rows: ", download(figure.id + "-" + name, columns, () => rows));
-      const scroll = document.createElement("div");
-      scroll.className = "scroll tall";
-      scroll.tabIndex = 0;
-      scroll.setAttribute("role", "region");
-      scroll.setAttribute("aria-label", meaning);
-      const table = scroll.appendChild(document.createElement("table"));
-      const head = table.createTHead().insertRow();
-      for (const column of columns) {
-        const cell = head.appendChild(document.createElement("th"));
-        cell.scope = "col";
-        cell.textContent = column;
-      }
-      const body = table.createTBody();
-      for (const row of rows) {
-        const line = body.insertRow();
-        for (const column of columns) {
-          const cell = line.insertCell();
-          cell.textContent = shown(row[column]);
-          if (typeof row[column] === "number") cell.className = "number";
-        }
-      }
-      place.append(words, scroll);
-    }
-  }
-
-  // ---- controls in the text of the page
-  function attach() {
-    for (const figure of document.querySelectorAll("figure[data-figure]")) {
-      figure.querySelector("details.data").before(saveButtons(figure));
-      figure.querySelector("details.data").addEventListener("toggle", (event) => {
-        if (event.target.open) showRows(figure);
-      });
-    }
-    const downloads = document.getElementById("downloads");
-    for (const [name, table] of Object.entries(study.tables)) {
-      if (!downloads || table.rows === 0) continue;
-      const item = downloads.appendChild(document.createElement("li"));
-      item.append(download(name, table.columns, () => tables[name]), " " + table.meaning + " (" + table.rows + " rows)");
-    }
-    for (const box of document.querySelectorAll('input[name="noise"]')) box.addEventListener("change", drawAll);
-  }
-
   // ---- events that redraw
   dark.addEventListener("change", drawAll);
   let lastWidth = document.documentElement.clientWidth, timer = 0;
@@ -408,19 +303,14 @@
     clearTimeout(timer);
     timer = setTimeout(drawAll, 150);
   });
-  // For a page that changes while it is open.
+  // For the other scripts of the page: figure_data.js, which begins, and those of the service.
   window.capstanPage = {
     tables: () => tables,
     titles: () => study.regime_titles,
+    tableOf: (name) => study.tables[name],
+    tableNames: () => Object.keys(study.tables),
+    rowsOf, about, specOf, onPaper, load, drawAll,
     looks: (rows) => ({ ...scales(rows), theme: theme() }),
     setFilter(filter) { passes = filter; return drawAll(); },
-    reload() { load(); attach(); return drawAll(); },
   };
-  const asked = /^#figures=(\d+)$/.exec(location.hash);
-  if (asked) {
-    load();
-    leaveFigureFiles(Number(asked[1]));
-  } else {
-    window.capstanPage.reload();
-  }
 })();

@@ -1,5 +1,5 @@
 "use strict";
-// The front page of `capstan serve`: studies, the queue, diagnoses.
+// The front page of `capstan serve`: studies, the queue, diagnoses. Starting is in start.js.
 (() => {
   const at = (id) => document.getElementById(id);
 
@@ -18,12 +18,27 @@
     made.append(...children);
     return made;
   }
-  globalThis.capstanPage = { at, ask, get, post, element };  // for import.js and query.js
   const cell = (...children) => element("td", {}, ...children);
   const link = (href, text) => element("a", { href, textContent: text });
 
+  // A command's messages, one a line: equal ones are told once, with the places that they hold for.
+  function problemList(message) {
+    const groups = new Map();
+    for (const line of message.split("\n").map((each) => each.trim()).filter(Boolean)) {
+      const [, place, words] = /^(?:capstan: )?(?:\S*[/\\])?([^\s:]+:\d+|[^\s:]+\.\w+):\s+(.*)$/.exec(line) ?? [null, "", line.replace(/^capstan: /, "")];
+      groups.set(words, [...(groups.get(words) ?? []), place]);
+    }
+    return [...groups].map(([words, places]) => {
+      const named = [...new Set(places.filter(Boolean))];
+      const where = named.length > 4 ? `${named.slice(0, 3).join(", ")} and ${named.length - 3} more` : named.join(", ");
+      return element("li", { textContent: words + (where ? ` (${where})` : "") + (places.length > Math.max(1, named.length) ? ` – ${places.length} times` : "") });
+    });
+  }
+
   // ---- studies and queue
   const seconds = (s) => s < 90 ? Math.max(1, Math.round(s)) + " s" : s < 5400 ? Math.round(s / 60) + " min" : (s / 3600).toFixed(1) + " h";
+
+  globalThis.capstanPage = { at, ask, get, post, element, problemList, seconds };  // for the other scripts of the page
 
   function bar(fraction, words) {
     return [element("progress", { max: 1, value: fraction, ariaLabel: "done" }), " " + words];
@@ -53,7 +68,7 @@
   async function remove(id) {
     await post(`/api/studies/${id}/delete`);
     chosen.delete(id);
-    const undo = plainButton("Undo", "Bring study " + id + " back", () => {
+    const undo = plainButton("Undo", "Undo: bring study " + id + " back", () => {
       at("undo").replaceChildren();
       act(post(`/api/studies/${id}/restore`));
     });
@@ -71,7 +86,7 @@
     const begun = study.begun_utc ? new Date(study.begun_utc).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" }) : "";
     const actions = [
       ...(idle ? [plainButton("Resume", "Resume study " + id, () => act(post(`/api/studies/${id}/resume`)))] : []),
-      plainButton("Run again", "Run study " + id + " again", () => act(rerun(id))),
+      plainButton("Run again", "Run again: study " + id, () => act(rerun(id))),
       ...(busy ? [] : [plainButton("Delete", "Delete study " + id, () => act(remove(id)))]),
     ];
     return element("tr", {},
@@ -85,12 +100,20 @@
     at("study-table").tBodies[0].replaceChildren(...studies.toReversed().filter(isWanted).map((study) => studyRow(study, jobs)));
   }
 
+  function showTrash(studies) {
+    at("trash").hidden = studies.length === 0;
+    at("trash").querySelector("summary").textContent = `Trash (${studies.length})`;
+    at("trash").querySelector("ul").replaceChildren(...studies.map((study) => element("li", {}, `Study ${study.study_id}, ${study.name} `,
+      plainButton("Restore", "Restore study " + study.study_id, () => act(post(`/api/studies/${study.study_id}/restore`))))));
+  }
+
   // What runs and waits comes first, then what ended last.
   const ofInterest = (jobs) => {
     const under_way = jobs.filter((job) => ["running", "queued"].includes(job.state));
     const ended = jobs.filter((job) => !under_way.includes(job)).toReversed();
     return { shown: [...under_way.slice(0, 30), ...ended.slice(0, 20)], under_way: under_way.length };
   };
+  const has_page = new Set(["place", "sensitivity", "estimate"]);
   function showJobs(jobs) {
     const { shown, under_way } = ofInterest(jobs);
     at("stop-all").hidden = under_way < 2;
@@ -99,9 +122,9 @@
       const activity = [job.activity, job.seconds_left > 0 ? "about " + seconds(job.seconds_left) + " left" : ""].filter(Boolean).join(", ");
       const does = ["queued", "running"].includes(job.state) ? "stop" : ["stopped", "failed"].includes(job.state) ? "resume" : "";
       const button = plainButton(does === "stop" ? "Stop" : "Resume", does + " job " + job.job, () => act(post("/api/jobs/" + job.job + "/" + does)));
-      const result = job.study_id ? link("/studies/" + job.study_id, "study " + job.study_id) : job.diagnosis_id ? link("/diagnoses/" + job.diagnosis_id, "diagnosis " + job.diagnosis_id) : "";
+      const result = job.study_id ? link("/studies/" + job.study_id, "study " + job.study_id) : job.diagnosis_id ? link("/diagnoses/" + job.diagnosis_id, "diagnosis " + job.diagnosis_id) : job.state === "done" && has_page.has(job.kind) ? link("/jobs/" + job.job, "answer " + job.job) : "";
       const row = element("tr", {}, element("th", { scope: "row", textContent: "Job " + job.job }), cell(job.kind + " " + job.title), cell(job.state),
-        cell(...(job.state === "running" ? bar(job.fraction, activity) : [job.message])), cell(result), cell(...(does ? [button] : [])));
+        cell(...(job.state === "running" ? bar(job.fraction, activity) : job.message ? [element("ul", { className: "problem-list" }, ...problemList(job.message))] : [])), cell(result), cell(...(does ? [button] : [])));
       row.dataset.state = job.state;
       return row;
     }));
@@ -112,11 +135,12 @@
   let shownState = "", shownDiagnoses = "";
   async function refresh() {
     try {
-      const [studies, jobs, diagnoses] = await Promise.all([get("/api/studies"), get("/api/jobs"), get("/api/diagnoses")]);
-      const state = JSON.stringify([studies, jobs, at("study-filter").value]);
+      const [studies, jobs, diagnoses, deleted] = await Promise.all([get("/api/studies"), get("/api/jobs"), get("/api/diagnoses"), get("/api/studies/deleted")]);
+      const state = JSON.stringify([studies, jobs, deleted, at("study-filter").value]);
       if (state !== shownState) {  // what has not changed keeps its focus
         showStudies(studies, jobs);
         showJobs(jobs);
+        showTrash(deleted);
         shownState = state;
       }
       if (JSON.stringify(diagnoses) !== shownDiagnoses) showDiagnoses(diagnoses);
@@ -130,51 +154,6 @@
     try { await promise; } catch (error) { at("notice").textContent = error.message; return; }
     refresh();
   }
-
-  // ---- starting a study
-  async function listConfigs() {
-    for (const name of await get("/api/configs")) at("config-name").append(element("option", { value: name, textContent: name }));
-  }
-  at("config-name").addEventListener("change", async () => {
-    const name = at("config-name").value;
-    if (name) at("config-text").value = await (await ask("/api/configs/" + encodeURIComponent(name))).text();
-  });
-  at("config-text").addEventListener("input", () => { at("config-name").value = ""; });
-  const wish = () => at("config-name").value ? { config: at("config-name").value } : { config_toml: at("config-text").value };
-  const asks_above_s = 60;
-  async function start() {
-    at("start-cost").hidden = true;
-    try {
-      await post("/api/studies", wish());
-      at("start-cost-words").textContent = "";
-      await refresh();
-      at("studies").scrollIntoView();
-    } catch (error) {
-      at("start-problem").textContent = error.message;
-    }
-  }
-  // Short studies start at once; of others the user sees the cost and decides.
-  at("start-form").addEventListener("submit", async (event) => {
-    event.preventDefault();
-    at("start-problem").textContent = "";
-    at("start-cost").hidden = true;
-    if (!at("config-name").value && !at("config-text").value.trim()) {
-      at("start-problem").textContent = "Choose a configuration, or write one.";
-      return;
-    }
-    at("start-cost-words").textContent = "Estimating the cost …";
-    let cost = { known: false };
-    try {
-      cost = await (await post("/api/studies/cost", wish())).json();
-    } catch { /* the start says what is wrong */ }
-    at("start-cost-words").textContent = "";
-    if (!cost.known || cost.seconds <= asks_above_s) return start();
-    at("start-cost-words").textContent = `${cost.studies === 1 ? "The study takes" : cost.studies + " studies take"} about ${seconds(cost.seconds)} on this machine.`;
-    at("start-cost").hidden = false;
-    at("start-anyway").focus();
-  });
-  at("start-anyway").addEventListener("click", start);
-  at("start-not").addEventListener("click", () => { at("start-cost").hidden = true; at("start-cost-words").textContent = ""; });
 
   // ---- diagnoses
   const percent = (fraction) => fraction == null ? "" : Math.round(100 * fraction) + "%";
@@ -200,27 +179,40 @@
   function showDiagnoses(rows) {
     at("diagnosis-list").replaceChildren(...rows.map(diagnosisCard));
   }
-  at("upload-form").addEventListener("submit", async (event) => {
-    event.preventDefault();
-    at("upload-problem").textContent = "";
+  // ---- recordings: diagnosed, or the tension estimated from them
+  function uploaded(leave_out) {
     const form = new FormData();
     form.append("log", at("log").files[0]);
     form.append("sidecar", at("sidecar").files[0]);
+    if (leave_out) form.append("leave_out", "each");
+    return { method: "POST", body: form };
+  }
+  const showUploadProblem = (message) => at("upload-problem").replaceChildren(...problemList(message));
+  at("upload-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    showUploadProblem("");
+    const wants_estimate = event.submitter?.value === "estimate", leave_out = at("leave-out").checked;
     try {
-      await ask("/api/diagnoses", { method: "POST", body: form });
+      if (wants_estimate) {
+        const cost = async () => (await ask("/api/estimates/cost", uploaded(leave_out))).json();
+        if (!await capstanPage.accepted("upload", "The estimate", cost)) return;
+      }
+      await ask(wants_estimate ? "/api/estimates" : "/api/diagnoses", uploaded(wants_estimate && leave_out));
       await refresh();
+      if (wants_estimate) at("jobs-title").scrollIntoView();
     } catch (error) {
-      at("upload-problem").textContent = error.message;
+      showUploadProblem(error.message);
     }
   });
 
   async function begin() {
-    await Promise.all([listConfigs(), refresh()]);
+    await Promise.all([capstanPage.listConfigs(), refresh()]);
     document.documentElement.dataset.ready = "yes";
     for (;;) {
       await new Promise((wake) => setTimeout(wake, document.hidden ? 5000 : 1000));
       await refresh();
     }
   }
-  begin();
+  capstanPage.refresh = refresh;
+  addEventListener("DOMContentLoaded", begin);
 })();

@@ -21,6 +21,9 @@ using reports::Table;
 
 // Of all curves together, so that the page stays below 3 MB.
 constexpr std::size_t drawn_estimate_samples = 15000;
+constexpr std::size_t drawn_along_rows = 24000;
+constexpr std::size_t max_drawn_along_samples = 300;  // of one run
+constexpr std::size_t max_drawn_nodes = 21;
 
 Table estimate_table() {
     return {"estimate",
@@ -29,24 +32,63 @@ Table estimate_table() {
             {}};
 }
 
+Table along_table() {
+    return {"along",
+            "The estimated tension along the cable; in each row also that at its ends",
+            {"run", "cable", "time_s", "place_m", "tension_N", "motor_N", "load_N", "load_low_N",
+             "load_high_N", "motor_end_m"},
+            {}};
+}
+
 // What the estimator that reads `used` says at the places of `drawn`.
-void draw(Table& table, const SensedCable& cable, const ChannelSet& used, const ChannelSet& drawn,
-          const ModelTrust& trust, double widening, const estimate::TrackingOptions& options,
-          std::size_t limit) {
+void draw_channels(Table& table, const SensedCable& cable, const ChannelSet& drawn, double widening,
+                   const Cable& cut, const TrackedSample& at) {
+    const SensedRun& run = cable.runs[at.run];
+    for (const std::size_t channel : drawn) {
+        const estimate::SensedChannel& sensed = cable.channels[channel];
+        const auto moments = at.at(spot_at(cut, sensed.position_m));
+        const double half_N = std::hypot(estimate::band_N(moments, widening), two_sided_95 * sensed.noise_N);
+        table.rows.push_back({std::int64_t{run.number},
+                              fmt::format("{} at {:.3f} m [N]", sensed.name, sensed.position_m),
+                              run.time_s[at.sample], run.reading_N[channel][at.sample], moments.mean_N,
+                              moments.mean_N - half_N, moments.mean_N + half_N});
+    }
+}
+
+// The ends, and so many nodes between them as a map can show.
+std::vector<std::size_t> drawn_nodes(std::size_t nodes) {
+    const std::size_t shown = std::min(nodes, max_drawn_nodes);
+    std::vector<std::size_t> chosen;
+    for (std::size_t k = 0; k < shown; ++k)
+        chosen.push_back((2 * k * (nodes - 1) + shown - 1) / (2 * (shown - 1)));
+    return chosen;
+}
+
+// Where no sensor is: at both ends, and at places along the cable.
+void draw_along(Table& table, const SensedCable& cable, double widening, const Cable& cut,
+                const TrackedSample& at) {
+    const SensedRun& run = cable.runs[at.run];
+    const auto load = at.at_node(at.nodes() - 1);
+    const double half_N = estimate::band_N(load, widening);
+    for (const std::size_t node : drawn_nodes(at.nodes())) {
+        table.rows.push_back({std::int64_t{run.number}, cable.name, run.time_s[at.sample],
+                              cut.node_position_m(static_cast<int>(node)), at.at_node(node).mean_N,
+                              at.at_node(0).mean_N, load.mean_N, load.mean_N - half_N, load.mean_N + half_N,
+                              run.ends[at.sample].proximal_displacement_m});
+    }
+}
+
+// `along` may be null.
+void draw(Table& table, Table* along, const SensedCable& cable, const ChannelSet& used,
+          const ChannelSet& drawn, const ModelTrust& trust, double widening,
+          const estimate::TrackingOptions& options, std::size_t limit, std::size_t along_limit) {
     const Cable cut(cable.specification_in(cable.runs.front()));
     track(cable, used, trust, options, [&](const TrackedSample& at) {
-        const SensedRun& run = cable.runs[at.run];
-        if (at.sample % reports::drawn_every(run.time_s.size(), limit) != 0) return;
-        for (const std::size_t channel : drawn) {
-            const estimate::SensedChannel& sensed = cable.channels[channel];
-            const auto moments = at.at(spot_at(cut, sensed.position_m));
-            const double half_N =
-                std::hypot(estimate::band_N(moments, widening), two_sided_95 * sensed.noise_N);
-            table.rows.push_back({std::int64_t{run.number},
-                                  fmt::format("{} at {:.3f} m [N]", sensed.name, sensed.position_m),
-                                  run.time_s[at.sample], run.reading_N[channel][at.sample], moments.mean_N,
-                                  moments.mean_N - half_N, moments.mean_N + half_N});
-        }
+        const std::size_t samples = cable.runs[at.run].time_s.size();
+        if (at.sample % reports::drawn_every(samples, limit) == 0)
+            draw_channels(table, cable, drawn, widening, cut, at);
+        if (along != nullptr && at.sample % reports::drawn_every(samples, along_limit) == 0)
+            draw_along(*along, cable, widening, cut, at);
     });
 }
 
@@ -93,8 +135,8 @@ reports::Answer left_out_answer(const Recording& recording, const std::vector<Le
         for (const LeftOutChannel& result : cable.channels) {
             const std::size_t one[] = {result.channel};
             if (figures == Figures::drawn)
-                draw(drawn, *cable.cable, all_but(*cable.cable, one), {result.channel}, result.trust,
-                     result.widening, options, drawn_estimate_samples / std::max<std::size_t>(1, curves));
+                draw(drawn, nullptr, *cable.cable, all_but(*cable.cable, one), {result.channel}, result.trust,
+                     result.widening, options, drawn_estimate_samples / std::max<std::size_t>(1, curves), 1);
             min_coverage = std::min(min_coverage, result.coverage);
             all_widened = all_widened && result.widening_known;
             answer.values["channels"].push_back(channel_data(*cable.cable, result));
@@ -139,16 +181,23 @@ reports::Answer estimate_answer(const Recording& recording, const std::vector<Se
                                 const std::vector<estimate::EstimatorTuning>& estimates,
                                 const estimate::TrackingOptions& options, Figures figures) {
     reports::Answer answer = answer_about(recording);
-    answer.headline = "the tension from all channels together, drawn where a sensor can be compared with it.";
+    answer.headline =
+        "the tension from all channels together: at the load, along each cable, and where a sensor can be compared with it.";
     answer.values = {{"case", recording.name}, {"cables", Data::list()}};
     Table drawn = estimate_table();
-    std::size_t curves = 0;
-    for (const SensedCable& cable : cables) curves += cable.channels.size() * cable.runs.size();
+    Table along = along_table();
+    std::size_t curves = 0, maps = 0;
+    for (const SensedCable& cable : cables) {
+        curves += cable.channels.size() * cable.runs.size();
+        maps += cable.runs.size();
+    }
+    const std::size_t along_samples = std::clamp<std::size_t>(
+        drawn_along_rows / (max_drawn_nodes * std::max<std::size_t>(1, maps)), 2, max_drawn_along_samples);
     for (std::size_t c = 0; c < cables.size(); ++c) {
         const ChannelSet all = all_but(cables[c], {});
         if (figures == Figures::drawn)
-            draw(drawn, cables[c], all, all, estimates[c].trust, estimates[c].widening, options,
-                 drawn_estimate_samples / std::max<std::size_t>(1, curves));
+            draw(drawn, &along, cables[c], all, all, estimates[c].trust, estimates[c].widening, options,
+                 drawn_estimate_samples / std::max<std::size_t>(1, curves), along_samples);
         Data channels = Data::list();
         for (const auto& channel : cables[c].channels) channels.push_back(channel.name);
         answer.values["cables"].push_back(
@@ -159,6 +208,10 @@ reports::Answer estimate_answer(const Recording& recording, const std::vector<Se
              {"widening", estimates[c].widening_known ? Data(estimates[c].widening) : Data()}});
     }
     answer.sections = {
+        {.id = "along",
+         .heading = "Where there is no sensor",
+         .prose =
+             "The tension at the load with its 95% band, along the cable, and at the load over that at the motor."},
         {.id = "runs",
          .heading = "Estimate from all channels",
          .tables = {{"cables",
@@ -171,7 +224,7 @@ reports::Answer estimate_answer(const Recording& recording, const std::vector<Se
                      answer.values["cables"]}},
          .note =
              "Each channel went into the estimate that is drawn over it; `--leave-out each` is the harder test."}};
-    answer.drawn = {run_table(recording), std::move(drawn)};
+    answer.drawn = {run_table(recording), std::move(drawn), std::move(along)};
     return answer;
 }
 
@@ -191,7 +244,7 @@ void add_model_of_estimate(reports::Answer& answer, const bench_model::BenchMode
                               {"runs", model.origin.runs},
                               {"verdict", model.origin.verdict},
                               {"not_used", not_used}};
-    std::string& prose = answer.sections.front().prose;
+    std::string& prose = answer.sections.back().prose;
     prose += (prose.empty() ? "" : " ") + model_use_sentence(model, not_used);
 }
 

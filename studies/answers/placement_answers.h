@@ -9,6 +9,7 @@
 #include "capstan/estimate/cycle_trial.h"
 #include "capstan/reports/answer.h"
 #include "capstan/search/placement_answer.h"
+#include "capstan/search/shared_budget.h"
 #include "capstan/sensitivity/advice_sensitivity.h"
 #include "capstan/sensitivity/world_sensitivity.h"
 #include "capstan/storage/database.h"
@@ -19,6 +20,19 @@ namespace capstan::answers {
 
 /// What `capstan place` found.
 reports::Answer place_answer(const StudyPlan& plan, const PlacementAnswer& found);
+
+/// One cable of several that share a budget of sensors.
+struct BudgetCable {
+    StudyPlan plan;
+    PlacementAnswer found;
+    double no_sensor_N = 0.0;  ///< error without a sensor; infinite if one is required
+};
+/// Errors of its best layouts [N], by number of sensors from 0; infinite where none is allowed.
+std::vector<double> errors_by_count_N(const BudgetCable& cable, int sensors);
+
+/// What `capstan budget` found; the last of `shares` is the answer.
+reports::Answer budget_answer(const std::vector<BudgetCable>& cables, const std::vector<BudgetShare>& shares,
+                              BudgetObjective objective);
 
 /// What `capstan sensitivity` found.
 reports::Answer sensitivity_answer(const StudyPlan& plan, const sensitivity::SensitivityAnswer& found);

@@ -11,11 +11,13 @@
 #include "capstan/calibration/least_squares.h"
 #include "capstan/calibration/twin_residuals.h"
 #include "capstan/platform/statistics.h"
+#include "capstan/platform/work_meter.h"
 
 namespace capstan::gap {
 
 namespace {
 
+constexpr int rounds = 3;  // fits to all runs; the scales of the first come from the nominal model's misfit
 // A parameter whose interval reaches twice or half its value counts as not identifiable.
 constexpr double min_known_factor = 2.0;
 // From this correlation on, two estimates are reported as trading with each other.
@@ -126,12 +128,15 @@ class Calibrator {
 
     Calibration run() {
         const std::vector<RunPart> all = residuals_.complete_runs();
+        const double runs = static_cast<double>(all.size());
+        constexpr double usual_iterations = 8.0;
+        expected_fits_ = rounds + (runs < 2 ? 0.0 : runs);
+        expect_work(expected_fits_ * usual_iterations * static_cast<double>(fitted_.size() + 1) * runs);
         start_ = start_of_search();
         const std::vector<double> nominal = nominal_values(*twin_);
         residuals_.set_scales(nominal);
         LogFit all_runs = fit(all);
-        // Two more fits, because the first one's scales came from the nominal model's misfit.
-        for (int round = 0; round < 2; ++round) {
+        for (int round = 1; round < rounds; ++round) {
             residuals_.set_scales(values_of(twin_->parameters(), fitted_, all_runs.fit.parameters));
             start_ = all_runs.fit.parameters;
             all_runs = fit(all);
@@ -139,6 +144,7 @@ class Calibrator {
         start_ = all_runs.fit.parameters;
         std::vector<LogFit> without = fits_without_a_run();
         while (!fitted_.empty() && drop_least_known(all_runs, half_widths(all_runs, without))) {
+            expected_fits_ += 1.0 + (runs < 2 ? 0.0 : runs);
             all_runs = fit(all);
             start_ = all_runs.fit.parameters;
             without = fits_without_a_run();
@@ -167,6 +173,8 @@ class Calibrator {
     LogFit fit(const std::vector<RunPart>& parts) {
         LogFit log_fit = fit_logs(residuals_, twin_->parameters(), fitted_, parts, start_);
         calibration_.evaluations += log_fit.fit.evaluations;
+        ++fits_;
+        if (MeterScope::meter() != nullptr) MeterScope::meter()->replan(fits_ / expected_fits_);
         return log_fit;
     }
 
@@ -255,6 +263,8 @@ class Calibrator {
     std::vector<int> fitted_;  // indices of the twin's parameters
     std::map<std::string, double> given_start_;
     Eigen::VectorXd start_;  // fitted: logarithms at which a fit starts
+    double fits_ = 0.0;
+    double expected_fits_ = 1.0;
     Calibration calibration_;
 };
 

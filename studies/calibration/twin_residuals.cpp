@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/platform/parallel_for.h"
+#include "capstan/platform/work_meter.h"
 #include "capstan/recording/driven_inputs.h"
 
 namespace capstan::gap {
@@ -78,6 +79,7 @@ Eigen::MatrixXd TwinResiduals::of(const std::vector<RunPart>& parts,
         const std::size_t column = static_cast<std::size_t>(task) / parts.size();
         const std::size_t run = parts[part].run;
         const TwinRun twin_run = twin_.run(run, values[column]);
+        note_work();
         Eigen::Index row = first_row[part];
         for (const RunPart& block : blocks({parts[part]})) {
             for (const int index : predicted_[run]) {

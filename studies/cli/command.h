@@ -72,6 +72,9 @@ struct Command {
     bool can_be_stopped = false;  ///< by Ctrl-C, so that `capstan study resume` goes on
 };
 
+/// How long a command takes, in a sentence; the machine has two cores.
+std::string_view time_of(const Command& command);
+
 /// The exit codes that a command can return, each with its meaning.
 std::vector<ExitCodeMeaning> exit_codes_of(const Command& command);
 

@@ -41,7 +41,10 @@ ExitCode run_calibrate(const Invocation& invocation) {
         for (const gap::FittedNumber& number : calibration_numbers(*model))
             options.start[number.name] = number.value;
     }
-    reports::Answer answer = answers::calibration_answer(recording, gap::calibrate(recording, options));
+    ShownWork work(invocation, recording.name);
+    const gap::Calibration calibration = gap::calibrate(recording, options);
+    work.end();
+    reports::Answer answer = answers::calibration_answer(recording, calibration);
     if (model) answers::add_model_of_calibration(answer, *model);
     if (invocation.has("save")) write_file(invocation.text("save"), reports::answer_json(answer));
     deliver_answer(invocation, answer);
@@ -79,7 +82,7 @@ Command calibrate_command() {
                     .value = "FILE",
                     .meaning =
                         "Also write the parameters to FILE, for `capstan simulate LOG --parameters FILE`."},
-             jobs_option, output_option, json_option, help_option},
+             jobs_option, output_option, json_option, progress_option, help_option},
         .examples = {"capstan calibrate bench.csv",
                      "capstan calibrate bench.csv --fit dynamic_friction,pretension --json",
                      "capstan calibrate later.csv --runs 1,3 --model model.toml"},
@@ -95,7 +98,10 @@ ExitCode run_duty(const Invocation& invocation) {
     options.segments = static_cast<int>(invocation.integer("segments"));
     options.still_m_per_s = 1e-3 * invocation.number("still");
     if (invocation.has("parameters")) options.parameters = invocation.text("parameters");
-    deliver_answer(invocation, answers::duty_answer(recording, duty::measure_duty(recording, options)));
+    ShownWork work(invocation, recording.name);
+    const duty::DutyCycle duty = duty::measure_duty(recording, options);
+    work.end();
+    deliver_answer(invocation, answers::duty_answer(recording, duty));
     return ExitCode::success;
 }
 
@@ -126,6 +132,7 @@ Command duty_command() {
                  jobs_option,
                  output_option,
                  json_option,
+                 progress_option,
                  help_option},
             .examples = {"capstan duty bench.csv",
                          "capstan duty bench.csv --parameters fitted.json --json -o duty.json"},

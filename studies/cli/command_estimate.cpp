@@ -117,8 +117,27 @@ ExitCode score_layouts(const Invocation& invocation) {
     options.jobs = static_cast<int>(invocation.integer("jobs"));
     if (invocation.has("repetitions"))
         options.repetitions = static_cast<int>(invocation.integer("repetitions"));
-    deliver_answer(invocation, answers::cycle_answer(plan, score_cycles(plan, options), options.repetitions));
+    ShownWork work(invocation, plan.name);
+    const auto scores = score_cycles(plan, options);
+    work.end();
+    deliver_answer(invocation, answers::cycle_answer(plan, scores, options.repetitions));
     return ExitCode::success;
+}
+
+void expect_work_of(const Invocation& invocation, const std::vector<SensedCable>& cables,
+                    const estimate::TrackingOptions& options) {
+    for (const SensedCable& cable : cables) {
+        const double once = estimate::tracking_work(cable, options);
+        if (invocation.has("leave-out")) {
+            const auto channels =
+                static_cast<double>(named_channels(cable, invocation.text("leave-out")).size());
+            expect_work(estimate::leave_out_work(cable, static_cast<std::size_t>(channels), options) +
+                        (invocation.has("html") ? channels * once : 0.0));
+        } else {
+            expect_work(estimate::tuning_work(cable, options) + (invocation.has("html") ? once : 0.0) +
+                        (invocation.has("json") ? 0.0 : once));
+        }
+    }
 }
 
 ExitCode run_estimate(const Invocation& invocation) {
@@ -136,9 +155,12 @@ ExitCode run_estimate(const Invocation& invocation) {
     if (invocation.has("seed")) options.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     options.jobs = static_cast<int>(invocation.integer("jobs"));
     const auto figures = invocation.has("html") ? answers::Figures::drawn : answers::Figures::none;
+    ShownWork work(invocation, recording.name);
+    expect_work_of(invocation, cables, options);
     if (invocation.has("leave-out")) {
         const auto results = left_out_cables(cables, invocation.text("leave-out"), options);
         reports::Answer answer = answers::left_out_answer(recording, results, options, figures);
+        work.end();
         if (model) answers::add_model_of_estimate(answer, *model, modelled.not_used);
         deliver_answer(invocation, answer);
         return ExitCode::success;
@@ -149,16 +171,19 @@ ExitCode run_estimate(const Invocation& invocation) {
     if (model) answers::add_model_of_estimate(answer, *model, modelled.not_used);
     deliver_page(invocation, answer);
     if (invocation.has("json")) {
+        work.end();
         deliver(invocation, reports::answer_json(answer));
         return ExitCode::success;
     }
     if (const std::filesystem::path file = invocation.text("output"); exports::is_series_file(file)) {
         exports::write_series(file, estimated_series(cables, tuned, options));
+        work.end();
         return ExitCode::success;
     }
     if (model) say(answers::model_use_sentence(*model, modelled.not_used));
     std::string text = head_line(cables);
     for (std::size_t c = 0; c < cables.size(); ++c) append_cable(text, cables[c], tuned[c], options);
+    work.end();
     deliver(invocation, text);
     return ExitCode::success;
 }
@@ -216,7 +241,8 @@ Command estimate_command() {
         .arguments = {Argument{
             "LOG", "A recording (NAME.csv with NAME.json beside it), or a study's configuration (TOML)."}},
         .options = {leave_out_option, estimate_model_option, cut_option, members_option, repetitions_option,
-                    seed_option, jobs_option, output_option, json_option, page_option, help_option},
+                    seed_option, jobs_option, output_option, json_option, page_option, progress_option,
+                    help_option},
         .examples = {"capstan estimate bench.csv -o tensions.csv --html tensions.html",
                      "capstan estimate bench.csv -o tensions.mat",
                      "capstan estimate bench.csv --leave-out each",

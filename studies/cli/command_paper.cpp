@@ -58,12 +58,18 @@ auto run_every_setting(const Run& run) {
 
 ExitCode run_paper_solver(const Invocation& invocation) {
     std::vector<answers::RatesOfCable> rates;
-    for (const int segments : {1, 2, 3, 5, 10, 20, 40, 60}) {
+    const std::vector<int> all_segments{1, 2, 3, 5, 10, 20, 40, 60};
+    ShownWork work(invocation, "paper solver");
+    expect_work(static_cast<double>(all_segments.size()));
+    for (const int segments : all_segments) {
         rates.push_back(
             {segments, paper::race({paper::ComparedMotion::partial, segments, invocation.number("seconds")},
                                    {paper::linear_assumed_peer(), paper::generic_peer()})});
+        note_work();
     }
-    deliver_answer(invocation, answers::solver_answer(paper::compare_with_generic_solver(), rates));
+    const auto compared = paper::compare_with_generic_solver();
+    work.end();
+    deliver_answer(invocation, answers::solver_answer(compared, rates));
     return ExitCode::success;
 }
 
@@ -87,6 +93,7 @@ Command paper_solver_command() {
                         output_option,
                         page_option,
                         json_option,
+                        progress_option,
                         help_option},
             .examples = {"capstan paper solver", "capstan paper solver --html solver.html",
                          "capstan paper solver --json -o solver.json"},
@@ -283,8 +290,10 @@ ExitCode run_paper_estimation(const Invocation& invocation) {
              "configs/paper.toml or a variant of it with compare_with_paper = true"});
     RunOptions options;
     options.jobs = static_cast<int>(invocation.integer("jobs"));
-    deliver_answer(invocation,
-                   answers::paper_estimation_answer(paper::ablate_readings(config.plan, options)));
+    ShownWork work(invocation, config.plan.name);
+    const auto ablations = paper::ablate_readings(config.plan, options);
+    work.end();
+    deliver_answer(invocation, answers::paper_estimation_answer(ablations));
     return ExitCode::success;
 }
 
@@ -301,7 +310,8 @@ Command paper_estimation_command() {
             "the paper's numbers beside ours with and without each change, so that a reason that the comparison "
             "gives can be checked. Nothing is stored.",
         .arguments = {config_argument},
-        .options = {seed_option, repetitions_option, jobs_option, output_option, json_option, help_option},
+        .options = {seed_option, repetitions_option, jobs_option, output_option, json_option, progress_option,
+                    help_option},
         .examples = {"capstan paper estimation configs/paper.toml",
                      "capstan paper estimation configs/paper.toml --json -o ablations.json"},
         .run = run_paper_estimation};

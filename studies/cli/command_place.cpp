@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <limits>
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/cli/commands.h"
@@ -69,7 +70,9 @@ ExitCode run_place(const Invocation& invocation) {
     options.runners_up = static_cast<int>(invocation.integer("runners-up"));
     if (invocation.has("until-resolved")) options.resolve_to_N = invocation.number("until-resolved");
     options.on_progress = [](const std::string& message) { say(message); };
+    ShownWork work(invocation, config.plan.name);
     const PlacementAnswer answer = place_sensors(config.plan, options);
+    work.end();
     if (invocation.has("stats")) {
         say(fmt::format(
             "wall time: {:.2f} s to score {} candidates, {:.2f} s on independent draws, {:.2f} s in all",
@@ -131,6 +134,85 @@ Command place_command() {
                      "capstan place my.toml --until-resolved 0.005",
                      "capstan place my.toml --json | jq .scopes[0].counts"},
         .run = run_place};
+}
+
+namespace {
+
+void require_comparable(const StudyPlan& plan) {
+    refuse_worlds(plan, "budget");
+    if (plan.placement.objective != PlacementObjective::all_nodes)
+        throw UsageError(
+            fmt::format("capstan budget: {}: placement.objective must be all_nodes, so that the errors of "
+                        "the cables can be compared",
+                        plan.name));
+}
+
+ExitCode run_budget(const Invocation& invocation) {
+    std::vector<answers::BudgetCable> cables;
+    for (const std::string& file : invocation.repeated_argument()) {
+        config::ReadConfig config = config::read_config(file);
+        if (invocation.has("repetitions"))
+            config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
+        config::require_runnable(config);
+        require_comparable(config.plan);
+        cables.push_back({std::move(config.plan), {}, 0.0});
+    }
+    const auto sensors = static_cast<int>(invocation.integer("sensors"));
+    const BudgetObjective objective =
+        invocation.text("objective") == "mean" ? BudgetObjective::mean : BudgetObjective::largest;
+    std::vector<std::vector<double>> errors_N;
+    for (std::size_t c = 0; c < cables.size(); ++c) {
+        answers::BudgetCable& cable = cables[c];
+        PlacementOptions options;
+        options.jobs = static_cast<int>(invocation.integer("jobs"));
+        ShownWork work(invocation, fmt::format("cable {} of {}, {}", c + 1, cables.size(), cable.plan.name));
+        cable.found = place_sensors(cable.plan, options);
+        work.end();
+        cable.no_sensor_N = cable.plan.placement.required_nodes.empty()
+                                ? no_sensor_errors_N(cable.plan).at("duty_cycle")
+                                : std::numeric_limits<double>::infinity();
+        errors_N.push_back(answers::errors_by_count_N(cable, sensors));
+    }
+    deliver_answer(invocation,
+                   answers::budget_answer(cables, shared_budget(errors_N, sensors, objective), objective));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command budget_command() {
+    return {
+        .name = "budget",
+        .summary = "Share a number of sensors among several cables.",
+        .description =
+            "Searches the layouts of each CONFIG as `capstan place` does, and distributes at most N sensors over "
+            "the cables so that the mean of their expected errors over the duty cycle, or the largest of them, is "
+            "as small as possible. Prints the sensors of each cable and what smaller budgets give. A cable may "
+            "get none.",
+        .arguments = {{"CONFIG", "A study's configuration for each cable.", ArgumentNeed::one_or_more}},
+        .options = {{.name = "sensors",
+                     .kind = OptionKind::integer,
+                     .value = "N",
+                     .meaning = "The number of sensors for all cables together.",
+                     .default_value = "4",
+                     .low = 1,
+                     .high = 1000},
+                    {.name = "objective",
+                     .value = "mean|largest",
+                     .meaning =
+                         "What is to be small: the mean of the cables' errors, or the largest of them.",
+                     .default_value = "mean",
+                     .choices = {"mean", "largest"}},
+                    repetitions_option,
+                    jobs_option,
+                    output_option,
+                    page_option,
+                    json_option,
+                    progress_option,
+                    help_option},
+        .examples = {"capstan budget elbow.toml wrist.toml --sensors 4",
+                     "capstan budget a.toml b.toml c.toml --sensors 6 --objective largest --json"},
+        .run = run_budget};
 }
 
 }  // namespace capstan::cli

@@ -92,43 +92,45 @@ ExitCode run_query(const Invocation& invocation) {
 }  // namespace
 
 Command query_command() {
-    return {.name = "query",
-            .summary = "Run a read-only SQL query on the database.",
-            .description =
-                "Runs one SELECT on the results database and prints the rows. The views v_error_by_layout, "
-                "v_best_method, v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer "
-                "the usual questions; --schema explains every table, column and unit. A query cannot change "
-                "anything, is stopped after --time-limit, and gets at most 512 MB of memory.",
-            .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
-            .options = {{.name = "format",
-                         .value = "table|csv|json|md",
-                         .meaning =
-                             "Format of the rows; csv and json have full precision. md is only for --schema.",
-                         .default_value = "table",
-                         .choices = {"table", "csv", "json", "md"}},
-                        {.name = "schema",
-                         .kind = OptionKind::flag,
-                         .meaning = "Print all tables and views with their comments instead."},
-                        {.name = "time-limit",
-                         .kind = OptionKind::number,
-                         .value = "SECONDS",
-                         .meaning = "Stop the query after this time.",
-                         .default_value = "10",
-                         .low = 0.01,
-                         .high = 86400},
-                        {.name = "max-rows",
-                         .kind = OptionKind::integer,
-                         .value = "N",
-                         .meaning = "Cut the answer off after N rows, or after 8 MB, and say so.",
-                         .low = 1,
-                         .high = 1e9},
-                        database_option,
-                        output_option,
-                        {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
-                        help_option},
-            .examples = {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
-                         "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
-            .run = run_query};
+    return {
+        .name = "query",
+        .summary = "Run a read-only SQL query on the database.",
+        .description =
+            "Runs one SELECT on the results database and prints the rows. The views v_error_by_layout, "
+            "v_best_method, v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer "
+            "the usual questions; --schema explains every table, column and unit. A query cannot change "
+            "anything, is stopped after --time-limit, and gets at most 512 MB of memory. It also sees the rows of studies in "
+            "the trash, for which study_mark.is_deleted is 1.",
+        .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
+        .options = {{.name = "format",
+                     .value = "table|csv|json|md",
+                     .meaning =
+                         "Format of the rows; csv and json have full precision. md is only for --schema.",
+                     .default_value = "table",
+                     .choices = {"table", "csv", "json", "md"}},
+                    {.name = "schema",
+                     .kind = OptionKind::flag,
+                     .meaning = "Print all tables and views with their comments instead."},
+                    {.name = "time-limit",
+                     .kind = OptionKind::number,
+                     .value = "SECONDS",
+                     .meaning = "Stop the query after this time.",
+                     .default_value = "10",
+                     .low = 0.01,
+                     .high = 86400},
+                    {.name = "max-rows",
+                     .kind = OptionKind::integer,
+                     .value = "N",
+                     .meaning = "Cut the answer off after N rows, or after 8 MB, and say so.",
+                     .low = 1,
+                     .high = 1e9},
+                    database_option,
+                    output_option,
+                    {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
+                    help_option},
+        .examples = {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
+                     "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
+        .run = run_query};
 }
 
 }  // namespace capstan::cli

@@ -67,8 +67,14 @@ std::string chosen_report(const Invocation& invocation, storage::Database& datab
     if (stored.plan.uncertainty.is_stated)
         return answer_in(answers::conclusions_answer(database, id), format);
     if (!invocation.has("compare")) return study_report(database, id, format);
-    const std::int64_t other = storage::find_study(database, invocation.text("compare"));
-    return answer_in(reports::study_comparison(database, {other, id}), format);
+    if (!invocation.has("other-db")) {
+        const std::int64_t other = storage::find_study(database, invocation.text("compare"));
+        return answer_in(reports::study_comparison({database, other}, {database, id}), format);
+    }
+    storage::Database other_database = storage::Database::open_read_only(invocation.text("other-db"));
+    const std::int64_t other = storage::find_study(other_database, invocation.text("compare"));
+    refuse_worlds(load_stored_study(other_database, other).plan, "--compare");
+    return answer_in(reports::study_comparison({other_database, other}, {database, id}), format);
 }
 
 bool ends_in_pdf(const std::string& file) {
@@ -99,6 +105,9 @@ ExitCode run_report(const Invocation& invocation) {
     if (invocation.has("figures")) require_browser("--figures");
     const AnswerFormat format =
         as_pdf || figures_only ? AnswerFormat::html : answer_format(invocation, AnswerFormat::html);
+    if (invocation.has("other-db") && !invocation.has("compare"))
+        throw UsageError(
+            "capstan report: --other-db FILE names the database of --compare OTHER, which is missing");
     if (invocation.has("diagnosis") && invocation.has("compare"))
         throw UsageError(
             "capstan report: --diagnosis reports on a recording, --compare on two studies; give only one "
@@ -140,6 +149,9 @@ Command report_command() {
                     {.name = "compare",
                      .value = "OTHER",
                      .meaning = "Compare OTHER and STUDY: settings, recommendations, errors."},
+                    {.name = "other-db",
+                     .value = "FILE",
+                     .meaning = "The database that holds OTHER. Default: that of STUDY."},
                     {.name = "diagnosis",
                      .value = "NUMBER",
                      .meaning =
@@ -161,6 +173,7 @@ Command report_command() {
         .examples = {"capstan report -o report.html", "capstan report -o report.pdf",
                      "capstan report --figures figures --width 340", "capstan report paper --format md",
                      "capstan report -o errors.csv", "capstan report --compare 1 2 -o comparison.html",
+                     "capstan report latest --compare latest --other-db older.db -o comparison.html",
                      "capstan report --diagnosis latest -o diagnosis.html"},
         .run = run_report};
 }

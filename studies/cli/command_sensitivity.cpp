@@ -31,7 +31,9 @@ ExitCode run_sensitivity(const Invocation& invocation) {
     sensitivity::SensitivityOptions options;
     options.jobs = static_cast<int>(invocation.integer("jobs"));
     options.noise_index = noise_index_of(config.plan, invocation);
+    ShownWork work(invocation, config.plan.name);
     const auto answer = sensitivity::advice_sensitivity(config.plan, options);
+    work.end();
     deliver_answer(invocation, answers::sensitivity_answer(config.plan, answer));
     return ExitCode::success;
 }

@@ -24,7 +24,9 @@ ExitCode run_study_plan(const Invocation& invocation) {
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
     refuse_worlds(config.plan, "study plan");
     if (invocation.has("shards")) require_useful(plans, {1, static_cast<int>(invocation.integer("shards"))});
+    ShownWork work(invocation, config.plan.name);
     const StudyCost cost = predict_cost(plans, {invocation.number("seconds")});
+    work.end();
     const int shards =
         invocation.has("shards") ? static_cast<int>(invocation.integer("shards")) : sensible_shards(cost);
     deliver_answer(invocation, answers::cost_answer(config.plan.name, cost, plans, shards));
@@ -63,6 +65,7 @@ Command study_plan_command() {
              repetitions_option,
              output_option,
              json_option,
+             progress_option,
              help_option},
         .examples = {"capstan study plan configs/atlas.toml",
                      "capstan study plan configs/atlas.toml --shards 100 --json"},

@@ -4,6 +4,65 @@
 
 namespace capstan::cli {
 
+namespace {
+
+constexpr std::string_view short_time = "Less than 2 s.";
+
+// Measured on a machine with two cores of 2023.
+struct CommandTime {
+    std::string_view command;
+    std::string_view words;
+};
+constexpr CommandTime times[] = {
+    {"study run",
+     "quick.toml takes a second, paper.toml some seconds, a sweep minutes to hours: `capstan study plan` estimates it. "
+     "Shows progress and the time left."},
+    {"study resume", "As long as `study run` for the units that are left. Shows progress and the time left."},
+    {"study extend",
+     "As long as a study with the new number of repetitions. Shows progress and the time left."},
+    {"study replay", "As long as one repetition of the study, mostly less than 2 s."},
+    {"study merge", "Some seconds per gigabyte of shards. Shows progress."},
+    {"study plan",
+     "The --seconds of its pilot, and the true motion of every study of the sweep: 20 s for configs/atlas.toml. Shows "
+     "progress and the time left."},
+    {"place",
+     "10 s for 11 nodes and 1000 repetitions; twice as long for each further node, and in proportion to the "
+     "repetitions; a configuration with [uncertainty] takes minutes. Shows progress and the time left."},
+    {"budget", "As long as `place` for each of the cables. Shows progress and the time left of each."},
+    {"sensitivity",
+     "20 s for configs/paper.toml: some hundred searches as `place` makes, with few repetitions. Shows progress and "
+     "the time left."},
+    {"duty", "As long as the recording, divided by about 1000. Shows progress and the time left."},
+    {"estimate",
+     "A minute of recording at 100 Hz takes about 10 s for each cable, with --leave-out each several times that; a study's "
+     "configuration takes 15 s. Shows progress and the time left."},
+    {"calibrate",
+     "Seconds to a minute, in proportion to the length of the recording and to the square of its runs. Shows progress and "
+     "the time left."},
+    {"diagnose",
+     "Half a minute to some minutes, by the length of the recording and its number of runs. Shows progress and the time "
+     "left."},
+    {"gap-trial",
+     "Half a minute to minutes for each case; --generate-only takes seconds. Shows progress and the time left."},
+    {"report", "Less than 2 s; as PDF and with --figures 3 to 15 s, which the browser takes."},
+    {"import", "About a second for 10 MB of log. Shows progress."},
+    {"export", "About a second for a million rows."},
+    {"serve", "Until it is stopped."},
+    {"query", "As long as the query, at most --time-limit."},
+    {"simulate", "A hundredth of the simulated time, mostly less than 2 s."},
+    {"paper solver", "100 times --seconds, 10 s by default. Shows progress and the time left."},
+    {"paper estimation",
+     "Some ten times as long as the study itself, about a minute. Shows progress and the time left."},
+    {"doctor", "About a second per gigabyte of the database."},
+};
+
+}  // namespace
+
+std::string_view time_of(const Command& command) {
+    const auto found = std::ranges::find(times, command.name, &CommandTime::command);
+    return found == std::end(times) ? short_time : found->words;
+}
+
 const std::vector<Command>& commands() {
 #define CAPSTAN_CALL(name) name##_command(),
     static const std::vector<Command> all = {CAPSTAN_COMMANDS(CAPSTAN_CALL)};

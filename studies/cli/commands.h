@@ -21,6 +21,7 @@
     COMMAND(study_status)         \
     COMMAND(recommend)            \
     COMMAND(place)                \
+    COMMAND(budget)               \
     COMMAND(sensitivity)          \
     COMMAND(duty)                 \
     COMMAND(estimate)             \

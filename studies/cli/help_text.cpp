@@ -93,7 +93,8 @@ std::string program_help() {
     std::vector<Entry> entries = summaries("");
     entries.push_back({"help COMMAND", "Explain a command, as does capstan COMMAND --help."});
     entries.push_back({"help --book", "Print where the book is; open it in a browser."});
-    entries.push_back({"help TERM", "Explain a term, layout, method or effect; `capstan help terms` lists them."});
+    entries.push_back(
+        {"help TERM", "Explain a term, layout, method or effect; `capstan help terms` lists them."});
     entries.push_back({"--version", "Print the version."});
     return "Usage: capstan COMMAND [options]\n\n"
            "Finds where to put tension sensors in a cable-conduit (Bowden) transmission: simulates the cable,\n"
@@ -120,6 +121,7 @@ std::string command_help(const Command& command) {
     std::vector<Entry> options;
     for (const Option& option : command.options) options.push_back(option_entry(option));
     text += "\nOptions:\n" + two_columns(options);
+    text += "\nTime:\n" + wrapped(time_of(command), help_width, "  ", "  ") + "\n";
     if (!command.examples.empty()) text += "\nExamples:\n";
     for (const auto example : command.examples) text += fmt::format("  {}\n", example);
     return text + "\n" + exit_codes(exit_codes_of(command));

@@ -5,6 +5,7 @@
 
 #include "capstan/cli/command.h"
 #include "capstan/cli/program.h"
+#include "capstan/platform/ended_by_signal.h"
 #include "capstan/platform/standard_streams.h"
 
 namespace {
@@ -29,6 +30,7 @@ int main(int argument_count, char** arguments) {
     capstan::reserve_standard_streams();
     std::signal(SIGXFSZ,
                 SIG_IGN);  // a write beyond the limit on file sizes fails, and is reported, like any other
+    capstan::say_what_ends_the_program();
     std::set_terminate(end_in_words);
     return static_cast<int>(capstan::cli::run_program({arguments + 1, arguments + argument_count}));
 }

@@ -31,6 +31,28 @@ std::optional<AnswerFormat> format_named(std::string_view name) {
 
 }  // namespace
 
+ShownWork::ShownWork(const Invocation& invocation, std::string activity)
+    : activity_(std::move(activity)),
+      display_(progress_mode(invocation.text("progress")), std::chrono::seconds(1)),
+      meter_([this](double fraction) { show(fraction); }),
+      scope_(&meter_) {
+    show(0.0);
+}
+
+ShownWork::~ShownWork() = default;
+
+void ShownWork::show(double fraction) {
+    ProgressEvent event;
+    event.activity = activity_;
+    event.fraction = fraction;
+    display_.show(std::move(event));
+}
+
+void ShownWork::end() {
+    show(1.0);
+    display_.end_line();
+}
+
 void deliver(const Invocation& invocation, std::string_view text) {
     const std::string& file = invocation.text("output");
     if (file == "-") return write_standard_output(text);

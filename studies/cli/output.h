@@ -4,7 +4,9 @@
 
 #include "capstan/cli/command.h"
 #include "capstan/platform/files.h"
+#include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
+#include "capstan/platform/work_meter.h"
 #include "capstan/reports/answer.h"
 
 namespace capstan::cli {
@@ -21,5 +23,26 @@ void deliver_answer(const Invocation& invocation, const reports::Answer& answer)
 
 /// The form of an answer as the options ask for it, else `otherwise`.
 reports::AnswerFormat answer_format(const Invocation& invocation, reports::AnswerFormat otherwise);
+
+/// While it lives, the work of this thread is shown as --progress says, with the time left. Work of less than
+/// a second shows nothing.
+class ShownWork {
+  public:
+    ShownWork(const Invocation& invocation, std::string activity);
+    ~ShownWork();
+    ShownWork(const ShownWork&) = delete;
+    ShownWork& operator=(const ShownWork&) = delete;
+
+    /// All of it is done.
+    void end();
+
+  private:
+    void show(double fraction);
+
+    std::string activity_;
+    ProgressDisplay display_;
+    WorkMeter meter_;
+    MeterScope scope_;
+};
 
 }  // namespace capstan::cli

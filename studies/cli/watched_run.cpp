@@ -13,6 +13,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/paper/placement_comparison.h"
 #include "capstan/platform/clocks.h"
+#include "capstan/platform/ended_by_signal.h"
 #include "capstan/platform/progress.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/study_store.h"
@@ -227,27 +228,32 @@ void ask_to_stop(int) {
     stop_asked.store(true);
 }
 
-void handle(void (*handler)(int), int flags) {
-    struct sigaction action {};
-    action.sa_handler = handler;
-    action.sa_flags = flags;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+// What a signal did before; of those that end the program, and of these two.
+std::vector<std::pair<int, struct sigaction>> handlers_before;
+
+void take_over(int number) {
     struct sigaction before {};
-    sigaction(SIGHUP, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // as nohup has it
+    sigaction(number, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) return;  // as nohup has it
+    struct sigaction action {};
+    action.sa_handler = ask_to_stop;
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, nullptr);
+    handlers_before.emplace_back(number, before);
 }
 
 }  // namespace
 
 StopRequest::StopRequest() {
     stop_asked.store(false);
-    handle(ask_to_stop, static_cast<int>(SA_RESETHAND | SA_RESTART));
+    for (const int number : ending_signals) take_over(number);
+    for (const int number : {SIGINT, SIGPIPE}) take_over(number);
 }
 
 StopRequest::~StopRequest() {
-    handle(SIG_DFL, 0);
+    for (const auto& [number, before] : handlers_before) sigaction(number, &before, nullptr);
+    handlers_before.clear();
 }
 
 const std::atomic<bool>* StopRequest::flag() {

@@ -67,8 +67,9 @@ ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* dat
 /// The answer of a study that is complete.
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id);
 
-/// While it lives, the first Ctrl-C or request to terminate only sets a flag; a second one ends the program
-/// at once, which loses no more than the unit under way.
+/// While it lives, the first Ctrl-C, request to terminate, limit on processor time or other signal that would
+/// end the program only sets a flag; a second one ends the program at once, which loses no more than the unit
+/// under way.
 class StopRequest {
   public:
     StopRequest();

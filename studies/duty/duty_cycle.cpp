@@ -10,6 +10,7 @@
 #include "capstan/calibration/twin.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/platform/parallel_for.h"
+#include "capstan/platform/work_meter.h"
 #include "capstan/recording/driven_inputs.h"
 #include "capstan/rig/channel_names.h"
 #include "capstan/solver/pull_pull.h"
@@ -168,9 +169,11 @@ DutyCycle measure_duty(const Recording& recording, const DutyOptions& options) {
                            : gap::nominal_values(*twin);
     const RunClassifier classifier(recording, options, values);
     std::vector<RunMotion> motions(recording.runs.size());
+    expect_work(static_cast<double>(motions.size()));
     parallel_for_each_index(static_cast<int>(motions.size()), options.jobs, [&](int run) {
         motions[static_cast<std::size_t>(run)] =
             classifier.classify(recording.runs[static_cast<std::size_t>(run)]);
+        note_work();
     });
     DutyCycle duty;
     for (const RunMotion& motion : motions) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "capstan/estimation/recursive_estimator.h"
@@ -9,6 +10,7 @@
 #include "capstan/plan/true_motion.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/platform/statistics.h"
+#include "capstan/platform/work_meter.h"
 
 namespace capstan::estimate {
 
@@ -70,6 +72,7 @@ Tally recursive(const Cycle& cycle, const Layout& layout, const std::vector<std:
         readings.push_back(
             {spot_of_node(cycle.model.cable(), node), 0.0, cycle.plan.noise_levels.front().level});
     Tally tally;
+    note_work();
     for (std::size_t k = 0; k < cycle.tension_N.size(); ++k) {
         for (std::size_t i = 0; i < readings.size(); ++i)
             readings[i].value_N = readings_N[k][static_cast<std::size_t>(layout.nodes[i])];
@@ -155,6 +158,9 @@ std::vector<CycleScore> score_cycles(const StudyPlan& plan, const CycleOptions& 
     }
     for (const std::vector<int>& explicit_nodes : plan.explicit_layouts)
         layouts.push_back(explicit_layout(explicit_nodes));
+    expect_work(
+        static_cast<double>(layouts.size()) *
+        (options.repetitions + choosing_repetitions * static_cast<double>(std::size(wander_fractions))));
     std::vector<CycleScore> scores(layouts.size());
     parallel_for_each_index(static_cast<int>(layouts.size()), options.jobs, [&](int k) {
         const auto index = static_cast<std::size_t>(k);

@@ -103,6 +103,18 @@ double band_N(const RecursiveEstimator::Moments& moments, double widening) {
     return two_sided_95 * std::hypot(moments.deviation_N, widening * moments.mean_N);
 }
 
+double leave_out_work(const SensedCable& cable, std::size_t channels, const TrackingOptions& options) {
+    const auto others = static_cast<double>(cable.channels.size() - 1);
+    return static_cast<double>(channels) *
+           (choosing_work(cable, options) + (others + 1.0) * tracking_work(cable, options));
+}
+
+double tuning_work(const SensedCable& cable, const TrackingOptions& options) {
+    const std::size_t channels = cable.channels.size();
+    return choosing_work(cable, options) +
+           (channels < 2 ? 0.0 : static_cast<double>(channels) * tracking_work(cable, options));
+}
+
 std::vector<LeftOutChannel> leave_out(const SensedCable& cable, const std::vector<std::size_t>& channels,
                                       const TrackingOptions& options) {
     if (cable.channels.size() < 2) {

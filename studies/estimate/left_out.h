@@ -38,6 +38,10 @@ struct EstimatorTuning {
 };
 EstimatorTuning tune_estimator(const SensedCable& cable, const TrackingOptions& options);
 
+/// The work that these two note, for expect_work().
+double leave_out_work(const SensedCable& cable, std::size_t channels, const TrackingOptions& options);
+double tuning_work(const SensedCable& cable, const TrackingOptions& options);
+
 /// Half width of the 95% band of a tension: posterior deviation and widening.
 double band_N(const RecursiveEstimator::Moments& moments, double widening);
 

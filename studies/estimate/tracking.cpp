@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+
+#include "capstan/platform/work_meter.h"
 
 namespace capstan::estimate {
 
@@ -118,6 +121,7 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
             reading.noise.multiplicative_ratio = trust.error_ratio;
             readings.push_back(reading);
         }
+        const double work_per_sample = options.members * (1.0 + static_cast<double>(shifted.size()));
         for (std::size_t k = 0; k < run.ends.size(); ++k) {
             for (std::size_t i = 0; i < used.size(); ++i) readings[i].value_N = run.reading_N[used[i]][k];
             const RecursiveReport report = estimator.step(run.ends[k], readings);
@@ -127,9 +131,23 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
             summary.unverified += report.unverified;
             ++summary.steps;
             if (show) show({r, k, estimator, shifted});
+            note_work(work_per_sample);
         }
     }
     return summary;
+}
+
+double tracking_work(const SensedCable& cable, const TrackingOptions& options) {
+    double samples = 0.0;
+    for (const SensedRun& run : cable.runs) samples += static_cast<double>(run.ends.size());
+    return samples * options.members * (1.0 + static_cast<double>(cable.uncertain.size()));
+}
+
+double choosing_work(const SensedCable& cable, const TrackingOptions& options) {
+    double samples = 0.0;
+    for (const SensedRun& run : cable.runs) samples += static_cast<double>(run.ends.size());
+    return samples * std::min(options.members, choosing_members) *
+           static_cast<double>(2 * std::size(wanders_m) + std::size(error_ratios));
 }
 
 ModelTrust likeliest_trust(const SensedCable& cable, const ChannelSet& used, const TrackingOptions& options) {

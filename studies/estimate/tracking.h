@@ -49,6 +49,10 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
                       const TrackingOptions& options,
                       const std::function<void(const TrackedSample&)>& show = {});
 
+/// The work of following a cable once for a band, and of choosing its trust, as track() notes it.
+double tracking_work(const SensedCable& cable, const TrackingOptions& options);
+double choosing_work(const SensedCable& cable, const TrackingOptions& options);
+
 /// The trust under which the readings used are most likely (E38), from a fixed grid: first the wander, then
 /// the error ratio, then the wander again. Looks at no other channel.
 ModelTrust likeliest_trust(const SensedCable& cable, const ChannelSet& used, const TrackingOptions& options);

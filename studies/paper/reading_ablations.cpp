@@ -7,6 +7,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/paper/placement_comparison.h"
+#include "capstan/platform/work_meter.h"
 
 namespace capstan::paper {
 
@@ -129,10 +130,19 @@ bool accounts_for(const storage::PaperComparisonRecord& ablated,
 }
 
 AblatedTable ablate_readings(const StudyPlan& plan, const RunOptions& options) {
-    AblatedTable table{rows_of(plan, OneSensor::both_ends, options), {}};
+    const auto counted = [&](const StudyPlan& of, OneSensor one_sensor) {
+        const auto rows = [&] {
+            const MeterScope uncounted(nullptr);
+            return rows_of(of, one_sensor, options);
+        }();
+        note_work();
+        return rows;
+    };
+    expect_work(1.0 + static_cast<double>(changes().size()));
+    AblatedTable table{counted(plan, OneSensor::both_ends), {}};
     for (const Change& change : changes()) {
         table.ablations.push_back(
-            {change.name, change.meaning, rows_of(change.of_plan(plan), change.one_sensor, options)});
+            {change.name, change.meaning, counted(change.of_plan(plan), change.one_sensor)});
     }
     return table;
 }

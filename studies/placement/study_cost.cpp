@@ -13,6 +13,7 @@
 #include "capstan/placement/single_sensor_stage.h"
 #include "capstan/placement/study_shard.h"
 #include "capstan/platform/clocks.h"
+#include "capstan/platform/work_meter.h"
 
 namespace capstan {
 
@@ -44,6 +45,7 @@ class Pilot {
     // The true motions and tables of all studies are what every shard computes for itself.
     void count() {
         cost_.studies = static_cast<int>(plans_.size());
+        expect_work(2.0 * static_cast<double>(plans_.size()));  // until it is known how long the rest takes
         cost_.repetitions = plans_.front().repetitions;
         for (const StudyPlan& plan : plans_) {
             const double start_s = thread_processor_time_s();
@@ -53,6 +55,7 @@ class Pilot {
             cost_.parts += parts;
             cost_.cells += static_cast<long long>(parts) * study.cells();
             cost_.readings += static_cast<long long>(parts) * plan.repetitions * nodes_of(plan);
+            note_work();
         }
     }
 
@@ -66,8 +69,16 @@ class Pilot {
                 const bool enough = thread_processor_time_s() - start_s >= options_.seconds;
                 if (enough && timings_.count(nodes_of(plans_[k])) != 0) continue;
                 if (round < parts_of(plans_.subspan(k, 1))) time_part(plans_[k], round);
+                tell_done(thread_processor_time_s() - start_s);
             }
         }
+    }
+
+    void tell_done(double timed_s) const {
+        const double counted_s = cost_.shard_preparation_s;
+        const double all_s = counted_s + std::max(options_.seconds, timed_s);
+        if (MeterScope::meter() != nullptr && all_s > 0.0)
+            MeterScope::meter()->replan((counted_s + timed_s) / all_s);
     }
 
     // Steps of the golden section visit all and never cluster.

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "capstan/platform/stop_request.h"
+#include "capstan/platform/work_meter.h"
 
 namespace capstan {
 
@@ -12,9 +13,11 @@ thread_local const std::atomic<bool>* StopScope::stop_ = nullptr;
 void parallel_for_each_index(int count, int jobs, const std::function<void(int)>& body) {
     oneapi::tbb::task_arena arena(jobs > 0 ? jobs : oneapi::tbb::task_arena::automatic);
     const std::atomic<bool>* const stop = StopScope::flag();
+    WorkMeter* const meter = MeterScope::meter();
     arena.execute([&] {
         oneapi::tbb::parallel_for(0, count, [&](int index) {
             const StopScope same_work(stop);  // also where another thread runs the index
+            const MeterScope same_meter(meter);
             throw_if_stopped();
             body(index);
         });

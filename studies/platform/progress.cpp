@@ -82,8 +82,8 @@ ProgressMode progress_mode(const std::string& name) {
     return name == "none" ? ProgressMode::none : ProgressMode::automatic;
 }
 
-ProgressDisplay::ProgressDisplay(ProgressMode mode)
-    : mode_(mode), is_terminal_(standard_error_is_terminal()) {}
+ProgressDisplay::ProgressDisplay(ProgressMode mode, std::chrono::milliseconds quiet_for)
+    : mode_(mode), quiet_for_(quiet_for), is_terminal_(standard_error_is_terminal()) {}
 
 ProgressDisplay::~ProgressDisplay() {
     end_line();
@@ -105,12 +105,13 @@ void ProgressDisplay::show(ProgressEvent event) {
             std::chrono::duration<double>(now - start_).count() * (1.0 - event.fraction) / done_here;
     if (mode_ == ProgressMode::none) return;
     if (mode_ == ProgressMode::json) return say(progress_json(event));
+    if (now - begin_ < quiet_for_) return;
     const auto interval = is_terminal_ ? Clock::duration(bar_interval) : Clock::duration(line_interval);
     if (!is_first && !is_last && now - last_shown_ < interval) return;
     last_shown_ = now;
     if (!is_terminal_) return say(event.activity + ": " + progress_words(event));
-    write_standard_error("\r" + printable(event.activity) + " " + bar(event.fraction) + " " + progress_words(event) +
-                         "\x1b[K");
+    write_standard_error("\r" + printable(event.activity) + " " + bar(event.fraction) + " " +
+                         progress_words(event) + "\x1b[K");
     line_is_open_ = true;
 }
 

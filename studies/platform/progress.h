@@ -38,7 +38,8 @@ ProgressMode progress_mode(const std::string& name);  ///< of the option --progr
 /// time left follows from the time taken so far, where the event does not give it.
 class ProgressDisplay {
   public:
-    explicit ProgressDisplay(ProgressMode mode);
+    /// Work that takes less than `quiet_for` shows nothing, but as JSON.
+    explicit ProgressDisplay(ProgressMode mode, std::chrono::milliseconds quiet_for = {});
     ~ProgressDisplay();
     ProgressDisplay(const ProgressDisplay&) = delete;
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -52,8 +53,10 @@ class ProgressDisplay {
     using Clock = std::chrono::steady_clock;
 
     ProgressMode mode_;
+    std::chrono::milliseconds quiet_for_;
     bool is_terminal_;
     bool line_is_open_ = false;
+    Clock::time_point begin_ = Clock::now();
     Clock::time_point start_;  ///< of the first event, or of the last one that went back
     Clock::time_point last_shown_;
     double fraction_at_start_ = 0.0;

@@ -1,5 +1,5 @@
 // A browser without a window prints the page, or draws its figures and leaves them in it: see
-// leaveFigureFiles() in reports/web/page.js.
+// leaveFigureFiles() in reports/web/figure_data.js.
 #include "capstan/printing/printed_page.h"
 
 #include <fmt/format.h>

@@ -7,6 +7,7 @@
 #include "capstan/placement/single_sensor_stage.h"
 #include "capstan/plan/placement_constraints.h"
 #include "capstan/platform/clocks.h"
+#include "capstan/platform/work_meter.h"
 #include "capstan/search/information_search.h"
 #include "capstan/search/sensor_placement.h"
 
@@ -232,6 +233,7 @@ PlacementAnswer search_long_cable(const StudyPlan& plan, const PlacementOptions&
     answer.search = SearchKind::greedy;
     ScopeAnswer scope{"duty_cycle", "", {}, 0};
     const Rating everywhere = independent.rate(search.usable());
+    expect_work(max_sensors);
     while (static_cast<int>(layout.size()) <= max_sensors) {
         if (!layout.empty() && search.constraints().allow(layout)) {
             CountAnswer count;
@@ -255,6 +257,7 @@ PlacementAnswer search_long_cable(const StudyPlan& plan, const PlacementOptions&
             for (JudgedLayout& beside : count.beside) judge_again(beside, best, independent);
             count.optimism_N = count.optimum.independent.value_N - count.optimum.searched_N;
             count.at_most_better_N = std::max(0.0, count.optimum.independent.value_N - everywhere.error_N);
+            note_work();
             if (options.on_progress) {
                 options.on_progress(std::to_string(count.sensors) + " of " + std::to_string(max_sensors) +
                                     " sensors placed");

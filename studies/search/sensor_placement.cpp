@@ -5,6 +5,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/platform/clocks.h"
+#include "capstan/platform/work_meter.h"
 #include "capstan/search/placement_search.h"
 
 namespace capstan {
@@ -127,6 +128,9 @@ PlacementAnswer place_sensors(const StudyPlan& plan, const PlacementOptions& opt
     double alpha = options.resolve_to_N ? 0.025 : 0.05;
     for (;; alpha /= 2.0, blocks = blocks.doubled()) {
         const double score_start_s = wall_time_s();
+        expect_work((work_of_draw(0) + work_of_draw(independent_draws)) *
+                    static_cast<double>(study.scenarios.size()) *
+                    (blocks.repetitions - searched.blocks().repetitions));
         searched.extend(blocks, weights, options.jobs);
         answer.times.score_s += wall_time_s() - score_start_s;
         const PlacementSearch search(study, options.noise_index, candidates, searched, alpha);

@@ -6,6 +6,7 @@
 #include "capstan/placement/repetition_blocks.h"
 #include "capstan/placement/repetition_profiles.h"
 #include "capstan/platform/parallel_for.h"
+#include "capstan/platform/work_meter.h"
 #include "capstan/search/subset_curves.h"
 #include "capstan/search/subset_means.h"
 
@@ -39,6 +40,10 @@ bool is_quantile(PlacementObjective objective) {
 
 }  // namespace
 
+double work_of_draw(std::uint32_t first_draw) {
+    return first_draw == 0 ? 1.0 : 0.2;  // on independent draws only the chosen layouts are scored
+}
+
 DrawBlocks DrawBlocks::for_repetitions(int repetitions) {
     return {repetitions, RepetitionBlocks{repetitions}.block_size()};
 }
@@ -70,6 +75,7 @@ void score_blocks(const ScoringTask& task, const SolvedReadings& solved, int fir
             curves.score({solved.reading_N.data() + solved.at(r, 0), static_cast<std::size_t>(nodes)},
                          error_N);
             for (std::size_t k = 0; k < row; ++k) sum_N[k] += error_N[k];
+            note_work(work_of_draw(task.point.first_draw));
             if (is_quantile(task.objective)) {
                 std::copy(error_N.begin(), error_N.end(), errors.quantile_of.begin() + r * candidates);
             }

@@ -62,8 +62,12 @@ struct ScoringTask {
     DrawBlocks blocks;
 };
 
+/// The cost of scoring a draw, in those of the search: on independent draws only chosen layouts are scored.
+double work_of_draw(std::uint32_t first_draw);
+
 /// Scores blocks `first_block` on; those before stay in `errors`. Each reading is solved once and every set's
 /// sums are those of a smaller set and one sensor more. `solved` holds the repetitions of all blocks.
+/// Notes the work of each draw.
 void score_blocks(const ScoringTask& task, const SolvedReadings& solved, int first_block, int jobs,
                   BlockErrors& errors);
 

@@ -6,6 +6,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/platform/parallel_for.h"
+#include "capstan/platform/work_meter.h"
 #include "capstan/sensitivity/uncertain_parameter.h"
 
 namespace capstan::sensitivity {
@@ -30,7 +31,13 @@ class Analysis {
 
     SensitivityAnswer run() {
         answer_.noise = plan_.noise_levels[options_.noise_index].label;
-        const auto nominal = question_.ask(as_configured(), nullptr);
+        const auto parameters = static_cast<double>(uncertain_.size());
+        expect_work(plan_.sensitivity.trajectories * (parameters + 1.0) + (2 * scan_steps + 1) * parameters +
+                    bisections * parameters);
+        const auto nominal = [&] {
+            const MeterScope uncounted(nullptr);
+            return question_.ask(as_configured(), nullptr);
+        }();
         ++answer_.evaluations;
         answer_.advice = nominal->best;
         answer_.error = nominal->best_error;
@@ -66,8 +73,13 @@ class Analysis {
     // Each evaluation runs on one thread and fills its own slot.
     Answers ask_all(const std::vector<Ratios>& all) {
         Answers answers(all.size());
-        parallel_for_each_index(static_cast<int>(all.size()), options_.jobs,
-                                [&](int k) { answers[k] = question_.ask(all[k], &answer_.advice); });
+        parallel_for_each_index(static_cast<int>(all.size()), options_.jobs, [&](int k) {
+            {
+                const MeterScope uncounted(nullptr);
+                answers[k] = question_.ask(all[k], &answer_.advice);
+            }
+            note_work();
+        });
         answer_.evaluations += static_cast<int>(all.size());
         return answers;
     }

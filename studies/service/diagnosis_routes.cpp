@@ -2,6 +2,7 @@
 #include "capstan/answers/recording_answers.h"
 #include "capstan/answers/study_answers.h"
 #include "capstan/service/exchange.h"
+#include "capstan/service/job_results.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/report_queries.h"
@@ -10,29 +11,15 @@ namespace capstan::service {
 
 namespace {
 
-// For display only: the files in the folder of the queue have other names.
-std::string title_of(const http::Request& request) {
-    const std::string& name = request.part("log")->filename;
-    const std::string title = name.substr(name.find_last_of("/\\") + 1);
-    return title.empty() ? "recording" : title.substr(0, 200);
-}
-
 Job start(RouteContext& context, const http::Request& request) {
-    for (const char* part : {"log", "sidecar"}) {
-        if (request.part(part) == nullptr)
-            throw BadRequest(std::string("the part '") + part +
-                             "' is missing: send NAME.csv as 'log' and NAME.json as 'sidecar'");
-    }
-    const std::string_view sidecar = request.part("sidecar")->content;
-    if (!nlohmann::json::parse(sidecar, nullptr, false).is_object())
-        throw BadRequest("the sidecar is not a JSON object");
-    return context.queue.add_diagnosis(title_of(request), request.part("log")->content, sidecar);
+    const UploadedRecording recording = recording_of(request);
+    return context.queue.add_recording(JobKind::diagnosis, recording.title, recording.log, recording.sidecar);
 }
 
 // What the command wrote, if the diagnosis was made here. Otherwise what the database holds, which lacks the
 // experiments that would distinguish its explanations.
 std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
-    if (std::string answer = context.queue.answer_of(diagnosis_id, "answer.json"); !answer.empty())
+    if (std::string answer = context.queue.answer_of(diagnosis_id, answer_file); !answer.empty())
         return answer;
     storage::Database database = context.open();
     for (const auto& each : storage::list_diagnoses(database)) {
@@ -44,6 +31,20 @@ std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
 }
 
 }  // namespace
+
+UploadedRecording recording_of(const http::Request& request) {
+    for (const char* part : {"log", "sidecar"}) {
+        if (request.part(part) == nullptr)
+            throw BadRequest(std::string("the part '") + part +
+                             "' is missing: send NAME.csv as 'log' and NAME.json as 'sidecar'");
+    }
+    const std::string_view sidecar = request.part("sidecar")->content;
+    if (!nlohmann::json::parse(sidecar, nullptr, false).is_object())
+        throw BadRequest("the sidecar is not a JSON object");
+    const std::string& name = request.part("log")->filename;
+    const std::string title = name.substr(name.find_last_of("/\\") + 1);
+    return {title.empty() ? "recording" : title.substr(0, 200), request.part("log")->content, sidecar};
+}
 
 std::vector<Route> diagnosis_routes(RouteContext& context) {
     const auto list = [&](const http::Request&, http::Response& response) {
@@ -58,7 +59,7 @@ std::vector<Route> diagnosis_routes(RouteContext& context) {
         send_text(response, answer_of(context, number_in_path(request)), "application/json");
     };
     const auto model = [&](const http::Request& request, http::Response& response) {
-        std::string text = context.queue.answer_of(number_in_path(request), "model.toml");
+        std::string text = context.queue.answer_of(number_in_path(request), model_file);
         if (text.empty()) throw BadRequest("the model of this diagnosis is not kept here", 404);
         response.add_header("Content-Disposition",
                             "attachment; filename=\"model-" + request.path_values.front() + ".toml\"");

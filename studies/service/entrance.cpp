@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "capstan/service/exchange.h"
@@ -11,6 +12,9 @@ namespace capstan::service {
 namespace {
 
 constexpr std::string_view bearer = "Bearer ";
+constexpr std::chrono::milliseconds guesses_apart{500};
+constexpr std::chrono::seconds longest_wait{5};
+constexpr std::size_t max_addresses = 10'000;
 
 std::string field(const http::Request& head, std::string_view name) {
     return std::string(head.header(name));
@@ -40,6 +44,19 @@ std::int64_t now_s() {
 }
 
 }  // namespace
+
+bool GuessLog::may_guess(const std::string& address, Clock::time_point now) const {
+    const auto found = next_.find(address);
+    return found == next_.end() || found->second - now < longest_wait;
+}
+
+std::chrono::milliseconds GuessLog::wrong(const std::string& address, Clock::time_point now) {
+    std::erase_if(next_, [&](const auto& each) { return each.second < now; });
+    if (next_.size() >= max_addresses) next_.erase(next_.begin());
+    Clock::time_point& next = next_[address];
+    next = std::max(next, now) + guesses_apart;
+    return std::chrono::duration_cast<std::chrono::milliseconds>(next - now);
+}
 
 http::Verdict Entrance::judge(const http::Request& head) {
     const RequestHead request = head_of(head);

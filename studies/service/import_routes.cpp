@@ -172,7 +172,7 @@ Job diagnose(RouteContext& context, const http::Request& request) {
     std::string answer;
     std::filesystem::path samples = folder.import_recording(answer);
     const std::string log = read_file(samples);
-    return context.queue.add_diagnosis(folder.name() + ".csv", log,
+    return context.queue.add_recording(JobKind::diagnosis, folder.name() + ".csv", log,
                                        read_file(samples.replace_extension(".json")));
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::array kinds{JobKind::study, JobKind::diagnosis};
+constexpr std::array kinds{JobKind::study, JobKind::diagnosis, JobKind::place, JobKind::sensitivity,
+                           JobKind::estimate};
 constexpr std::array states{JobState::queued, JobState::running, JobState::stopped, JobState::done,
                             JobState::failed};
 
@@ -32,8 +33,18 @@ std::string_view name_of(JobKind kind) {
             return "study";
         case JobKind::diagnosis:
             return "diagnosis";
+        case JobKind::place:
+            return "place";
+        case JobKind::sensitivity:
+            return "sensitivity";
+        case JobKind::estimate:
+            return "estimate";
     }
     return "";
+}
+
+bool stores_result(JobKind kind) {
+    return kind == JobKind::study || kind == JobKind::diagnosis;
 }
 
 std::string_view name_of(JobState state) {
@@ -65,8 +76,9 @@ ordered_json job_json(const Job& job) {
         {"fraction", progress.fraction},
         {"seconds_left", progress.seconds_left ? ordered_json(*progress.seconds_left) : ordered_json()},
         {"message", job.message}};
-    json[job.kind == JobKind::study ? "study_id" : "diagnosis_id"] =
-        job.result_id ? ordered_json(*job.result_id) : ordered_json(nullptr);
+    if (stores_result(job.kind))
+        json[job.kind == JobKind::study ? "study_id" : "diagnosis_id"] =
+            job.result_id ? ordered_json(*job.result_id) : ordered_json(nullptr);
     return json;
 }
 
@@ -77,6 +89,7 @@ std::string jobs_text(const std::vector<Job>& jobs) {
                         {"kind", name_of(job.kind)},
                         {"title", job.title},
                         {"file", job.file},
+                        {"options", job.options},
                         {"state", name_of(job.state)},
                         {"last_before", job.last_before},
                         {"result_id", job.result_id ? ordered_json(*job.result_id) : ordered_json(nullptr)},
@@ -94,6 +107,7 @@ std::vector<Job> read_jobs(const std::string& text) {
             job.kind = named(kinds, each.at("kind"));
             job.title = each.at("title");
             job.file = each.at("file");
+            job.options = each.value("options", std::vector<std::string>{});
             job.state = named(states, each.at("state"));
             job.last_before = each.at("last_before");
             if (!each.at("result_id").is_null()) job.result_id = each.at("result_id").get<std::int64_t>();

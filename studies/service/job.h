@@ -10,7 +10,16 @@
 
 namespace capstan::service {
 
-enum class JobKind { study, diagnosis };
+enum class JobKind {
+    study,
+    diagnosis,
+    place,  ///< these three store nothing in the database: their answer is a page
+    sensitivity,
+    estimate,
+};
+
+/// In the database, under the number Job::result_id.
+bool stores_result(JobKind kind);
 
 enum class JobState {
     queued,   ///< waits for those before it
@@ -27,8 +36,9 @@ std::string_view name_of(JobState state);
 struct Job {
     int number = 0;  ///< from 1
     JobKind kind = JobKind::study;
-    std::string title;  ///< the study's or recording's name
-    std::string file;   ///< in the queue's folder: the configuration, or the log
+    std::string title;                   ///< the study's or recording's name
+    std::string file;                    ///< in the queue's folder: the configuration, or the log
+    std::vector<std::string> options{};  ///< of the command, beyond those of every job
     JobState state = JobState::queued;
     /// The largest study_id or diagnosis_id before the job was first started: what it has begun is beyond.
     std::int64_t last_before = 0;

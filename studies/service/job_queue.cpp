@@ -9,9 +9,7 @@
 #include "capstan/platform/files.h"
 #include "capstan/platform/progress.h"
 #include "capstan/service/bad_request.h"
-#include "capstan/storage/diagnosis_store.h"
-#include "capstan/storage/error.h"
-#include "capstan/storage/study_store.h"
+#include "capstan/service/job_results.h"
 
 namespace capstan::service {
 
@@ -23,17 +21,6 @@ constexpr std::size_t max_jobs = 1000;               // in the list; the oldest 
 constexpr std::size_t max_waiting = 500;             // a sweep may have some hundred
 constexpr std::uintmax_t max_job_bytes = 4UL << 30;  // of the files of all jobs
 constexpr std::chrono::hours kept_for{24 * 30};      // an ended job and its files
-
-std::int64_t last_id(const JobCommands& commands, JobKind kind) {
-    storage::Database database = storage::Database::open_read_only(commands.database);
-    std::int64_t last = 0;
-    if (kind == JobKind::study) {
-        for (const auto& study : storage::list_studies(database)) last = std::max(last, study.study_id);
-    } else {
-        for (const auto& each : storage::list_diagnoses(database)) last = std::max(last, each.diagnosis_id);
-    }
-    return last;
-}
 
 // The name of the file without anything that could lead out of the folder of the job or hide the file in it.
 std::string safe_stem(const std::string& name) {
@@ -136,13 +123,29 @@ std::vector<Job> JobQueue::add_studies(const std::vector<std::pair<std::string, 
     return added;
 }
 
-Job JobQueue::add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar) {
+Job JobQueue::add_answer(JobKind kind, const std::string& name, const std::string& toml,
+                         std::vector<std::string> options) {
+    require_room(1, toml.size());
+    const std::lock_guard lock(mutex_);
+    Job job;
+    job.number = next_number();
+    job.kind = kind;
+    job.title = name;
+    job.options = std::move(options);
+    job.file = fmt::format("{}/study.toml", job.number);
+    folder_.write_file(job.file, toml);
+    return add(std::move(job));
+}
+
+Job JobQueue::add_recording(JobKind kind, const std::string& name, std::string_view log,
+                            std::string_view sidecar, std::vector<std::string> options) {
     require_room(1, log.size() + sidecar.size());
     const std::lock_guard lock(mutex_);
     Job job;
     job.number = next_number();
-    job.kind = JobKind::diagnosis;
+    job.kind = kind;
     job.title = name;
+    job.options = std::move(options);
     const std::string stem = safe_stem(name);
     job.file = fmt::format("{}/{}.csv", job.number, stem);
     folder_.write_file(fmt::format("{}/{}.json", job.number, stem), sidecar);
@@ -191,15 +194,15 @@ bool JobQueue::resume(int number) {
     return false;
 }
 
-std::filesystem::path JobQueue::file_of(const Job& job, const std::string& name) const {
-    return folder_.path() / std::to_string(job.number) / name;
+std::string JobQueue::written_by(const Job& job, const std::string& name) const {
+    const auto file = file_of(folder_, job, name);
+    return job.state == JobState::done && std::filesystem::exists(file) ? read_file(file) : "";
 }
 
 std::string JobQueue::answer_of(std::int64_t diagnosis_id, const std::string& name) const {
     for (const Job& job : jobs()) {
-        if (job.kind != JobKind::diagnosis || job.state != JobState::done || job.result_id != diagnosis_id)
-            continue;
-        if (const auto file = file_of(job, name); std::filesystem::exists(file)) return read_file(file);
+        if (job.kind != JobKind::diagnosis || job.result_id != diagnosis_id) continue;
+        if (std::string text = written_by(job, name); !text.empty()) return text;
     }
     return "";
 }
@@ -249,50 +252,6 @@ void JobQueue::work() {
     }
 }
 
-// The result that the job has begun: a study of the same configuration, or a diagnosis of the same log.
-std::optional<std::int64_t> JobQueue::result_of(const Job& job) const {
-    if (job.result_id) return job.result_id;
-    storage::Database database = storage::Database::open_read_only(commands_.database);
-    if (job.kind == JobKind::study) {
-        const std::string config = read_file(folder_.path() / job.file);
-        for (const auto& study : storage::list_studies(database)) {
-            if (study.study_id > job.last_before &&
-                storage::load_study(database, study.study_id).study.config_toml == config)
-                return study.study_id;
-        }
-        return std::nullopt;
-    }
-    for (const auto& each : storage::list_diagnoses(database)) {
-        if (each.diagnosis_id > job.last_before && each.log_file == (folder_.path() / job.file).string())
-            return each.diagnosis_id;
-    }
-    return std::nullopt;
-}
-
-bool JobQueue::is_complete(const Job& job) const {
-    if (!job.result_id) return false;
-    if (job.kind == JobKind::diagnosis) return true;  // it is stored in one piece, at its end
-    storage::Database database = storage::Database::open_read_only(commands_.database);
-    return storage::load_study(database, *job.result_id).study.status == "complete";
-}
-
-std::vector<std::string> JobQueue::command_line(const Job& job) const {
-    std::vector<std::string> words{commands_.program};
-    if (job.kind == JobKind::diagnosis) {
-        const auto beside = [&](const char* name) { return file_of(job, name).string(); };
-        words.insert(words.end(),
-                     {"diagnose", (folder_.path() / job.file).string(), "--json", "-o", beside("answer.json"),
-                      "--html", beside("page.html"), "--save", beside("model.toml")});
-    } else if (job.result_id) {
-        words.insert(words.end(), {"study", "resume", std::to_string(*job.result_id), "--json"});
-    } else {
-        words.insert(words.end(), {"study", "run", (folder_.path() / job.file).string(), "--json"});
-    }
-    words.insert(words.end(), {"--db", commands_.database, "--progress", "json", "--jobs",
-                               std::to_string(commands_.threads)});
-    return words;
-}
-
 void JobQueue::on_output(int number, const std::string& line, std::string& messages) {
     const std::optional<ProgressEvent> progress = read_progress_json(line);
     if (!progress) {
@@ -308,8 +267,8 @@ void JobQueue::on_output(int number, const std::string& line, std::string& messa
 
 void JobQueue::run(Job job) {
     if (job.state == JobState::running || job.result_id) {  // begun before
-        job.result_id = result_of(job);
-        if (is_complete(job)) {
+        job.result_id = result_of(folder_, commands_, job);
+        if (is_complete(folder_, commands_, job)) {
             change(job.number, [&](Job& each) {
                 each.result_id = job.result_id;
                 each.state = JobState::done;
@@ -327,19 +286,19 @@ void JobQueue::run(Job job) {
     });
     {
         const std::lock_guard lock(mutex_);
-        child_ =
-            std::make_unique<ChildProcess>(command_line(job), ChildLimits{.nice_increment = nice_increment});
+        child_ = std::make_unique<ChildProcess>(command_line(folder_, commands_, job),
+                                                ChildLimits{.nice_increment = nice_increment});
         if (ending_ || stop_asked_) child_->ask_to_stop();
     }
     std::string messages;
     const CommandOutput ended = child_->wait([&](const std::string& line) {
         on_output(job.number, line, messages);
         if (!job.result_id && job.kind == JobKind::study) {
-            job.result_id = result_of(job);
+            job.result_id = result_of(folder_, commands_, job);
             if (job.result_id) change(job.number, [&](Job& each) { each.result_id = job.result_id; });
         }
     });
-    job.result_id = result_of(job);
+    job.result_id = result_of(folder_, commands_, job);
     change(job.number, [&](Job& each) {
         child_.reset();
         each.result_id = job.result_id;

@@ -44,8 +44,12 @@ class JobQueue {
 
     /// Configurations by the name of their study: all of them become jobs, or none.
     std::vector<Job> add_studies(const std::vector<std::pair<std::string, std::string>>& named_toml);
-    /// `log` and `sidecar` are the bytes of NAME.csv and NAME.json.
-    Job add_diagnosis(const std::string& name, std::string_view log, std::string_view sidecar);
+    /// A command on a configuration that leaves an answer and a page.
+    Job add_answer(JobKind kind, const std::string& name, const std::string& toml,
+                   std::vector<std::string> options);
+    /// The same on a recording: `log` and `sidecar` are the bytes of NAME.csv and NAME.json.
+    Job add_recording(JobKind kind, const std::string& name, std::string_view log, std::string_view sidecar,
+                      std::vector<std::string> options = {});
     /// A study that was begun without this queue, or whose job is forgotten.
     Job add_resume(const std::string& name, std::int64_t study_id);
 
@@ -56,6 +60,10 @@ class JobQueue {
     /// How many that waited or ran; the running one ends after its unit.
     int stop_all();
 
+    /// What a job wrote beside its input, under one of the names of job_results.h. Empty if it is not done,
+    /// or its files are gone.
+    std::string written_by(const Job& job, const std::string& name) const;
+
     /// What the job of a stored diagnosis wrote: answer.json, page.html or model.toml. Empty if it was not
     /// made here, or its files are gone.
     std::string answer_of(std::int64_t diagnosis_id, const std::string& name) const;
@@ -63,10 +71,6 @@ class JobQueue {
   private:
     void work();
     void run(Job job);
-    std::vector<std::string> command_line(const Job& job) const;
-    std::filesystem::path file_of(const Job& job, const std::string& name) const;
-    std::optional<std::int64_t> result_of(const Job& job) const;
-    bool is_complete(const Job& job) const;
     void on_output(int number, const std::string& line, std::string& messages);
     Job add(Job job);
     void keep();              // what was added; while locked

@@ -14,16 +14,6 @@ namespace capstan::service {
 
 namespace {
 
-// Files that a configuration names are read only beside those of the service's own folder.
-std::vector<StudyPlan> studies_of(const std::string& toml, const std::string& name,
-                                  const std::optional<std::filesystem::path>& folder) {
-    try {
-        return config::runnable_studies(config::parse_plan<StudyPlan>(toml, name, folder));
-    } catch (const InvalidInput& error) {
-        throw BadRequest(error.what());
-    }
-}
-
 // A bench is simulated at the shell; it is no study.
 bool is_study(const std::filesystem::path& file) {
     return read_file(file).find("\nkind = \"bench\"") == std::string::npos;
@@ -40,20 +30,44 @@ std::vector<std::string> config_names(const ServiceOptions& options) {
     return names;
 }
 
+struct ConfigText {
+    std::string toml;
+    std::string name;
+    /// Files that a configuration names are read only beside those of the service's own folder.
+    std::optional<std::filesystem::path> folder;
+};
+
+ConfigText config_text_of(const RouteContext& context, const nlohmann::json& body) {
+    if (!body.contains("config")) return {member<std::string>(body, "config_toml"), "configuration", {}};
+    const auto name = member<std::string>(body, "config");
+    return {config_named(context.options, name), name, context.options.configs};
+}
+
 ordered_json start(RouteContext& context, const nlohmann::json& body) {
-    const bool by_name = body.contains("config");
-    const std::string name = by_name ? member<std::string>(body, "config") : "configuration";
-    const std::string toml =
-        by_name ? config_named(context.options, name) : member<std::string>(body, "config_toml");
-    const std::vector<StudyPlan> plans =
-        studies_of(toml, name, by_name ? context.options.configs : std::nullopt);
-    context.queue.require_room(plans.size(), plans.size() * toml.size());
     std::vector<std::pair<std::string, std::string>> named_toml;
-    for (const StudyPlan& plan : plans)
+    std::size_t bytes = 0;
+    for (const StudyPlan& plan : studies_in(context, body)) {
         named_toml.emplace_back(plan.name, config::config_text(plan, config::Comments::none));
+        bytes += named_toml.back().second.size();
+    }
+    context.queue.require_room(named_toml.size(), bytes);
     ordered_json started = ordered_json::array();
     for (const Job& job : context.queue.add_studies(named_toml)) started.push_back(job_json(job));
     return started;
+}
+
+// Every problem, and how many studies there are: before anything is started.
+ordered_json check(RouteContext& context, const nlohmann::json& body) {
+    const ConfigText text = config_text_of(context, body);
+    try {
+        const auto plans =
+            config::runnable_studies(config::parse_plan<StudyPlan>(text.toml, text.name, text.folder));
+        return {{"problems", ordered_json::array()},
+                {"studies", plans.size()},
+                {"over_worlds", plans.front().uncertainty.is_stated}};
+    } catch (const InvalidInput& error) {
+        return {{"problems", error.problems()}, {"studies", 0}, {"over_worlds", false}};
+    }
 }
 
 ordered_json resume_study(RouteContext& context, std::int64_t study_id) {
@@ -73,15 +87,24 @@ void require(bool holds, const char* what) {
     if (!holds) throw BadRequest(what, 409);
 }
 
-Job job_of(RouteContext& context, const http::Request& request) {
+}  // namespace
+
+std::vector<StudyPlan> studies_in(const RouteContext& context, const nlohmann::json& body) {
+    const ConfigText text = config_text_of(context, body);
+    try {
+        return config::runnable_studies(config::parse_plan<StudyPlan>(text.toml, text.name, text.folder));
+    } catch (const InvalidInput& error) {
+        throw BadRequest(error.what());
+    }
+}
+
+Job job_in_path(const RouteContext& context, const http::Request& request) {
     const std::int64_t number = number_in_path(request);
     const auto job = number <= std::numeric_limits<int>::max() ? context.queue.find(static_cast<int>(number))
                                                                : std::nullopt;
     if (!job) throw BadRequest("there is no such job", 404);
     return *job;
 }
-
-}  // namespace
 
 // Accepts only names that are in the folder, so that no path leads out of it.
 std::string config_named(const ServiceOptions& options, const std::string& name) {
@@ -99,6 +122,9 @@ std::vector<Route> job_routes(RouteContext& context) {
         send_text(response, config_named(context.options, request.path_values.front()),
                   "text/plain; charset=utf-8");
     };
+    const auto check_config = [&](const http::Request& request, http::Response& response) {
+        send_json(response, check(context, body_of(request)));
+    };
     const auto start_studies = [&](const http::Request& request, http::Response& response) {
         send_json(response, start(context, body_of(request)), 202);
     };
@@ -111,10 +137,10 @@ std::vector<Route> job_routes(RouteContext& context) {
         send_json(response, list);
     };
     const auto show_job = [&](const http::Request& request, http::Response& response) {
-        send_json(response, job_json(job_of(context, request)));
+        send_json(response, job_json(job_in_path(context, request)));
     };
     const auto stop_job = [&](const http::Request& request, http::Response& response) {
-        const Job job = job_of(context, request);
+        const Job job = job_in_path(context, request);
         require(context.queue.stop(job.number), "only a queued or running job can be stopped");
         send_json(response, job_json(*context.queue.find(job.number)), 202);
     };
@@ -122,7 +148,7 @@ std::vector<Route> job_routes(RouteContext& context) {
         send_json(response, {{"stopped", context.queue.stop_all()}}, 202);
     };
     const auto resume_job = [&](const http::Request& request, http::Response& response) {
-        const Job job = job_of(context, request);
+        const Job job = job_in_path(context, request);
         require(context.queue.resume(job.number), "only a stopped or failed job can be resumed");
         send_json(response, job_json(*context.queue.find(job.number)), 202);
     };
@@ -137,6 +163,19 @@ std::vector<Route> job_routes(RouteContext& context) {
          "TOML",
          {{"text/plain", "string"}},
          show_config},
+        {"post",
+         "/api/configs/check",
+         "checkConfig",
+         "Every problem of a configuration, as `capstan config check`, and how many studies it describes",
+         "Problems, each a line; the number of studies; whether they are over worlds",
+         json_of("object"),
+         check_config,
+         200,
+         {400, 404},
+         {{"config", "string", "A name of /api/configs; or", false},
+          {"config_toml", "string", "the text of a configuration", false}},
+         "application/json",
+         Lane::reports},
         {"post",
          "/api/studies",
          "startStudy",

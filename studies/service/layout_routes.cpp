@@ -75,23 +75,40 @@ ordered_json placed_json(const HandPlaced& placed, const WorldAnswer& answer) {
             {"distinguishable", placed.is_distinguished()}};
 }
 
+PlacedLayout layout_of(const nlohmann::json& body) {
+    return {member<std::vector<int>>(body, "nodes"), member<std::string>(body, "method")};
+}
+
 LayoutQuestion question_of(const nlohmann::json& body) {
     const int noise = member<int>(body, "noise");  // from 1
     if (noise < 1) throw BadRequest("'noise' counts the study's noise levels from 1");
-    return {member<std::vector<int>>(body, "nodes"), member<std::string>(body, "method"),
-            member<std::string>(body, "regime"), noise - 1};
+    LayoutQuestion question{layout_of(body), member<std::string>(body, "regime"), noise - 1, {}};
+    if (body.contains("reference")) question.reference = layout_of(body["reference"]);
+    return question;
 }
 
 ordered_json score_json(const LayoutScore& score) {
-    ordered_json json = {{"mean_abs_error_N", score.mean_abs_error_N},
-                         {"interval_low_N", score.interval_low_N},
-                         {"interval_high_N", score.interval_high_N},
+    ordered_json json = {{"mean_abs_error_N", score.mean.value_N},
+                         {"interval_low_N", score.mean.low_N},
+                         {"interval_high_N", score.mean.high_N},
                          {"repetitions", score.repetitions},
                          {"instants", score.instants},
                          {"nodes", ordered_json::array()}};
     for (const NodeError& node : score.nodes)
-        json["nodes"].push_back(
-            {{"node", node.node}, {"mean_abs_error_N", node.mean_abs_error_N}, {"bias_N", node.bias_N}});
+        json["nodes"].push_back({{"node", node.node},
+                                 {"mean_abs_error_N", node.mean_abs_error_N},
+                                 {"bias_N", node.bias_N},
+                                 {"low_N", node.low_N},
+                                 {"high_N", node.high_N}});
+    return json;
+}
+
+ordered_json comparison_json(const LayoutComparison& compared) {
+    ordered_json json = score_json(compared.placed);
+    if (!compared.reference) return json;
+    json["reference"] = score_json(*compared.reference);
+    json["worse_than_reference_N"] = compared.difference.value_N;
+    json["worse_interval_N"] = {compared.difference.low_N, compared.difference.high_N};
     return json;
 }
 
@@ -101,7 +118,8 @@ std::vector<Route> layout_routes(RouteContext& context) {
     const auto score = [&](const http::Request& request, http::Response& response) {
         const LayoutQuestion question = question_of(body_of(request));
         try {
-            send_json(response, score_json(scorer_of(context, number_in_path(request))->score(question)));
+            send_json(response,
+                      comparison_json(scorer_of(context, number_in_path(request))->score(question)));
         } catch (const InvalidInput& error) {
             throw BadRequest(error.what());
         }
@@ -150,8 +168,9 @@ std::vector<Route> layout_routes(RouteContext& context) {
          {400},
          {{"nodes", "[integer]", "From 1 at the motor"},
           {"method", "string", "As in fusion_method.method"},
-          {"regime", "string"},
-          {"noise", "integer", "Which of the study's noise levels, from 1"}}}};
+          {"regime", "string", "Its name, or duty_cycle"},
+          {"noise", "integer", "Which of the study's noise levels, from 1"},
+          {"reference", "object", "Nodes and method of a layout to compare with", false}}}};
     return in_lane(Lane::scores, std::move(routes));
 }
 

@@ -24,7 +24,7 @@ const std::vector<std::pair<std::string, std::vector<ApiField>>>& components() {
           {"tags", "string", "Words with blanks between them"}}},
         {"Job",
          {{"job", "integer", "Its number, from 1"},
-          {"kind", "study|diagnosis"},
+          {"kind", "study|diagnosis|place|sensitivity|estimate"},
           {"title", "string"},
           {"state", "queued|running|stopped|done|failed"},
           {"activity", "string", "What is being done"},
@@ -39,7 +39,10 @@ const std::vector<std::pair<std::string, std::vector<ApiField>>>& components() {
           {"interval_high_N", "number"},
           {"repetitions", "integer"},
           {"instants", "integer"},
-          {"nodes", "[NodeError]"}}},
+          {"nodes", "[NodeError]"},
+          {"reference", "LayoutScore", "Of the layout to compare with", false},
+          {"worse_than_reference_N", "number", "On the same draws", false},
+          {"worse_interval_N", "[number]", "95%, paired", false}}},
         {"PlacedSensors",
          {{"set", "string", "In words"},
           {"price", "number"},
@@ -54,7 +57,12 @@ const std::vector<std::pair<std::string, std::vector<ApiField>>>& components() {
           {"worse_than_recommended_N", "number"},
           {"worse_interval_N", "[number]", "95%, paired"},
           {"distinguishable", "boolean", "From the recommended set, by a paired t test at 5%"}}},
-        {"NodeError", {{"node", "integer"}, {"mean_abs_error_N", "number"}, {"bias_N", "number"}}},
+        {"NodeError",
+         {{"node", "integer"},
+          {"mean_abs_error_N", "number"},
+          {"bias_N", "number"},
+          {"low_N", "number", "Absolute errors of 90% of the draws are between this"},
+          {"high_N", "number", "and this"}}},
     };
     return list;
 }
@@ -143,8 +151,8 @@ std::string openapi_text(const std::vector<Route>& routes) {
 
 std::vector<Route> api_routes(RouteContext& context) {
     std::vector<Route> routes;
-    for (const auto& part : {study_routes, study_action_routes, layout_routes, job_routes, diagnosis_routes,
-                             import_routes, query_routes})
+    for (const auto& part : {study_routes, study_action_routes, layout_routes, job_routes, answer_routes,
+                             diagnosis_routes, import_routes, query_routes})
         for (Route& route : part(context)) routes.push_back(std::move(route));
     routes.push_back(
         {"get", "/openapi.json", "openapi", "This description", "OpenAPI 3", json_of("object"), {}});

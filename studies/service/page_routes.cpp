@@ -1,14 +1,16 @@
 // The pages, and the scripts and styles that they load.
 #include <fmt/format.h>
+#include <openssl/evp.h>
 
 #include "capstan/answers/glossary.h"
 #include "capstan/answers/recording_answers.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/reports/embedded_files.h"
+#include "capstan/reports/page_frame.h"
 #include "capstan/reports/study_comparison.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/service/exchange.h"
-#include "capstan/service/page_policy.h"
+#include "capstan/service/job_results.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/error.h"
@@ -27,8 +29,13 @@ constexpr WebFile web_files[] = {
     {"vega-lite.min.js", "text/javascript"},
     {"vega-embed.min.js", "text/javascript"},
     {"page.js", "text/javascript"},
+    {"player.js", "text/javascript"},
+    {"figure_data.js", "text/javascript"},
     {"live.js", "text/javascript"},
+    {"pins.js", "text/javascript"},
+    {"hand.js", "text/javascript"},
     {"service.js", "text/javascript"},
+    {"start.js", "text/javascript"},
     {"query.js", "text/javascript"},
     {"import.js", "text/javascript"},
     {"page.css", "text/css"},
@@ -38,6 +45,23 @@ constexpr WebFile web_files[] = {
 
 constexpr const char* html = "text/html; charset=utf-8";
 
+// 'sha256-...' of CSP 2.
+std::string hash_source(std::string_view script) {
+    unsigned char digest[EVP_MAX_MD_SIZE];
+    unsigned int size = 0;
+    ::EVP_Digest(script.data(), script.size(), digest, &size, EVP_sha256(), nullptr);
+    unsigned char base64[2 * EVP_MAX_MD_SIZE];
+    const int length = ::EVP_EncodeBlock(base64, digest, static_cast<int>(size));
+    return " 'sha256-" +
+           std::string(reinterpret_cast<const char*>(base64), static_cast<std::size_t>(length)) + "'";
+}
+
+std::string policy_with(const std::string& scripts) {
+    return "default-src 'none'; script-src 'self' 'unsafe-eval'" + scripts +
+           "; style-src 'self' 'unsafe-inline'; connect-src 'self'; img-src 'self' data: blob:; form-action "
+           "'self'; base-uri 'none'; frame-ancestors 'none'";
+}
+
 // A page that holds its scripts in itself.
 void send_whole_page(http::Response& response, std::shared_ptr<const http::KeptText> page) {
     response.add_header(policy_header, self_contained_page_policy());
@@ -46,7 +70,7 @@ void send_whole_page(http::Response& response, std::shared_ptr<const http::KeptT
 
 // As its job wrote it, with curves; otherwise what the database holds.
 std::string diagnosis_page(RouteContext& context, std::int64_t id) {
-    if (std::string page = context.queue.answer_of(id, "page.html"); !page.empty()) return page;
+    if (std::string page = context.queue.answer_of(id, page_file); !page.empty()) return page;
     storage::Database database = context.open();
     for (const auto& each : storage::list_diagnoses(database)) {
         if (each.diagnosis_id == id)
@@ -65,13 +89,27 @@ std::string comparison_page(RouteContext& context, std::int64_t first, std::int6
                 fmt::format("study {} is over worlds; only studies at instants can be compared", id));
     }
     try {
-        return reports::answer_html(reports::study_comparison(database, {first, second}));
+        return reports::answer_html(reports::study_comparison({database, first}, {database, second}));
     } catch (const storage::Error& error) {
         throw BadRequest(error.what(), 409);
     }
 }
 
 }  // namespace
+
+const std::string& page_policy() {
+    static const std::string policy = policy_with("");
+    return policy;
+}
+
+const std::string& self_contained_page_policy() {
+    static const std::string policy = [] {
+        std::string hashes;
+        for (const char* name : reports::page_scripts) hashes += hash_source(reports::embedded_file(name));
+        return policy_with(hashes);
+    }();
+    return policy;
+}
 
 void add_page_routes(http::Server& server, RouteContext& context) {
     const auto front = http::KeptText::of_program(reports::embedded_file("service.html"));
@@ -105,6 +143,11 @@ void add_page_routes(http::Server& server, RouteContext& context) {
                                                       [&] { return diagnosis_page(context, id); }));
     };
     server.add("GET", "/diagnoses/{diagnosis_id}", diagnosis, reports_lane);
+    const auto answer = [&context](const http::Request& request, http::Response& response) {
+        send_whole_page(response,
+                        std::make_shared<http::KeptText>(context.answer_of_job(request, page_file)));
+    };
+    server.add("GET", "/jobs/{job}", answer, reports_lane);
     const auto compare = [&context](const http::Request& request, http::Response& response) {
         const std::int64_t first = number_in_path(request), second = number_in_path(request, 1);
         send_whole_page(response, std::make_shared<http::KeptText>(comparison_page(context, first, second)));

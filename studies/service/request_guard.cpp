@@ -13,8 +13,9 @@ namespace capstan::service {
 namespace {
 
 // Only these take files.
-constexpr std::array<std::string_view, 4> upload_paths{"/api/diagnoses", "/api/import/suggestion",
-                                                       "/api/import/trial", "/api/import/diagnosis"};
+constexpr std::array<std::string_view, 6> upload_paths{"/api/diagnoses",      "/api/estimates",
+                                                       "/api/estimates/cost", "/api/import/suggestion",
+                                                       "/api/import/trial",   "/api/import/diagnosis"};
 
 bool writes(const RequestHead& request) {
     return request.method != "GET" && request.method != "HEAD";

@@ -30,4 +30,11 @@ std::shared_ptr<const http::KeptText> RouteContext::about_study(const std::strin
         state.is_complete ? ReportShelf::Freshness::exact : ReportShelf::Freshness::a_moment_old, make);
 }
 
+std::string RouteContext::answer_of_job(const http::Request& request, const char* name) const {
+    const Job job = job_in_path(*this, request);
+    std::string text = queue.written_by(job, name);
+    if (text.empty()) throw BadRequest("job " + std::to_string(job.number) + " has no such answer", 404);
+    return text;
+}
+
 }  // namespace capstan::service

@@ -30,6 +30,9 @@ struct RouteContext {
     std::shared_ptr<const http::KeptText> about_study(const std::string& what, storage::Database& database,
                                                       std::int64_t study_id, const ReportShelf::Maker& make);
 
+    /// What the job of the path wrote; a BadRequest (404) if it wrote nothing of this name.
+    std::string answer_of_job(const http::Request& request, const char* name) const;
+
     storage::Database open() const { return storage::Database::open_read_only(options.commands.database); }
 };
 
@@ -80,12 +83,27 @@ std::vector<Route> study_routes(RouteContext& context);
 std::vector<Route> study_action_routes(RouteContext& context);
 std::vector<Route> layout_routes(RouteContext& context);
 std::vector<Route> job_routes(RouteContext& context);
+std::vector<Route> answer_routes(RouteContext& context);
 std::vector<Route> diagnosis_routes(RouteContext& context);
 std::vector<Route> import_routes(RouteContext& context);
 std::vector<Route> query_routes(RouteContext& context);
 
 /// The text of a stored configuration; a BadRequest (404) if the folder has none of the name.
 std::string config_named(const ServiceOptions& options, const std::string& name);
+
+/// The studies of the configuration that a body names or holds. A BadRequest with everything that is wrong.
+std::vector<StudyPlan> studies_in(const RouteContext& context, const nlohmann::json& body);
+
+/// The job that the path names; a BadRequest (404) if there is none.
+Job job_in_path(const RouteContext& context, const http::Request& request);
+
+/// The parts `log` and `sidecar` of a request. A BadRequest if one is missing or no recording.
+struct UploadedRecording {
+    std::string title;  ///< for display only: the files in the queue's folder have other names
+    std::string_view log;
+    std::string_view sidecar;
+};
+UploadedRecording recording_of(const http::Request& request);
 
 /// All of them, and /openapi.json, which describes them.
 std::vector<Route> api_routes(RouteContext& context);
@@ -95,6 +113,16 @@ std::string openapi_text(const std::vector<Route>& routes);
 
 /// The pages for people, which are not part of the interface.
 void add_page_routes(http::Server& server, RouteContext& context);
+
+/// The content security policy of the service's own pages: they run and load only its files, and no other
+/// page can frame them. The charts compile their expressions, which needs 'unsafe-eval'.
+const std::string& page_policy();
+
+/// The same for a page that holds its scripts in itself, as a report does: these scripts, by their hashes,
+/// and no other.
+const std::string& self_contained_page_policy();
+
+inline constexpr const char* policy_header = "Content-Security-Policy";
 
 /// What every answer about a study depends on: its status and how many units are done.
 struct StudyState {

@@ -4,7 +4,6 @@
 
 #include "capstan/service/entrance.h"
 #include "capstan/service/exchange.h"
-#include "capstan/service/page_policy.h"
 #include "capstan/service/routes.h"
 
 namespace capstan::service {

@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 
 #include "capstan/answers/study_answers.h"
-#include "capstan/platform/child_process.h"
-#include "capstan/platform/files.h"
+#include "capstan/config/config_writer.h"
+#include "capstan/service/cost_estimate.h"
 #include "capstan/service/exchange.h"
-#include "capstan/service/import_folder.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/study_store.h"
@@ -16,7 +15,6 @@ namespace {
 
 constexpr std::string_view history_query =
     "SELECT event, at_utc, command FROM history WHERE study_id = ?1 ORDER BY event_id";
-constexpr std::chrono::seconds cost_limit{60};
 constexpr std::size_t longest_note = 2000;
 
 storage::Database writable(const RouteContext& context) {
@@ -51,29 +49,19 @@ void annotate(RouteContext& context, std::int64_t id, const nlohmann::json& body
     storage::annotate_study(database, id, note, tags);
 }
 
-// `capstan study plan` in a process of its own: its pilot computes for a second.
 ordered_json cost(const RouteContext& context, const nlohmann::json& body) {
-    const auto toml = body.contains("config")
+    const std::vector<StudyPlan> plans = studies_in(context, body);
+    const bool is_over_worlds = plans.front().uncertainty.is_stated;
+    const auto toml = is_over_worlds ? config::config_text(plans.front(), config::Comments::none)
+                      : body.contains("config")
                           ? config_named(context.options, member<std::string>(body, "config"))
                           : member<std::string>(body, "config_toml");
-    const PrivateFolder folder("capstan-cost");
-    write_file(folder.path() / "study.toml", toml);
-    const CommandOutput ended = run_command(
-        {context.options.commands.program, "study", "plan", (folder.path() / "study.toml").string(), "--json",
-         "--seconds", "1"},
-        {.nice_increment = 5, .processor_s = 60}, {cost_limit, 1 << 20, context.options.commands.ending});
-    ordered_json answer = {{"known", false}};
-    if (ended.exit_code != 0) return answer;  // of worlds, or wrong: then the start says what
-    const auto plan = nlohmann::json::parse(ended.output, nullptr, false);
-    if (!plan.is_object()) return answer;
-    const double core_hours = plan.value("one_run_core_hours", 0.0);
-    const int cores = std::max(
-        1, static_cast<int>(context.options.commands.threads > 0 ? context.options.commands.threads
-                                                                 : std::thread::hardware_concurrency()));
-    return {{"known", true},
-            {"studies", plan.value("studies", 1)},
-            {"processor_s", 3600.0 * core_hours},
-            {"seconds", 3600.0 * core_hours / cores}};
+    ordered_json told = cost_of_studies(context.options.commands, toml, is_over_worlds);
+    if (is_over_worlds && told.contains("seconds")) {  // the first one's, times their number
+        told["studies"] = plans.size();
+        told["seconds"] = told["seconds"].get<double>() * static_cast<double>(plans.size());
+    }
+    return told;
 }
 
 }  // namespace
@@ -141,20 +129,18 @@ std::vector<Route> study_action_routes(RouteContext& context) {
          "What was done to a study, when and by which command", "Events", json_of("[object]"), history},
     };
     routes = in_lane(Lane::reports, std::move(routes));
-    routes.push_back(
-        {"post",
-         "/api/studies/cost",
-         "studyCost",
-         "What the studies of a configuration would cost on this machine; `known` is false of a study "
-         "over worlds and of a configuration that cannot run",
-         "The cost",
-         json_of("object"),
-         tell_cost,
-         200,
-         {400, 404, 503},
-         {by_name, by_text},
-         "application/json",
-         Lane::imports});
+    routes.push_back({"post",
+                      "/api/studies/cost",
+                      "studyCost",
+                      "What the studies of a configuration would cost on this machine",
+                      "The cost",
+                      json_of("object"),
+                      tell_cost,
+                      200,
+                      {400, 404, 503},
+                      {by_name, by_text},
+                      "application/json",
+                      Lane::imports});
     return routes;
 }
 

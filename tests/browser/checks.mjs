@@ -1,5 +1,7 @@
 // What all browser tests share: a Chromium that asks nothing of the network, waits of ten minutes (enough for a busy
 // machine, and the error then names what never came), and facts that are counted.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { chromium } from "playwright-core";
 
 const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -18,6 +20,19 @@ export function check(holds, fact) {
   if (holds) return;
   ++failures;
   console.error("FAILED: " + fact);
+}
+
+// No serious or critical finding of axe-core, with all folded parts opened. The devtools run it, so that the page's own
+// policy stays in force.
+const axe_source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+export async function accessible(page, name) {
+  await page.evaluate(axe_source);
+  const found = await page.evaluate(async () => {
+    const { violations } = await globalThis.axe.run(document, { resultTypes: ["violations"] });
+    return violations.filter((each) => ["serious", "critical"].includes(each.impact))
+      .flatMap((each) => each.nodes.slice(0, 3).map((node) => `${each.id}: ${node.target.join(" ")} ${node.any[0]?.message ?? each.help}`));
+  });
+  check(found.length === 0, `${name}: axe-core finds nothing serious:\n    ${found.join("\n    ")}`);
 }
 
 // Tells how many facts held, and ends the program with it.

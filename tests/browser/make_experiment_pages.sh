@@ -9,6 +9,10 @@ mkdir -p "$folder"
 "$capstan" paper exp2 --html "$folder/exp2.html" >/dev/null
 "$capstan" paper solver --seconds 0.01 --html "$folder/solver.html" >/dev/null
 "$capstan" place "$configs/paper.toml" --repetitions 20 --html "$folder/place.html" -o /dev/null
+python3 "$(dirname "$0")/../commands/tension_recording.py" "$capstan" "$folder"
+mv "$folder/b.csv" "$folder/tensions.csv"
+mv "$folder/b.json" "$folder/tensions.json"
+"$capstan" estimate "$folder/tensions.csv" --html "$folder/estimate.html" -o /dev/null
 "$capstan" simulate "$configs/bench-slack.toml" --html "$folder/bench.html" -o /dev/null
 
 # A simulated bench with more friction than the model of its recording knows.

@@ -4,14 +4,14 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs"
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { check, finish, launch } from "./checks.mjs";
+import { accessible, check, finish, launch } from "./checks.mjs";
 
 const [folder, ...pages] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
 const largest_page_bytes = 3e6;
-const all_views = [{ width: 1280, dark: false }, { width: 1280, dark: true }, { width: 700, dark: false }];
-const few_views = [{ width: 1280, dark: false }, { width: 700, dark: true }];
+const all_views = [{ width: 1280, dark: false }, { width: 1280, dark: true }, { width: 700, dark: false }, { width: 390, dark: true }];
+const few_views = [{ width: 1280, dark: false }, { width: 390, dark: true }];
 const views = process.env.FEW_VIEWS ? few_views : all_views;
 
 async function open(browser, file, { width, dark }) {
@@ -58,8 +58,8 @@ async function look(browser, file, view) {
     check(figure.axes > 0, `${name}: ${figure.id} names its axes`);
     check(figure.caption > 40 && figure.label.length > 40, `${name}: ${figure.id} is described in words`);
     check(!figure.broken, `${name}: ${figure.id} draws only numbers`);
-    if (view.width >= 1280) check(figure.overflow <= 0, `${name}: ${figure.id} fits (${figure.overflow} px too wide)`);
-    check(figure.grown <= 0, `${name}: ${figure.id} stays in the room kept for it (${figure.grown} px more)`);
+    check(figure.overflow <= 0, `${name}: ${figure.id} fits (${figure.overflow} px too wide)`);
+    if (view.width >= 700) check(figure.grown <= 0, `${name}: ${figure.id} stays in the room kept for it (${figure.grown} px more)`);
   }
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   check(overflow <= 0, `${name}: no horizontal scroll (${overflow} px)`);
@@ -77,6 +77,7 @@ async function look(browser, file, view) {
     return (parts.reduce((a, b) => a + b) / 3 > 128) === dark;
   }, [letters, view.dark]), `${name}: the letters in figures suit the theme`);
 
+  await accessible(page, name);
   await page.screenshot({ path: join(folder, name.replaceAll(" ", "_") + ".png"), fullPage: true });
   return { page, complaints };
 }

@@ -8,7 +8,7 @@ capstan=$2
 configs=$3
 . "$here/browser_driver.sh"
 
-cp "$here/service_pages.mjs" "$work/"
+cp "$here"/service_*.mjs "$work/"
 rm -rf "$work/served"
 mkdir -p "$work/served"
 "$capstan" gap-trial --cases 1 --seed 4 --length short --severity strong --keep "$work/served/trial" --generate-only \
@@ -17,6 +17,7 @@ mkdir -p "$work/served"
 awk -F, 'BEGIN { print "Time [ms],Motor torque (Nm),ch3,Joint torque (Nm),ch5" }
          $1 == 1 { printf "%.3f,%s,%.7f,%s,%.7f\n", 1000 * $2, $3, $4 * 57.29577951308232, $5, $6 * 57.29577951308232 }' \
     "$configs/recordings/viscous-pair.csv" >"$work/served/laboratory.csv"
+python3 "$here/../commands/tension_recording.py" "$capstan" "$work/served"
 cp "$configs/recordings/viscous-pair.json" "$work/served/bench.json"
 : >"$work/served/messages"
 "$capstan" serve --db "$work/served/capstan.db" --port 0 --configs "$configs" 2>"$work/served/messages" &
@@ -30,4 +31,4 @@ while [ -z "$address" ]; do
 done
 CHROMIUM=$chromium node "$work/service_pages.mjs" "$work/screenshots" "$address" \
     "$work/served/trial/case001.csv" "$work/served/trial/case001.json" \
-    "$work/served/laboratory.csv"
+    "$work/served/laboratory.csv" "$work/served/b.csv"

@@ -1,11 +1,13 @@
 // Uses the pages of a running `capstan serve` as a person would, in headless Chromium.
-// usage: node service_pages.mjs SCREENSHOT_FOLDER ADDRESS LOG.csv SIDECAR.json LABORATORY_LOG.csv
+// usage: node service_pages.mjs SCREENSHOT_FOLDER ADDRESS LOG.csv SIDECAR.json LABORATORY_LOG.csv TENSIONS.csv
 import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { check, finish, launch } from "./checks.mjs";
+import { accessible, check, finish, launch } from "./checks.mjs";
+import { askQuestions, estimateTension, seeProblems } from "./service_answers.mjs";
+import { placeByHand } from "./service_by_hand.mjs";
 
-const [folder, address, log, sidecar, laboratory] = process.argv.slice(2);
+const [folder, address, log, sidecar, laboratory, tensions] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 const profile = mkdtempSync(join(tmpdir(), "capstan-browser-"));
 
@@ -73,31 +75,6 @@ async function useTheReport(page) {
   await page.click('#filters input[value="mass"]');
 }
 
-async function moveASensor(page) {
-  const answered = () => page.$eval("#hand-expected", (each) => Number(each.dataset.answered ?? 0));
-  await page.waitForFunction(() => document.querySelector("#hand-expected")?.dataset.answered > 0);
-  const recommended = await text(page, "#hand-expected");
-  check(/Expected error \d/.test(recommended), "the recommendation's sensors have an expected error: " + recommended);
-  let count = await answered();
-  const chosen = await page.$$eval("#hand .place[aria-checked=true]", (all) => all.map((each) => Number(each.dataset.node)));
-  const free = await page.$$eval("#hand .place[aria-checked=false]", (all) => all.map((each) => Number(each.dataset.node)));
-  await page.click(`#hand .place[data-node="${chosen[0]}"]`);
-  await page.click(`#hand .place[data-node="${free[0]}"]`);
-  await page.waitForFunction(([old, words]) => Number(document.querySelector("#hand-expected").dataset.answered) > old && document.querySelector("#hand-expected").textContent !== words, [count, recommended]);
-  const moved = await text(page, "#hand-expected");
-  check(/Expected error \d/.test(moved) && moved !== recommended, "a moved sensor changes the expected error: " + moved);
-  await page.locator("#hand").screenshot({ path: join(folder, "service_hand.png") });
-
-  // By keyboard: the sensor in focus goes one node on.
-  const here = await page.$$eval("#hand .place[aria-checked=true]", (all) => all.map((each) => Number(each.dataset.node)));
-  const last = Math.max(...here);
-  count = await answered();
-  await page.focus(`#hand .place[data-node="${last}"]`);
-  await page.keyboard.press(last > 1 && !here.includes(last - 1) ? "Shift+ArrowLeft" : "Space");
-  await page.waitForFunction((old) => Number(document.querySelector("#hand-expected").dataset.answered ?? 0) > old || document.querySelector("#hand-expected").textContent.startsWith("No sensor"), count);
-  check(await page.$eval(`#hand .place[data-node="${last}"]`, (each) => each.getAttribute("aria-checked")) === "false", "the keyboard moves a sensor");
-}
-
 async function query(page) {
   await page.fill("#sql", "SELECT family, sensor_count, mean_abs_error_N FROM v_best_method LIMIT 4");
   await page.click("#query-form button[type=submit]");
@@ -142,9 +119,16 @@ async function manageStudies(browser) {
   await comesTo(2);
   await page.click('[aria-label="Delete study 2"]');
   await comesTo(1);
-  await page.click('[aria-label="Bring study 2 back"]');
+  await page.click('[aria-label="Undo: bring study 2 back"]');
   await comesTo(2);
-  await page.focus('[aria-label="Run study 1 again"]');
+  await page.click('[aria-label="Delete study 2"]');
+  await comesTo(1);
+  await page.waitForSelector("#trash:not([hidden])");
+  check(/Trash \(1\)/.test(await text(page, "#trash summary")), "the trash tells how much is in it");
+  await page.click("#trash summary");
+  await page.click('[aria-label="Restore study 2"]');
+  await comesTo(2);
+  await page.focus('[aria-label="Run again: study 1"]');
   await page.keyboard.press("Enter");
   await comesTo(3);
   await page.waitForFunction(() => [...document.querySelectorAll("#study-table tbody tr")].every((row) => row.textContent.includes("complete")));
@@ -153,6 +137,7 @@ async function manageStudies(browser) {
   await page.check('[aria-label="Choose study 3"]');
   await page.click("#compare");
   await page.waitForSelector("main section");
+  await accessible(page, "the comparison");
   check(/\/studies\/1\/compare\/3$/.test(page.url()), "two studies are compared: " + page.url());
   await page.goto(new URL("/", address).href);
   await page.waitForSelector("html[data-ready=yes]");
@@ -185,18 +170,27 @@ async function openWholePages(browser) {
   await page.waitForSelector("main figure[data-figure] svg");
   await page.waitForSelector("html[data-drawn=yes]");
   check((await page.$$("main figure[data-figure] svg")).length > 2, "the diagnosis has its curves");
+  await accessible(page, "the diagnosis, light");
   await page.screenshot({ path: join(folder, "service_diagnosis.png") });
   for (const [width, dark] of [[390, false], [390, true]]) {
     await page.setViewportSize({ width, height: 844 });
     await page.emulateMedia({ colorScheme: dark ? "dark" : "light" });
+    await page.waitForTimeout(400);
     await page.waitForFunction(() => document.documentElement.dataset.drawn === "yes");
     check(await overflow(page) <= 0, "the diagnosis fits a telephone");
+    const cut = await page.$$eval("main figure .chart", (all) => all.filter((each) => each.scrollWidth > each.clientWidth).map((each) => each.closest("figure").id));
+    check(cut.length === 0, "no chart of the diagnosis is cut off on a telephone: " + cut);
   }
   await page.screenshot({ path: join(folder, "service_diagnosis_390_dark.png") });
+  await accessible(page, "the diagnosis, narrow, dark");
   const model = await (await fetch(new URL("/api/diagnoses/1/model", address))).text();
   check(model.includes("[") && model.includes("="), "the corrected model can be downloaded: " + model.slice(0, 60));
   await page.goto(new URL("/glossary", address).href);
   check((await text(page, "main")).includes("regret"), "the glossary explains regret");
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    await accessible(page, "the glossary, " + colorScheme);
+  }
   await page.close();
 }
 
@@ -306,14 +300,21 @@ try {
 
   const study = await open(browser, "/studies/1");
   await useTheReport(study);
-  await moveASensor(study);
+  await placeByHand(study, folder, (path) => open(browser, path));
   check(await overflow(study) <= 0, "the study's page has no horizontal scroll");
   await study.screenshot({ path: join(folder, "service_study.png"), fullPage: true });
   await study.emulateMedia({ colorScheme: "dark" });
   await study.waitForFunction(() => document.documentElement.dataset.drawn === "yes");
   await study.screenshot({ path: join(folder, "service_study_dark.png") });
+  await accessible(study, "a study, dark");
+  await study.emulateMedia({ colorScheme: "light" });
+  await accessible(study, "a study, light");
   await study.close();
 
+  const seen = (path) => open(browser, path);
+  await seeProblems(front, folder);
+  await askQuestions(front, folder, seen);
+  await (await estimateTension(front, folder, seen, tensions)).close();
   await query(front);
   await refusedQuery(front);
   await query(front);
@@ -324,6 +325,10 @@ try {
   await front.emulateMedia({ colorScheme: "dark" });
   await front.setViewportSize({ width: 700, height: 900 });
   check(await overflow(front) <= 0, "nor on a narrow screen");
+  await accessible(front, "the front page, narrow, dark");
+  await front.emulateMedia({ colorScheme: "light" });
+  await accessible(front, "the front page, light");
+  await front.emulateMedia({ colorScheme: "dark" });
   await front.screenshot({ path: join(folder, "service_front_narrow_dark.png"), fullPage: true });
   await watchCellsFill(browser);
   await manageStudies(browser);

@@ -37,6 +37,19 @@ class Compare(CapstanTest):
             self.assertAlmostEqual(float(row["difference_N"]), reports[1][key] - reports[0][key], places=12)
             self.assertLessEqual(float(row["interval_low_N"]), float(row["difference_N"]))
 
+    def test_across_databases(self):
+        """The numbers are those of one database; the studies are told apart by their files."""
+        expected = json.loads(self.compare("--format", "json"))
+        for file, config in (("a.db", CONFIGS / "quick.toml"), ("b.db", "noisier.toml")):
+            self.run_capstan("study", "run", config, "--db", file, "--progress", "none")
+        words = ("report", "latest", "--db", "b.db", "--compare", "quick", "--other-db", "a.db")
+        told = json.loads(self.run_capstan(*words, "--format", "json").stdout)
+        self.assertEqual(told, expected)
+        self.assertIn("study 1 (quick) of a.db and study 1 (noisier) of b.db", self.run_capstan(*words, "--format", "md").stdout)
+        self.assertIn("--compare OTHER", self.run_capstan("report", "--other-db", "a.db", expect=2).stderr)
+        self.assertIn("nothing.db", self.run_capstan("report", "--compare", 1, "--other-db", "nothing.db", expect=3).stderr)
+        self.assertFalse((self.folder / "nothing.db").exists())
+
     def test_in_words_and_as_a_page(self):
         words = self.compare("--format", "md")
         self.assertIn("| noise[1].multiplicative_ratio | 0.05 | 0.2 |", words.replace("\\", ""))

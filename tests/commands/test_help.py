@@ -1,9 +1,11 @@
 """A newcomer finds the way: help names everything, a slip of the finger gets the nearest name."""
 
+import json
 import re
 import unittest
 
-from capstan_program import CapstanTest
+import tension_recording
+from capstan_program import CONFIGS, PROGRAM, CapstanTest
 
 
 class Help(CapstanTest):
@@ -26,6 +28,35 @@ class Help(CapstanTest):
             codes = asked.split("Exit codes:")[1]
             self.assertEqual("\n  3 " in codes, "--db FILE" in asked, name)
             self.assertEqual("\n  130 " in codes, name in ("study run", "study resume", "study extend", "study merge"), name)
+
+    def test_every_command_says_how_long_it_takes_and_long_ones_show_progress(self):
+        """Those without --progress end at once, are given their time, or wait for another program."""
+        given_a_time = {"serve", "query", "report", "export", "doctor", "study replay", "simulate"}
+        table = []
+        for name in self.commands():
+            asked = self.run_capstan(*name.split(), "--help").stdout
+            words = " ".join(asked.split("\nTime:\n")[1].split("\n\n")[0].split())
+            table.append((name, "yes" if "--progress" in asked else "-", words))
+            if "time left" in words or "Shows progress" in words:
+                self.assertIn("--progress", asked, name)
+            elif words != "Less than 2 s.":
+                self.assertIn(name, given_a_time, words)
+        print("\n" + "\n".join("{:<18} {:<9} {}".format(*row) for row in [("command", "progress", "time")] + table))
+
+    def test_long_work_tells_how_much_is_left(self):
+        tension_recording.make(PROGRAM, self.folder)
+        self.write("small.toml", (CONFIGS / "quick.toml").read_text().replace("repetitions = ", "repetitions = 2"))
+        for words in (("place", "small.toml"), ("sensitivity", "small.toml"), ("estimate", "small.toml"), ("estimate", "b.csv"),
+                      ("estimate", "b.csv", "--leave-out", "each"), ("calibrate", CONFIGS / "recordings" / "viscous-pair.csv"),
+                      ("duty", CONFIGS / "recordings" / "viscous-pair.csv"), ("paper", "solver", "--seconds", 0.01), ("study", "plan", "small.toml", "--seconds", 1), ("study", "run", "small.toml"),
+                      ("study", "extend", 1, "--repetitions", 4200)):
+            said = self.run_capstan(*words, "--progress", "json", *(() if "run" in words or "extend" in words else ("-o", "answer"))).stderr
+            events = [json.loads(line) for line in said.splitlines() if '"progress"' in line]
+            fractions = [event["fraction"] for event in events]
+            self.assertEqual(fractions, sorted(fractions), words)  # never goes back
+            self.assertEqual((fractions[0] < 0.5, fractions[-1]), (True, 1.0), words)
+            for event in events[1:]:
+                self.assertIsNotNone(event["seconds_left"], (words, event))
 
     def test_every_option_in_an_example_is_explained(self):
         for name in self.commands():

@@ -70,6 +70,17 @@ class Serve(ServiceTest):
             self.assertEqual(len(score["nodes"]), 7)
         moved = {"nodes": [2, 5], "method": "posterior_mean", "regime": "mass", "noise": 1}  # no layout of the study
         self.assertGreater(self.post("/api/studies/1/layout", moved)["mean_abs_error_N"], 0)
+        one_regime = self.post("/api/studies/1/layout", moved)
+        duty = self.post("/api/studies/1/layout", {**moved, "regime": "duty_cycle", "reference": {"nodes": [5, 2], "method": "posterior_mean"}})
+        self.assertAlmostEqual(duty["mean_abs_error_N"], one_regime["mean_abs_error_N"], places=12)  # the study has one regime
+        self.assertEqual((duty["worse_than_reference_N"], duty["reference"]["nodes"]), (0, duty["nodes"]))
+        for node in one_regime["nodes"]:
+            self.assertTrue(0 <= node["low_N"] < node["high_N"], node)
+        worse = self.post("/api/studies/1/layout", {**moved, "method": "mean", "reference": {"nodes": [2, 5], "method": "posterior_mean"}})
+        self.assertGreater(worse["worse_interval_N"][1], worse["worse_interval_N"][0])
+        self.assertAlmostEqual(worse["worse_than_reference_N"], worse["mean_abs_error_N"] - one_regime["mean_abs_error_N"], places=12)
+        self.post("/api/studies/1/layout", {**moved, "reference": {"nodes": [9], "method": "mean"}}, expect=400)
+        self.post("/api/studies/1/layout", {**moved, "reference": 3}, expect=400)
         for wrong in ({"nodes": []}, {"nodes": [0]}, {"nodes": [8]}, {"nodes": [3, 3]}, {"method": "magic"},
                       {"regime": "partial_both"}, {"noise": 2}, {"nodes": "all"}):
             self.post("/api/studies/1/layout", {**moved, **wrong}, expect=400)

@@ -1,0 +1,76 @@
+#include "capstan/service/cost_estimate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+#include <thread>
+
+#include "capstan/platform/child_process.h"
+#include "capstan/platform/clocks.h"
+#include "capstan/platform/files.h"
+#include "capstan/platform/progress.h"
+#include "capstan/service/import_folder.h"
+
+namespace capstan::service {
+
+namespace {
+
+constexpr std::chrono::seconds plan_limit{60};
+constexpr std::chrono::seconds pilot_limit{6};
+constexpr std::size_t most_output = 1 << 20;
+constexpr int pilot_nice_increment = 5;
+
+ordered_json unknown() {
+    return {{"known", false}};
+}
+
+int threads_of(const JobCommands& commands) {
+    return std::max(
+        1, static_cast<int>(commands.threads > 0 ? commands.threads : std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+ordered_json cost_of_command(const JobCommands& commands, const std::vector<std::string>& words) {
+    std::vector<std::string> all{commands.program};
+    all.insert(all.end(), words.begin(), words.end());
+    const std::string threads = std::to_string(commands.threads);
+    for (const char* word : {"--json", "-o", "/dev/null", "--progress", "json", "--jobs", threads.c_str()})
+        all.emplace_back(word);
+    const double begin_s = wall_time_s();
+    const CommandOutput ended = run_command(all, {.nice_increment = pilot_nice_increment},
+                                            {pilot_limit, most_output, commands.ending});
+    const double took_s = wall_time_s() - begin_s;
+    if (!ended.is_late)
+        return ended.exit_code == 0 ? ordered_json{{"known", true}, {"seconds", took_s}, {"studies", 1}}
+                                    : unknown();
+    std::optional<double> left_s;
+    std::istringstream lines(ended.messages);
+    for (std::string line; std::getline(lines, line);) {
+        const auto event = read_progress_json(line);
+        if (event && event->seconds_left) left_s = event->seconds_left;
+    }
+    if (!left_s) return unknown();
+    return {{"known", true}, {"seconds", took_s + *left_s}, {"studies", 1}};
+}
+
+ordered_json cost_of_studies(const JobCommands& commands, const std::string& toml, bool is_over_worlds) {
+    const PrivateFolder folder("capstan-cost");
+    const std::string file = (folder.path() / "study.toml").string();
+    write_file(file, toml);
+    if (is_over_worlds) return cost_of_command(commands, {"place", file});
+    const CommandOutput ended =
+        run_command({commands.program, "study", "plan", file, "--json", "--seconds", "1"},
+                    {.nice_increment = pilot_nice_increment, .processor_s = 60},
+                    {plan_limit, most_output, commands.ending});
+    if (ended.exit_code != 0) return unknown();  // then the start says what is wrong
+    const auto plan = nlohmann::json::parse(ended.output, nullptr, false);
+    if (!plan.is_object()) return unknown();
+    const double processor_s = 3600.0 * plan.value("one_run_core_hours", 0.0);
+    return {{"known", true},
+            {"studies", plan.value("studies", 1)},
+            {"processor_s", processor_s},
+            {"seconds", processor_s / threads_of(commands)}};
+}
+
+}  // namespace capstan::service

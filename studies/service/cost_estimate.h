@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capstan/service/exchange.h"
+#include "capstan/service/job_queue.h"
+
+namespace capstan::service {
+
+/// {"known": true, "seconds": S, "studies": N}: what the studies of a configuration take on this machine, by
+/// `capstan study plan` in a process of its own, or by the beginning of the study where that has no instants.
+ordered_json cost_of_studies(const JobCommands& commands, const std::string& toml, bool is_over_worlds);
+
+/// The same of one command, such as {"place", "study.toml"}: it is begun, and its own progress tells after a
+/// few seconds how much is left. Nothing that it writes is kept. {"known": false} if it does not say.
+ordered_json cost_of_command(const JobCommands& commands, const std::vector<std::string>& words);
+
+}  // namespace capstan::service

@@ -1,0 +1,90 @@
+"""Questions that the service answers on a page of their own: the same bits as at the shell, behind the same queue."""
+
+import json
+import signal
+import unittest
+
+import tension_recording
+from capstan_program import CONFIGS, PROGRAM
+from capstan_service import ServiceTest
+
+QUICK = (CONFIGS / "quick.toml").read_text()
+
+
+class ServeAnswers(ServiceTest):
+    def answer_of(self, job):
+        self.assertEqual(self.await_job(job["job"], "done")["state"], "done")
+        status, headers, page = self.ask("GET", f"/jobs/{job['job']}")
+        self.assertEqual(status, 200, page)
+        self.assertIn("script-src 'self' 'unsafe-eval' 'sha256-", headers["Content-Security-Policy"])
+        self.assertIn(b"<!DOCTYPE html>", page)
+        return self.ask("GET", f"/api/jobs/{job['job']}/answer")[2].decode()
+
+    def test_are_those_of_the_commands(self):
+        self.serve("--configs", CONFIGS)
+        self.write("shell.toml", QUICK)
+        for command, body, words in (
+            ("place", {"config": "quick.toml"}, ()),
+            ("place", {"config_toml": QUICK, "noise": "5 %"}, ("--noise", "5 %")),
+            ("sensitivity", {"config_toml": QUICK, "sensors": 1}, ("--sensors", 1)),
+            ("estimate", {"config_toml": QUICK}, ()),
+        ):
+            job = self.post("/api/answers", {"command": command, **body}, expect=202)[0]
+            self.assertEqual((job["kind"], job["title"]), (command, "quick"))
+            expected = self.run_capstan(command, "shell.toml", *words, "--json", "--progress", "none").stdout
+            self.assertEqual(self.answer_of(job), expected, command)
+        self.assertEqual(self.get("/api/studies"), [])  # nothing is stored in the database
+
+    def test_of_a_recording(self):
+        self.serve()
+        tension_recording.make(PROGRAM, self.folder)
+        files = {"log": ("b.csv", (self.folder / "b.csv").read_bytes()), "sidecar": ("b.json", (self.folder / "b.json").read_bytes())}
+        for more, words in (({}, ()), ({"leave_out": ("x", b"each")}, ("--leave-out", "each"))):
+            cost = self.upload(files | more, path="/api/estimates/cost", expect=200)
+            self.assertTrue(cost["known"] and cost["seconds"] > 0, cost)
+            job = self.upload(files | more, path="/api/estimates")
+            expected = self.run_capstan("estimate", "b.csv", *words, "--json", "--progress", "none").stdout
+            self.assertEqual(self.answer_of(job), expected)
+        self.upload(files | {"leave_out": ("x", b"--db")}, path="/api/estimates", expect=400)
+        self.upload({"log": files["log"]}, path="/api/estimates", expect=400)
+
+    def test_what_is_wrong_is_said_before_anything_starts(self):
+        self.serve("--configs", CONFIGS)
+        for body in ({"command": "magic", "config": "quick.toml"}, {"config": "quick.toml"}, {"command": "place"},
+                     {"command": "place", "config_toml": QUICK, "sensors": 2}, {"command": "estimate", "config_toml": QUICK, "noise": "5 %"},
+                     {"command": "place", "config_toml": "repetitions = -1"}):
+            self.post("/api/answers", body, expect=400)
+            self.post("/api/answers/cost", body, expect=400)
+        self.post("/api/answers", {"command": "place", "config": "../quick.toml"}, expect=404)
+        self.assertEqual(self.get("/api/jobs"), [])
+        checked = self.post("/api/configs/check", {"config_toml": 'repetitions = -1\nnoize = 3\n'})
+        self.assertEqual(len([each for each in checked["problems"] if "repetitions" in each or "noize" in each]), 2, checked)
+        self.assertEqual(self.post("/api/configs/check", {"config": "quick.toml"}), {"problems": [], "studies": 1, "over_worlds": False})
+        self.assertGreater(self.post("/api/configs/check", {"config": "atlas.toml"})["studies"], 100)
+        job = self.post("/api/studies", {"config": "quick.toml"}, expect=202)[0]
+        self.await_job(job["job"], "done")
+        self.get(f"/api/jobs/{job['job']}/answer", expect=404)
+        self.get("/api/jobs/99/answer", expect=404)
+
+    def test_costs_are_told_of_worlds_too(self):
+        self.serve("--configs", CONFIGS)
+        worlds = self.post("/api/studies/cost", {"config": "wrist-exosuit.toml"})
+        self.assertTrue(worlds["known"] and worlds["seconds"] > 0, worlds)
+        place = self.post("/api/answers/cost", {"command": "place", "config": "quick.toml"})
+        self.assertTrue(place["known"] and 0 < place["seconds"] < 600, place)
+
+    def test_killed_and_started_again(self):
+        toml = QUICK.replace("repetitions = ", "repetitions = 1")
+        process = self.serve()
+        job = self.post("/api/answers", {"command": "sensitivity", "config_toml": toml}, expect=202)[0]
+        self.await_job(job["job"], "running", "done")
+        process.send_signal(signal.SIGKILL)
+        process.communicate()
+        self.serve()
+        self.write("shell.toml", toml)
+        expected = self.run_capstan("sensitivity", "shell.toml", "--json", "--progress", "none").stdout
+        self.assertEqual(json.loads(self.answer_of(job)), json.loads(expected))
+
+
+if __name__ == "__main__":
+    unittest.main()
