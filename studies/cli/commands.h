@@ -16,6 +16,7 @@
     COMMAND(study_restore)        \
     COMMAND(study_note)           \
     COMMAND(study_merge)          \
+    COMMAND(study_verify)         \
     COMMAND(study_plan)           \
     COMMAND(study_submit)         \
     COMMAND(study_status)         \
