@@ -20,6 +20,7 @@
     COMMAND(study_plan)           \
     COMMAND(study_submit)         \
     COMMAND(study_status)         \
+    COMMAND(study_work)           \
     COMMAND(recommend)            \
     COMMAND(place)                \
     COMMAND(sensitivity)          \

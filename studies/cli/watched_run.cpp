@@ -56,7 +56,7 @@ std::vector<Option> watched_run_options() {
 ExitCode watch(const Invocation& invocation, const std::string& name, const WatchedWork& work) {
     ProgressDisplay display(progress_mode(invocation.text("progress")));
     RunOptions options;
-    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    if (invocation.has("jobs")) options.jobs = static_cast<int>(invocation.integer("jobs"));
     options.on_progress = [&](const StudyProgress& progress) {
         display.show(counted_progress(name, progress.units_done, progress.units, "units"));
     };

@@ -25,7 +25,7 @@ class Help(CapstanTest):
                 self.assertIn(part, asked)
             codes = asked.split("Exit codes:")[1]
             self.assertEqual("\n  3 " in codes, "--db FILE" in asked, name)
-            self.assertEqual("\n  130 " in codes, name in ("study run", "study resume", "study extend", "study merge", "study verify"), name)
+            self.assertEqual("\n  130 " in codes, name in ("study run", "study resume", "study extend", "study merge", "study verify", "study work"), name)
 
     def test_every_option_in_an_example_is_explained(self):
         for name in self.commands():
