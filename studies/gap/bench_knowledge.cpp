@@ -9,10 +9,11 @@ namespace capstan::gap {
 
 namespace {
 
-// Wherever a search goes, the bench can still be built.
+// Wherever a search goes, the bench can still be built. A pretension may be as good as none.
 double bounded_ratio(double logarithm) {
+    constexpr double min_log = -4.0;
     constexpr double max_log = 2.5;
-    return std::exp(std::clamp(logarithm, -max_log, max_log));
+    return std::exp(std::clamp(logarithm, min_log, max_log));
 }
 
 FloatingNumber ratio(const std::string& name, double prior_std, const std::string& effect,

@@ -16,6 +16,7 @@ namespace {
 constexpr double correlation_time_s = 0.25;
 // Trials of a search after each Jacobian, which move side by side.
 constexpr int dampings_at_once = 4;
+constexpr int max_iterations = 20;
 // A search ends where a further step promises to change the evidence by less than this.
 constexpr double min_gain = 0.02;
 
@@ -169,9 +170,15 @@ double CauseFitter::shape_penalty(const CauseFit& fit) const {
 
 Eigen::VectorXd CauseFitter::half_widths(const CauseFit& fit,
                                          const std::vector<Eigen::VectorXd>& without_a_run) const {
+    Eigen::VectorXd here = fit.residuals;
+    apply(fit.weights, here);
     const Eigen::MatrixXd jacobian = jacobian_at(
-        [&](const Eigen::MatrixXd& coordinates) { return residuals(fit.hypothesis(), coordinates); },
-        fit.coordinates, fit.residuals);
+        [&](const Eigen::MatrixXd& coordinates) {
+            Eigen::MatrixXd all = residuals(fit.hypothesis(), coordinates);
+            apply(fit.weights, all);
+            return all;
+        },
+        fit.coordinates, here);
     // Channels of one instant are correlated, so a block has the rows of all of them.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Index>> blocks;  // run, second: rows
     for (const ResidualSeries& series : series_) {
@@ -189,7 +196,7 @@ Eigen::VectorXd CauseFitter::half_widths(const CauseFit& fit,
         ends.push_back(static_cast<Eigen::Index>(order.size()));
     }
     for (auto row = static_cast<Eigen::Index>(data_rows_); row < jacobian.rows(); ++row) order.push_back(row);
-    const Sandwich sandwich = sandwich_of(jacobian(order, Eigen::all), fit.residuals(order), ends);
+    const Sandwich sandwich = sandwich_of(jacobian(order, Eigen::all), here(order), ends);
     const Eigen::VectorXd independent = prior_weight_ * prior_weight_ * sandwich.inverse.diagonal();
     const Eigen::VectorXd deviations = sandwich.covariance.diagonal().cwiseMax(independent).cwiseSqrt();
     return (two_sided_95 * deviations).cwiseMax(jackknife_half_widths(without_a_run, deviations.size()));
@@ -227,6 +234,30 @@ Eigen::MatrixXd CauseFitter::residuals(const Hypothesis& hypothesis, const Eigen
     return all;
 }
 
+SeriesWeights CauseFitter::balancing_weights(const Eigen::VectorXd& residuals) const {
+    std::map<std::size_t, std::pair<double, double>> by_channel;  // sum of squares, rows
+    for (const ResidualSeries& series : series_) {
+        auto& [squares, rows] = by_channel[series.channel];
+        squares +=
+            residuals
+                .segment(static_cast<Eigen::Index>(series.first_row), static_cast<Eigen::Index>(series.rows))
+                .squaredNorm();
+        rows += static_cast<double>(series.determined_rows());
+    }
+    SeriesWeights weights;
+    for (const ResidualSeries& series : series_) {
+        const auto& [squares, rows] = by_channel[series.channel];
+        weights.push_back(1.0 / std::sqrt(std::max(1.0, squares / std::max(1.0, rows))));
+    }
+    return weights;
+}
+
+void CauseFitter::apply(const SeriesWeights& weights, Eigen::Ref<Eigen::MatrixXd> residuals) const {
+    for (std::size_t k = 0; k < weights.size(); ++k)
+        residuals.middleRows(static_cast<Eigen::Index>(series_[k].first_row),
+                             static_cast<Eigen::Index>(series_[k].rows)) *= weights[k];
+}
+
 // The nominal numbers can explain much of what a cause does, and a search that moves them first can stop in
 // that local minimum. Therefore a coarse scan sizes the last cause with everything else held.
 Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOptions& options,
@@ -255,27 +286,68 @@ Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOpt
 }
 
 CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) const {
+    int evaluations = 0;
+    Hypothesis from = start;
+    if (options.any_size && !start.causes.empty())
+        from.coordinates = roughly_sized(start, options, evaluations);
+    if (!options.balanced) {
+        CauseFit fit = fit_with(options.weights, from, options, max_iterations);
+        fit.evaluations += evaluations;
+        return fit;
+    }
+    // As long as the weights still move, a rough search is enough.
+    constexpr int max_rounds = 4;
+    constexpr int rough_iterations = 5;
+    constexpr double clearly = 1.3;
+    CauseFit fit;
+    SeriesWeights weights = balancing_weights(data_residuals({&from, 1}, options.left_out));
+    bool holds = false;
+    for (int round = 0; round < max_rounds; ++round) {
+        const bool is_last = holds || round + 1 == max_rounds;
+        fit = fit_with(weights, from, options, is_last ? max_iterations : rough_iterations);
+        evaluations += fit.evaluations;
+        if (is_last) break;
+        from.coordinates = fit.coordinates;
+        const SeriesWeights next = balancing_weights(fit.residuals);
+        holds = std::equal(next.begin(), next.end(), weights.begin(), [](double one, double other) {
+            return std::max(one, other) < clearly * std::min(one, other);
+        });
+        if (holds && fit.converged) break;
+        if (!holds) weights = next;
+    }
+    fit.evaluations = evaluations;
+    return fit;
+}
+
+CauseFit CauseFitter::fit_with(const SeriesWeights& weights, const Hypothesis& start,
+                               const FitOptions& options, int iterations) const {
     CauseFit fit;
     fit.causes = start.causes;
     fit.bench = start.bench;
-    const Eigen::VectorXd from = options.any_size && !start.causes.empty()
-                                     ? roughly_sized(start, options, fit.evaluations)
-                                     : start.coordinates;
+    fit.weights = weights;
     LeastSquaresOptions search;
     search.differences = Differences::forward;
     search.parameter_tolerance = 1e-3;
-    search.max_iterations = 20;
+    search.max_iterations = iterations;
     search.jacobian_at_end = false;
     search.dampings_at_once = dampings_at_once;
     search.min_decrease = 2.0 * min_gain * prior_weight_ * prior_weight_;
-    search.pruned_sum_of_squares = options.pruned_sum_of_squares;
+    // Sums with weights say nothing of the best sum so far, which has none.
+    if (weights.empty()) search.pruned_sum_of_squares = options.pruned_sum_of_squares;
     const LeastSquaresFit found = fit_least_squares(
-        [&](const Eigen::MatrixXd& coordinates) { return residuals(start, coordinates, options.left_out); },
-        from, search);
+        [&](const Eigen::MatrixXd& coordinates) {
+            Eigen::MatrixXd all = residuals(start, coordinates, options.left_out);
+            apply(weights, all);
+            return all;
+        },
+        start.coordinates, search);
     fit.coordinates = found.parameters;
     fit.residuals = found.residuals;
-    fit.sum_of_squares = found.sum_of_squares;
-    fit.evaluations += found.evaluations;
+    SeriesWeights inverse;
+    for (const double weight : weights) inverse.push_back(1.0 / weight);
+    apply(inverse, fit.residuals);
+    fit.sum_of_squares = weights.empty() ? found.sum_of_squares : fit.residuals.squaredNorm();
+    fit.evaluations = found.evaluations;
     fit.converged = found.converged;
     return fit;
 }

@@ -46,11 +46,15 @@ struct LeftOut {
     }
 };
 
+/// Of the residuals of each series in a search; empty: 1.
+using SeriesWeights = std::vector<double>;
+
 /// The best fit of one or several causes together.
 struct CauseFit {
     std::vector<const CandidateCause*> causes;
     Eigen::VectorXd coordinates;  // the bench's floating numbers, then each cause's numbers
-    Eigen::VectorXd residuals;    // all series one after the other, then the priors
+    Eigen::VectorXd residuals;    // all series one after the other without weights, then the priors
+    SeriesWeights weights{};      // with which it was sought
     double sum_of_squares = 0.0;
     int evaluations = 0;
     bool converged = false;
@@ -83,6 +87,11 @@ class CauseFitter {
         /// The size of the last cause is unknown: a scan over decades comes before the search.
         bool any_size = true;
         double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
+        SeriesWeights weights{};
+        /// The weights follow what the fit leaves of each channel, where that is more than noise: a channel
+        /// with little noise would else decide alone, although the model errs by more than that, and the
+        /// priors would count for nothing.
+        bool balanced = false;
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
     /// Residuals of the data, a column a hypothesis.
@@ -116,6 +125,10 @@ class CauseFitter {
                          const std::map<std::string, SensorFaults>& faults,
                          Eigen::Ref<Eigen::VectorXd> all) const;
     double clearest_change(const Eigen::VectorXd& change) const;
+    SeriesWeights balancing_weights(const Eigen::VectorXd& residuals) const;
+    void apply(const SeriesWeights& weights, Eigen::Ref<Eigen::MatrixXd> residuals) const;
+    CauseFit fit_with(const SeriesWeights& weights, const Hypothesis& start, const FitOptions& options,
+                      int iterations) const;
     Eigen::VectorXd roughly_sized(const Hypothesis& start, const FitOptions& options, int& evaluations) const;
 
     const Recording& recording_;

@@ -179,12 +179,16 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     return singles;
 }
 
+bool CauseSearch::is_undescribed(const BenchKnowledge& bench) const {
+    return &bench == &described_.bench && !bench.is_measured();
+}
+
 // What is fitted of an undescribed bench begins at a guess. Stiffness and pretension make much the same loop,
 // so the fit begins at several ratios of the two.
 ScoredFit CauseSearch::without_cause(const Level& level) {
     const Hypothesis nominal = with_cause(nominal_hypothesis(level.bench), &level.causes.front(), {});
     ScoredFit best = fitted(level, nominal, {});
-    if (&level != &described_ || level.bench.is_measured()) return best;
+    if (!is_undescribed(level.bench)) return best;
     constexpr double starts[][nominal_coordinates] = {{0.0, 0.0, -1.0}, {0.0, 0.5, -1.0}, {0.0, 0.0, 1.0}};
     for (const auto& from : starts) {
         if (is_out_of_time()) break;
@@ -208,14 +212,17 @@ void CauseSearch::report(const std::string& activity) {
 }
 
 // A bench with many floating numbers is searched with the coarse model, and its best sets are fitted again.
-ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start,
-                              const CauseFitter::FitOptions& options) {
-    const Model& model = level.bench.is_measured() ? fine_ : coarse_;
+ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options) {
+    Model& model = level.bench.is_measured() ? fine_ : coarse_;
+    options.balanced = is_undescribed(level.bench);
     return scored(model, model.fitter.fit(start, options));
 }
 
-CauseSearch::Fits CauseSearch::finely_fitted(const Fits& coarse) {
-    constexpr std::size_t max_fits = 4;
+CauseSearch::Fits CauseSearch::finely_fitted(Fits coarse) {
+    constexpr std::size_t max_fits = 5;
+    // What is left without a cause limits how visible one can be.
+    std::stable_partition(coarse.begin(), coarse.end(),
+                          [](const ScoredFit& fit) { return has_effect(fit, "none"); });
     Fits fine;
     for (auto each = coarse.begin(); each != coarse.end(); ++each) {
         // The best of several starts with the same causes is enough.
@@ -224,17 +231,18 @@ CauseSearch::Fits CauseSearch::finely_fitted(const Fits& coarse) {
                                        each->fit.causes.begin(), each->fit.causes.end());
         };
         if (std::any_of(coarse.begin(), each, has_same_causes)) continue;
-        if (fine.size() >= max_fits && !has_effect(*each, "none")) continue;
+        if (fine.size() == max_fits) break;
         report("fitting " + in_words(each->fit.causes) + " finely");
         CauseFitter::FitOptions options;
         options.any_size = false;
+        options.balanced = is_undescribed(described_.bench);
         fine.push_back(scored(fine_, fine_.fitter.fit(each->fit.hypothesis(), options)));
     }
     sort_by_evidence(fine);
     return fine;
 }
 
-ScoredFit CauseSearch::scored(const Model& model, CauseFit fit) {
+ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
     ++fitted_;
     evaluations_ += fit.evaluations;
     ScoredFit scored;
@@ -252,7 +260,14 @@ ScoredFit CauseSearch::scored(const Model& model, CauseFit fit) {
             std::abs(coordinate) > number.usual)
             scored.far_numbers.push_back(k);
     }
-    scored.beside = model.discrepancy.of(scored.fit.residuals);
+    if (!scored.fit.bench->is_measured()) {
+        if (scored.fit.causes.front()->effect == "none")
+            model.left_without_cause = std::min(model.left_without_cause, scored.misfit);
+        scored.max_visibility = std::sqrt(std::max(0.0, model.left_without_cause - scored.misfit));
+    }
+    scored.beside = is_undescribed(*scored.fit.bench)
+                        ? model.discrepancy.with_own_scales(scored.fit.residuals)
+                        : model.discrepancy.of(scored.fit.residuals);
     scored.evidence = evidence_.of(scored);
     return scored;
 }

@@ -61,14 +61,18 @@ class CauseSearch {
 
         CauseFitter fitter;
         Discrepancy discrepancy;
+        /// What is left beside floating numbers without a cause, mean square; infinite where that was not
+        /// fitted.
+        double left_without_cause = std::numeric_limits<double>::infinity();
     };
 
     void report(const std::string& activity);
     bool is_out_of_time();
-    ScoredFit scored(const Model& model, CauseFit fit);
-    ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);
-    Fits finely_fitted(const Fits& coarse);
-    double held_out_misfit(const Hypothesis& hypothesis);
+    ScoredFit scored(Model& model, CauseFit fit);
+    bool is_undescribed(const BenchKnowledge& bench) const;
+    ScoredFit fitted(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
+    Fits finely_fitted(Fits coarse);
+    double held_out_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights);
     void drop_unearned_causes(Fits& fits);
     bool is_better_when_built(const ScoredFit& best);
     ScoredFit without_cause(const Level& level);

@@ -185,6 +185,7 @@ class Diagnoser {
             CauseFitter::FitOptions options;
             options.left_out = part;
             options.any_size = false;
+            options.weights = leading.weights;
             parts.push_back({part, fitter_.fit(leading.hypothesis(), options)});
             evaluations_ += parts.back().fit.evaluations;
         }

@@ -137,27 +137,50 @@ Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualS
     }
 }
 
+Marginals Discrepancy::of_channel(const ChannelFeatures& channel, const Eigen::VectorXd& residuals) const {
+    Eigen::VectorXd own(channel.directions.rows());
+    Eigen::Index next = 0;
+    for (const ResidualSeries& each : series_) {
+        if (each.channel != channel.channel) continue;
+        const auto rows = static_cast<Eigen::Index>(each.rows);
+        own.segment(next, rows) = residuals.segment(static_cast<Eigen::Index>(each.first_row), rows);
+        next += rows;
+    }
+    const double mean_square = own.squaredNorm() / channel.rows;
+    const Eigen::ArrayXd along = (channel.directions.transpose() * own / channel.rows).array().square();
+    Marginals marginals;
+    for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
+        // Samples of a direction add up; its prior variance is that of one sample.
+        const Eigen::ArrayXd gained =
+            channel.samples * std::pow(discrepancy_sizes[k], 2) * channel.variances.array();
+        marginals[k] = {mean_square - (along * gained / (1.0 + gained)).sum(), (1.0 + gained).log().sum()};
+    }
+    return marginals;
+}
+
 Marginals Discrepancy::of(const Eigen::VectorXd& residuals) const {
     Marginals marginals;
     for (const ChannelFeatures& channel : channels_) {
-        Eigen::VectorXd own(channel.directions.rows());
-        Eigen::Index next = 0;
-        for (const ResidualSeries& each : series_) {
-            if (each.channel != channel.channel) continue;
-            const auto rows = static_cast<Eigen::Index>(each.rows);
-            own.segment(next, rows) = residuals.segment(static_cast<Eigen::Index>(each.first_row), rows);
-            next += rows;
-        }
-        const double mean_square = own.squaredNorm() / channel.rows;
-        const Eigen::ArrayXd along = (channel.directions.transpose() * own / channel.rows).array().square();
+        const Marginals own = of_channel(channel, residuals);
         for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
-            // Samples of a direction add up; its prior variance is that of one sample.
-            const Eigen::ArrayXd gained =
-                channel.samples * std::pow(discrepancy_sizes[k], 2) * channel.variances.array();
-            marginals[k].misfit += channel.part * (mean_square - (along * gained / (1.0 + gained)).sum());
-            marginals[k].log_determinant += (1.0 + gained).log().sum();
+            marginals[k].misfit += channel.part * own[k].misfit;
+            marginals[k].log_determinant += own[k].log_determinant;
         }
     }
+    return marginals;
+}
+
+Marginals Discrepancy::with_own_scales(const Eigen::VectorXd& residuals) const {
+    constexpr double noise = 1.0;
+    Marginals marginals;
+    for (const ChannelFeatures& channel : channels_) {
+        const Marginals own = of_channel(channel, residuals);
+        for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
+            marginals[k].misfit += channel.part * std::log(std::max(noise, own[k].misfit));
+            marginals[k].log_determinant += own[k].log_determinant;
+        }
+    }
+    for (Marginal& each : marginals) each.misfit = std::exp(each.misfit);
     return marginals;
 }
 

@@ -32,6 +32,9 @@ class Discrepancy {
 
     /// `residuals`: all series one after the other, in units of noise and floor.
     Marginals of(const Eigen::VectorXd& residuals) const;
+    /// The same where each channel's error has an unknown scale of its own: the misfit is the geometric mean
+    /// over the channels, of which none counts as less than noise.
+    Marginals with_own_scales(const Eigen::VectorXd& residuals) const;
 
   private:
     struct ChannelFeatures {
@@ -42,6 +45,8 @@ class Discrepancy {
         Eigen::MatrixXd directions;  // rows of the channel x features: orthogonal, mean square of the rows 1
         Eigen::VectorXd variances;   // of each direction under a discrepancy of size 1
     };
+
+    Marginals of_channel(const ChannelFeatures& channel, const Eigen::VectorXd& residuals) const;
 
     std::vector<ResidualSeries> series_;
     std::vector<ChannelFeatures> channels_;

@@ -7,18 +7,22 @@
 namespace capstan::gap {
 
 // The mean square of the residuals of each run with the numbers fitted to the others.
-double CauseSearch::held_out_misfit(const Hypothesis& hypothesis) {
+double CauseSearch::held_out_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights) {
     const CauseFitter& fitter = coarse_.fitter;
     double squares = 0.0;
     for (std::size_t run = 0; run < run_count_; ++run) {
         CauseFitter::FitOptions options;
         options.left_out = LeftOut{run};
         options.any_size = false;
+        options.weights = weights;
         const Hypothesis without = fitter.fit(hypothesis, options).hypothesis();
         const Eigen::VectorXd residuals = fitter.data_residuals({&without, 1});
-        for (const ResidualSeries& series : fitter.series()) {
+        for (std::size_t k = 0; k < fitter.series().size(); ++k) {
+            const ResidualSeries& series = fitter.series()[k];
             if (series.run != run) continue;
-            squares += residuals
+            const double weight = weights.empty() ? 1.0 : weights[k];
+            squares += weight * weight *
+                       residuals
                            .segment(static_cast<Eigen::Index>(series.first_row),
                                     static_cast<Eigen::Index>(series.rows))
                            .squaredNorm();
@@ -36,12 +40,13 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
     while (fits.front().fit.causes.size() > 1 && !is_out_of_time()) {
         report("predicting each run from the others");
         const Hypothesis all = fits.front().fit.hypothesis();
-        double least = held_out_misfit(all);
+        const SeriesWeights weights = fits.front().fit.weights;
+        double least = held_out_misfit(all, weights);
         std::optional<Hypothesis> earned;
         for (const CandidateCause* dropped : all.causes) {
             const Hypothesis fewer =
                 only_causes(all, [&](const CandidateCause& cause) { return &cause != dropped; });
-            const double misfit = held_out_misfit(fewer);
+            const double misfit = held_out_misfit(fewer, weights);
             if (misfit > least) continue;
             least = misfit;
             earned = fewer;
@@ -49,6 +54,7 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
         if (!earned) return;
         CauseFitter::FitOptions options;
         options.any_size = false;
+        options.weights = weights;
         ScoredFit fewer = scored(fine_, fine_.fitter.fit(*earned, options));
         for (ScoredFit& each : fits) {
             const auto is_in = [&](const CandidateCause* cause) {

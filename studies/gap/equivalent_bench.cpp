@@ -20,7 +20,9 @@ namespace {
 void fit_nominal_numbers(Recording& bench) {
     const BenchKnowledge unknown = undescribed_bench(bench);
     const CauseFitter fitter(bench, {}, 0);
-    const BenchNumbers numbers = bench_numbers(fitter.fit(nominal_hypothesis(unknown), {}).hypothesis());
+    CauseFitter::FitOptions options;
+    options.balanced = true;
+    const BenchNumbers numbers = bench_numbers(fitter.fit(nominal_hypothesis(unknown), options).hypothesis());
     bench.nominal->dynamic_friction *= numbers.friction_ratio;
     bench.nominal->static_friction *= numbers.friction_ratio;
     bench.nominal->axial_stiffness_N *= numbers.stiffness_ratio;

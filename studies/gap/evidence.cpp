@@ -65,7 +65,7 @@ double clearest_law(const ScoredFit& fit, std::size_t apart_from) {
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         if (k != apart_from && !fit.fit.causes[k]->is_exact) clearest = std::max(clearest, fit.visibility[k]);
     }
-    return clearest;
+    return std::min(clearest, fit.max_visibility);
 }
 
 double clearest_law(const ScoredFit& fit) {

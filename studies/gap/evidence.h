@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct ScoredFit {
     double shape_penalty = 0.0;
     std::vector<double> visibility;  ///< of each cause: its rms change of the clearest channel, in units of
                                      ///< noise and floor
-    Marginals beside{};              ///< what the fit leaves beside a discrepancy of each size
+    /// Beside numbers that float widely a cause is no more visible than what is left without any, by rms.
+    double max_visibility = std::numeric_limits<double>::infinity();
+    Marginals beside{};  ///< what the fit leaves beside a discrepancy of each size
     /// Of the bench's floating numbers those that are visibly far from what was stated.
     std::vector<std::size_t> far_numbers{};
 

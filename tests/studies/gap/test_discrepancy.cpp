@@ -65,5 +65,27 @@ TEST_F(OnASession, TakesInWhatIsAFunctionOfTheMotionButNotNoise) {
     EXPECT_GT(noise[large].misfit, 0.9 * noise[0].misfit);
 }
 
+// A channel that errs by a hundred times its noise does not drown the others.
+TEST_F(OnASession, WithOwnScalesAChannelCountsByHowItsErrorChanges) {
+    const std::size_t first = fitter.series().front().channel;
+    const auto errors = [&](double of_first, double of_others) {
+        std::mt19937_64 random(3);
+        std::normal_distribution<double> normal;
+        return discrepancy
+            .with_own_scales(residuals([&](const ResidualSeries& series, std::size_t) {
+                return (series.channel == first ? of_first : of_others) * normal(random);
+            }))[0]
+            .misfit;
+    };
+    const double before = errors(100.0, 3.0);
+    double rows = 0.0;
+    for (const ResidualSeries& series : fitter.series())
+        rows += series.channel == first ? static_cast<double>(series.determined_rows()) : 0.0;
+    const double part = rows / fitter.determined_rows();
+    EXPECT_NEAR(errors(50.0, 3.0) / before, std::pow(0.25, part), 1e-9);
+    EXPECT_NEAR(errors(100.0, 1.5) / before, std::pow(0.25, 1.0 - part), 1e-9);
+    EXPECT_EQ(errors(0.1, 0.1), 1.0) << "less than noise counts as noise";
+}
+
 }  // namespace
 }  // namespace capstan::gap
