@@ -72,6 +72,9 @@ class Doctor(IntegrityTest):
         simd, compiler, stored = self.value("a.db", "SELECT simd, compiler, program_version FROM computed_with")
         self.assertEqual((simd, stored), ("SCALAR", version))
         self.assertRegex(compiler, r"^(g|clang)\+\+ \d+")
+        shown = json.loads(self.run_capstan("study", "show", "--json", "--db", "a.db").stdout)
+        self.assertEqual(shown["computed_with"], [{"simd": simd, "compiler": compiler, "program_version": stored}])
+        self.assertEqual((shown["content_sha256"],), self.value("a.db", "SELECT sha256 FROM content_hash WHERE part = 'study'"))
         self.assertIn("this program on this processor has", self.run_capstan(
             "study", "run", *STUDY, "--db", "b.db", "--simd", "MMX", expect=2).stderr)
         self.assertFalse((self.folder / "b.db").exists())
