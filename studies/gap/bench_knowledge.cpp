@@ -10,9 +10,10 @@ namespace capstan::gap {
 namespace {
 
 // Wherever a search goes, the bench can still be built. A pretension may be as good as none.
-double bounded_ratio(double logarithm) {
-    constexpr double min_log = -4.0;
-    constexpr double max_log = 2.5;
+double bounded_ratio(double logarithm, double prior_std) {
+    constexpr double deviations = 3.0;
+    const double min_log = -std::max(4.0, deviations * prior_std);
+    const double max_log = std::max(2.5, deviations * prior_std);
     return std::exp(std::clamp(logarithm, min_log, max_log));
 }
 
@@ -25,12 +26,24 @@ FloatingNumber ratio(const std::string& name, double prior_std, const std::strin
             .apply = [number](BenchNumbers& bench, double value) { bench.*number = value; }};
 }
 
-// `stated`: a number that is far from its nominal value is a wrong one.
-std::vector<FloatingNumber> ratios(double friction_std, double stiffness_std, double pretension_std,
-                                   bool stated) {
-    return {ratio("friction", friction_std, stated ? "param_mu" : "", &BenchNumbers::friction_ratio),
-            ratio("stiffness", stiffness_std, stated ? "param_K" : "", &BenchNumbers::stiffness_ratio),
-            ratio("pretension", pretension_std, stated ? "param_T0" : "", &BenchNumbers::pretension_ratio)};
+// `is_stated`: a number that is far from its nominal value is a wrong one.
+FloatingNumber ratio_of_friction(double prior_std, bool is_stated) {
+    return ratio("friction", prior_std, is_stated ? "param_mu" : "", &BenchNumbers::friction_ratio);
+}
+FloatingNumber ratio_of_stiffness(double prior_std, bool is_stated) {
+    return ratio("stiffness", prior_std, is_stated ? "param_K" : "", &BenchNumbers::stiffness_ratio);
+}
+FloatingNumber ratio_of_pretension(double prior_std, bool is_stated) {
+    return ratio("pretension", prior_std, is_stated ? "param_T0" : "", &BenchNumbers::pretension_ratio);
+}
+
+// The three numbers with these uncertainties where the sidecar states values, and with its own where it
+// states ranges or nothing.
+std::vector<FloatingNumber> ratios(const NominalSpread& of_values, const NominalSpread& stated) {
+    const auto known = [](double spread, double of_value) { return spread > 0.0 ? spread : of_value; };
+    return {ratio_of_friction(known(stated.friction, of_values.friction), stated.friction == 0.0),
+            ratio_of_stiffness(known(stated.stiffness, of_values.stiffness), stated.stiffness == 0.0),
+            ratio_of_pretension(known(stated.pretension, of_values.pretension), stated.pretension == 0.0)};
 }
 
 // Half of what a channel covers over all runs.
@@ -158,7 +171,7 @@ void add_undescribed_parts(const NominalBench& nominal, double prior_std, BenchK
 double FloatingNumber::value(double coordinate) const {
     switch (kind) {
         case Kind::ratio:
-            return scale * bounded_ratio(coordinate);
+            return scale * bounded_ratio(coordinate, prior_std);
         case Kind::size:
             return scale * std::max(0.0, coordinate);
         case Kind::zero:
@@ -167,18 +180,26 @@ double FloatingNumber::value(double coordinate) const {
     return 0.0;
 }
 
+bool BenchKnowledge::has_unknown_number() const {
+    constexpr double by_a_third = 0.3;
+    return std::any_of(numbers.begin(), numbers.begin() + nominal_coordinates,
+                       [](const FloatingNumber& number) { return number.prior_std > by_a_third; });
+}
+
 const BenchKnowledge& measured_bench() {
-    static const BenchKnowledge bench{ratios(nominal_log_std, nominal_log_std, nominal_log_std, true)};
+    static const BenchKnowledge bench = measured_bench(NominalSpread{});
     return bench;
 }
 
+BenchKnowledge measured_bench(const NominalSpread& stated) {
+    return {ratios({nominal_log_std, nominal_log_std, nominal_log_std}, stated)};
+}
+
 BenchKnowledge built_bench(const Recording& recording) {
-    constexpr double friction_and_wrap = 0.22;
-    constexpr double stiffness = 0.10;
-    constexpr double pretension = 0.15;
+    constexpr NominalSpread of_values{.friction = 0.22, .stiffness = 0.10, .pretension = 0.15};
     constexpr double zero_part = 0.03;
     constexpr double bearing_part = 0.03;
-    BenchKnowledge bench{ratios(friction_and_wrap, stiffness, pretension, true)};
+    BenchKnowledge bench{ratios(of_values, recording.nominal->spread)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
     return bench;
 }
@@ -189,7 +210,8 @@ BenchKnowledge undescribed_bench(const Recording& recording) {
     // torque.
     constexpr double zero_part = 0.1;
     constexpr double bearing_part = 0.3;
-    BenchKnowledge bench{ratios(by_factors, by_factors, by_factors, false)};
+    const NominalSpread unknown{by_factors, by_factors, by_factors};
+    BenchKnowledge bench{ratios(unknown, unknown)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
     bench.numbers.push_back(presliding_of_bearings());
     add_undescribed_parts(*recording.nominal, by_factors, bench);

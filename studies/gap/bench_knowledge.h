@@ -46,6 +46,8 @@ struct BenchKnowledge {
     Eigen::Index size() const { return static_cast<Eigen::Index>(numbers.size()); }
     /// Nothing floats but the three numbers.
     bool is_measured() const { return numbers.size() == nominal_coordinates; }
+    /// Whether a number is known so roughly that a fit has to look for it first.
+    bool has_unknown_number() const;
 };
 
 /// The uncertainty of the nominal numbers of a bench whose numbers were measured (standard deviation of the
@@ -54,10 +56,12 @@ inline constexpr double nominal_log_std = 0.015;
 
 /// A bench whose stated numbers were measured, with sensors that were zeroed and bearings without friction.
 const BenchKnowledge& measured_bench();
+/// The same, where the sidecar may state ranges of numbers or nothing.
+BenchKnowledge measured_bench(const NominalSpread& stated);
 
 /// A bench as it is built: friction and wrap from tables (20%), stiffness from a data sheet (10%), a tension
 /// set by hand (15%), torque and tension sensors with a zero error of a few per cent of their span, and
-/// bearings with Coulomb friction.
+/// bearings with Coulomb friction. Numbers that the sidecar states as ranges are known as it says.
 BenchKnowledge built_bench(const Recording& recording);
 
 /// A drive or band whose numbers nobody stated: `recording` is its equivalent bench, whose numbers were

@@ -85,7 +85,8 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
       fine_(recording, {options.segments, options.stride}, options.threads),
       coarse_(recording, coarse_options(recording, options.stride), options.threads),
       evidence_(fine_.fitter.independent_samples()),
-      described_{recording.nominal_is_fitted ? undescribed_bench(recording) : measured_bench(),
+      described_{recording.nominal_is_fitted ? undescribed_bench(recording)
+                                             : measured_bench(recording.nominal->spread),
                  candidate_causes(recording)},
       built_{built_bench(recording), candidate_causes(recording)} {
     if (recording.nominal_is_fitted) {
@@ -97,6 +98,7 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
     } else {
         remove_undescribed_parts(described_.causes);
     }
+    remove_unstated_numbers(described_);
     remove_wrong_numbers(built_.causes);
     remove_undescribed_parts(built_.causes);
 }
@@ -159,8 +161,9 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const Hypothesis start = nominal_hypothesis(level.bench);
     Fits singles = {without_cause(level)};
     // Numbers that float widely move first, for every cause is screened beside them.
-    const Hypothesis nothing =
-        level.bench.is_measured() ? start : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
+    const Hypothesis nothing = level.bench.is_measured() && !level.bench.has_unknown_number()
+                                   ? start
+                                   : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
     const std::vector<Screened> screened = screen(coarse_.fitter, level.causes, nothing);
     std::size_t fitted = 0;
@@ -179,6 +182,40 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     return singles;
 }
 
+// A number of which the sidecar states a range, or nothing, cannot be wrong beside that.
+void CauseSearch::remove_unstated_numbers(Level& level) {
+    std::erase_if(level.causes, [&](const CandidateCause& cause) {
+        if (!cause.numbers.empty() || cause.effect == "none") return false;
+        for (Eigen::Index k = 0; k < nominal_coordinates; ++k) {
+            if (cause.nominal_std(k) > nominal_log_std &&
+                level.bench.numbers[static_cast<std::size_t>(k)].effect.empty())
+                return true;
+        }
+        return false;
+    });
+}
+
+// A grid over the numbers of which next to nothing is stated.
+Hypothesis CauseSearch::roughly_sought(const BenchKnowledge& bench) const {
+    constexpr double steps[] = {-2.0, -1.0, 0.0, 1.0, 2.0};  // standard deviations
+    std::vector<Hypothesis> grid = {nominal_hypothesis(bench)};
+    for (Eigen::Index k = 0; k < nominal_coordinates; ++k) {
+        const double spread = bench.numbers[static_cast<std::size_t>(k)].prior_std;
+        if (spread <= nominal_log_std) continue;
+        std::vector<Hypothesis> finer;
+        for (const Hypothesis& each : grid) {
+            for (const double step : steps) {
+                finer.push_back(each);
+                finer.back().coordinates[k] = step * spread;
+            }
+        }
+        grid = std::move(finer);
+    }
+    Eigen::Index best = 0;
+    coarse_.fitter.data_residuals(grid).colwise().squaredNorm().minCoeff(&best);
+    return grid[static_cast<std::size_t>(best)];
+}
+
 bool CauseSearch::is_undescribed(const BenchKnowledge& bench) const {
     return &bench == &described_.bench && !bench.is_measured();
 }
@@ -186,7 +223,10 @@ bool CauseSearch::is_undescribed(const BenchKnowledge& bench) const {
 // What is fitted of an undescribed bench begins at a guess. Stiffness and pretension make much the same loop,
 // so the fit begins at several ratios of the two.
 ScoredFit CauseSearch::without_cause(const Level& level) {
-    const Hypothesis nominal = with_cause(nominal_hypothesis(level.bench), &level.causes.front(), {});
+    const Hypothesis nominal = with_cause(level.bench.has_unknown_number() && !is_undescribed(level.bench)
+                                              ? roughly_sought(level.bench)
+                                              : nominal_hypothesis(level.bench),
+                                          &level.causes.front(), {});
     ScoredFit best = fitted(level, nominal, {});
     if (!is_undescribed(level.bench)) return best;
     constexpr double starts[][nominal_coordinates] = {{0.0, 0.0, -1.0}, {0.0, 0.5, -1.0}, {0.0, 0.0, 1.0}};
@@ -214,7 +254,7 @@ void CauseSearch::report(const std::string& activity) {
 // A bench with many floating numbers is searched with the coarse model, and its best sets are fitted again.
 ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options) {
     Model& model = level.bench.is_measured() ? fine_ : coarse_;
-    options.balanced = is_undescribed(level.bench);
+    options.balanced = !level.bench.is_measured();
     return scored(model, model.fitter.fit(start, options));
 }
 
@@ -235,7 +275,7 @@ CauseSearch::Fits CauseSearch::finely_fitted(Fits coarse) {
         report("fitting " + in_words(each->fit.causes) + " finely");
         CauseFitter::FitOptions options;
         options.any_size = false;
-        options.balanced = is_undescribed(described_.bench);
+        options.balanced = true;
         fine.push_back(scored(fine_, fine_.fitter.fit(each->fit.hypothesis(), options)));
     }
     sort_by_evidence(fine);

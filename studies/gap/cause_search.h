@@ -69,7 +69,9 @@ class CauseSearch {
     void report(const std::string& activity);
     bool is_out_of_time();
     ScoredFit scored(Model& model, CauseFit fit);
+    static void remove_unstated_numbers(Level& level);
     bool is_undescribed(const BenchKnowledge& bench) const;
+    Hypothesis roughly_sought(const BenchKnowledge& bench) const;
     ScoredFit fitted(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
     Fits finely_fitted(Fits coarse);
     double held_out_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights);

@@ -12,6 +12,10 @@ namespace capstan::gap {
 /// Standard deviations that a discrepancy may have, in units of noise and floor; the first is none.
 inline constexpr std::array<double, 9> discrepancy_sizes = {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
 
+/// The logarithm of a mean square residual as the likelihood counts it: below noise with a reduced weight,
+/// because the model's floor is known only roughly.
+double weighed_log(double misfit);
+
 /// What residuals leave beside a discrepancy of each size.
 struct Marginal {
     double misfit = 0.0;           ///< mean square, each part weighed as the discrepancy leaves it
@@ -32,8 +36,8 @@ class Discrepancy {
 
     /// `residuals`: all series one after the other, in units of noise and floor.
     Marginals of(const Eigen::VectorXd& residuals) const;
-    /// The same where each channel's error has an unknown scale of its own: the misfit is the geometric mean
-    /// over the channels, of which none counts as less than noise.
+    /// The same where each channel's error has an unknown scale of its own: the misfit is one that is as
+    /// likely for all channels alike.
     Marginals with_own_scales(const Eigen::VectorXd& residuals) const;
 
   private:

@@ -12,10 +12,6 @@ namespace {
 // Penalties and log priors are natural logarithms. Those of visibility, of a bench without a cause, of
 // sensors, of further causes and of unknown ones were set on 59 recordings of the blind trial's simulator.
 
-// The model's floor is known only roughly. Below this mean square residual, a smaller one is therefore weak
-// evidence and counts with a reduced weight.
-constexpr double as_good_as_noise = 0.95;
-constexpr double below_noise_weight = 0.3;
 // Schwarz's penalty for a fitted number is half the logarithm of the independent samples. Half of that is
 // used here, because the prior on each number already takes its part.
 constexpr double schwarz_fraction = 0.5;
@@ -90,8 +86,7 @@ std::vector<std::string> ScoredFit::of_the_bench() const {
 
 // The log-likelihood of Gaussian residuals with a free scale is -n/2 ln(mean square), up to a constant.
 double Evidence::of(double misfit, std::size_t open_numbers) const {
-    return -0.5 * samples_ *
-               (std::log(std::max(misfit, as_good_as_noise)) + below_noise_weight * std::log(misfit)) -
+    return -0.5 * samples_ * weighed_log(misfit) -
            0.5 * schwarz_fraction * static_cast<double>(open_numbers) * std::log(samples_);
 }
 

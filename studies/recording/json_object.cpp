@@ -66,6 +66,17 @@ std::optional<double> JsonObject::optional_number(const char* key) const {
     return number(key);
 }
 
+std::optional<std::pair<double, double>> JsonObject::optional_range(const char* key) const {
+    const nlohmann::json* value = find(key);
+    if (value == nullptr || !value->is_array()) return std::nullopt;
+    const bool is_pair = value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
+    const double low = is_pair ? (*value)[0].get<double>() : 0.0;
+    const double high = is_pair ? (*value)[1].get<double>() : 0.0;
+    if (low > 0.0 && high > low) return std::pair{low, high};
+    add_problem(key, "should be a number, or a range of two: [low, high], both positive and low below high");
+    return std::pair{1.0, 2.0};
+}
+
 int JsonObject::integer(const char* key) const {
     const double found = number(key);
     if (found == std::floor(found) && std::abs(found) < 1e9) return static_cast<int>(found);

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capstan/recording/problem_list.h"
@@ -23,6 +24,8 @@ class JsonObject {
     double number(const char* key) const;
     double positive(const char* key) const;
     std::optional<double> optional_number(const char* key) const;
+    /// Two positive numbers [low, high], if the value is a list.
+    std::optional<std::pair<double, double>> optional_range(const char* key) const;
     int integer(const char* key) const;
     std::string text(const char* key) const;
     std::vector<std::string> texts(const char* key) const;

@@ -54,6 +54,13 @@ struct RecordedRun {
     bool drives(std::string_view channel) const;
 };
 
+/// How roughly nominal numbers are known: standard deviations of their logarithms. 0: stated as a value.
+struct NominalSpread {
+    double friction = 0.0;
+    double stiffness = 0.0;
+    double pretension = 0.0;  ///< of all runs alike
+};
+
 /// What a laboratory knows of its bench before it looks at the recording.
 struct NominalBench {
     std::vector<CurvaturePiece> curvature;
@@ -62,6 +69,7 @@ struct NominalBench {
     double axial_stiffness_N = 0.0;
     double dynamic_friction = 0.0;
     double static_friction = 0.0;
+    NominalSpread spread{};
     double rotor_inertia_kg_m2 = 0.0;        ///< with the motor pulley; 0: not stated
     double load_pulley_inertia_kg_m2 = 0.0;  ///< 0: not stated
     /// Of a drive of unknown geometry whose load torque was not recorded: of the spring that is taken to hold

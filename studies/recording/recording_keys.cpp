@@ -18,6 +18,9 @@ constexpr unsigned every = 15;
 constexpr unsigned pair = bit(BenchMode::pull_pull);
 constexpr unsigned with_geometry = pair | bit(BenchMode::single_cable);
 
+// A number, or a range of two.
+constexpr const char* range = "number or [low, high]";
+
 struct NamedMode {
     BenchMode mode;
     std::string_view name;
@@ -59,12 +62,14 @@ const std::vector<RecordingKey> keys = {
      with_geometry},
     {"nominal", "r_input", "number", "m", "Radius of the motor pulley.", "", "0.02", with_geometry},
     {"nominal", "r_load", "number", "m", "Radius of the load pulley.", "", "0.04", with_geometry},
-    {"nominal", "K", "number", "N/m", "Stiffness of one complete cable, end to end. State K or EA.", "EA / L",
-     "", with_geometry},
-    {"nominal", "EA", "number", "N", "Axial stiffness of the cable: force over strain. State K or EA.", "K L",
-     "9000", with_geometry},
-    {"nominal", "mu_d", "number", "", "Dynamic friction coefficient between cable and sheath.", "", "0.12",
-     with_geometry},
+    {"nominal", "K", range, "N/m",
+     "Stiffness of one complete cable, end to end. State K or EA, as a value or as a range [low, high] that "
+     "holds it with 95%.",
+     "EA / L", "", with_geometry},
+    {"nominal", "EA", range, "N", "Axial stiffness of the cable: force over strain. State K or EA.",
+     "K L; without both it is fitted", "9000", with_geometry},
+    {"nominal", "mu_d", range, "", "Dynamic friction coefficient between cable and sheath.", "it is fitted",
+     "0.12", with_geometry},
     {"nominal", "mu_s", "number", "", "Static friction coefficient; not below mu_d.", "mu_d", "0.12",
      with_geometry},
     {"nominal", "rotor_inertia", "number", "kg m2", "Of the motor with its pulley.", "0", "0.000002", pair},
@@ -85,7 +90,8 @@ const std::vector<RecordingKey> keys = {
     {"runs", "source", "string", "", "The same, where no protocol has a name.", "none", "", every},
     {"runs", "t_session_start", "number", "s", "When the run began in the session.", "0", "0", every},
     {"runs", "duration", "number", "s", "How long it lasted.", "from the times", "", every},
-    {"runs", "T0", "number", "N", "Pretension of a cable when the run began.", "", "30", with_geometry},
+    {"runs", "T0", range, "N", "Pretension of a cable when the run began.",
+     "where no run states it, it is fitted as one of all runs", "30", with_geometry},
     {"runs", "output", "string", "", "What held the load pulley: locked or handle.", "not known",
      "\"handle\"", every},
     {"runs", "driven", "array of strings", "", "The channels that a model takes as inputs.",
@@ -136,6 +142,10 @@ ordered_json type_schema(const RecordingKey& key) {
     ordered_json schema;
     if (key.type == "number") {
         schema["type"] = "number";
+    } else if (key.type == range) {
+        schema["type"] = {"number", "array"};
+        schema["items"] = {{"type", "number"}, {"exclusiveMinimum", 0}};
+        schema["minItems"] = schema["maxItems"] = 2;
     } else if (key.type == "string") {
         schema["type"] = "string";
         if (key.name == "mode") {
@@ -171,7 +181,7 @@ ordered_json schema_of(std::string_view section) {
         if (key.is_required() && (key.modes == every || (!section.empty() && section != "runs")))
             schema["required"].push_back(key.name);
     }
-    if (section == "nominal") schema["oneOf"] = {{{"required", {"K"}}}, {{"required", {"EA"}}}};
+    if (section == "nominal") schema["not"]["required"] = {"K", "EA"};
     return schema;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/platform/files.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
 
@@ -15,6 +16,13 @@ namespace capstan {
 namespace {
 
 using nlohmann::ordered_json;
+
+// As the reader takes it.
+ordered_json value_or_range(double value, double spread) {
+    if (spread == 0.0) return value;
+    const double factor = std::exp(two_sided_95 * spread);
+    return {value / factor, value * factor};
+}
 
 ordered_json nominal_json(const NominalBench& bench) {
     double length_m = 0.0;
@@ -29,8 +37,8 @@ ordered_json nominal_json(const NominalBench& bench) {
                             {"R_profile", profile},
                             {"r_input", bench.motor_radius_m},
                             {"r_load", bench.load_radius_m},
-                            {"EA", bench.axial_stiffness_N},
-                            {"mu_d", bench.dynamic_friction},
+                            {"EA", value_or_range(bench.axial_stiffness_N, bench.spread.stiffness)},
+                            {"mu_d", value_or_range(bench.dynamic_friction, bench.spread.friction)},
                             {"mu_s", bench.static_friction}};
     if (bench.rotor_inertia_kg_m2 > 0.0) nominal["rotor_inertia"] = bench.rotor_inertia_kg_m2;
     if (bench.load_pulley_inertia_kg_m2 > 0.0)
@@ -38,11 +46,11 @@ ordered_json nominal_json(const NominalBench& bench) {
     return nominal;
 }
 
-ordered_json run_json(const RecordedRun& run) {
+ordered_json run_json(const RecordedRun& run, const NominalSpread& spread) {
     ordered_json entry = {{"run", run.number}};
     if (!run.protocol.empty()) entry["protocol"] = run.protocol;
     if (run.session_start_s > 0.0) entry["t_session_start"] = run.session_start_s;
-    if (run.pretension_N) entry["T0"] = *run.pretension_N;
+    if (run.pretension_N) entry["T0"] = value_or_range(*run.pretension_N, spread.pretension);
     if (run.output != OutputKind::unknown)
         entry["output"] = run.output == OutputKind::locked ? "locked" : "handle";
     if (!run.conditions.empty()) entry["condition"] = run.conditions;
@@ -85,7 +93,9 @@ std::string sidecar_text(const Recording& recording) {
         sidecar["tension_sensors"].push_back({{"channel", sensor.channel},
                                               {"cable", sensor.cable == CableName::b ? "B" : "A"},
                                               {"s", sensor.position_m}});
-    for (const RecordedRun& run : recording.runs) sidecar["runs"].push_back(run_json(run));
+    for (const RecordedRun& run : recording.runs)
+        sidecar["runs"].push_back(
+            run_json(run, recording.nominal ? recording.nominal->spread : NominalSpread{}));
     return sidecar.dump(2) + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "capstan/platform/nearest_name.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/recording/json_object.h"
 #include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
@@ -28,6 +29,10 @@ class Assumptions {
     std::string file_;
     std::vector<std::string>* said_;
 };
+
+std::string sought(std::pair<double, double> range, const char* what, const char* unit) {
+    return fmt::format("{} is sought from {:.4g} to {:.4g}{}", what, range.first, range.second, unit);
+}
 
 // R_profile as the lengths of its pieces; a piece without an R is straight.
 std::vector<CurvaturePiece> curvature_of(const JsonObject& nominal, Assumptions& assumptions) {
@@ -53,15 +58,51 @@ std::vector<CurvaturePiece> curvature_of(const JsonObject& nominal, Assumptions&
     return pieces;
 }
 
+// A nominal number, and the standard deviation of its logarithm.
+struct StatedNumber {
+    double value = 0.0;
+    double spread = 0.0;
+};
+
+// A range holds the number with a probability of 95%.
+StatedNumber within(std::pair<double, double> range) {
+    return {std::sqrt(range.first * range.second),
+            std::log(range.second / range.first) / (2.0 * two_sided_95)};
+}
+
+// What cables in sheaths have, from tendons of polymer fibre to steel ropes of 3 mm.
+constexpr std::pair usual_friction{0.03, 0.5};
+constexpr std::pair usual_axial_stiffness_N{500.0, 5e5};
+constexpr std::pair usual_pretension_N{0.3, 300.0};
+
+StatedNumber value_or_range(const JsonObject& object, const char* key) {
+    if (const auto range = object.optional_range(key)) return within(*range);
+    return {object.positive(key)};
+}
+
 // EA in N, or K in N/m of the complete cable.
-double axial_stiffness_N(const JsonObject& nominal) {
-    if (nominal.has("EA") == nominal.has("K")) {
-        nominal.add_problem("K", nominal.has("K")
-                                     ? "and EA are both stated; state one: K end to end (N/m), or EA (N)"
-                                     : "is missing, and so is EA; state one: K end to end (N/m), or EA (N)");
-        return 0.0;
+StatedNumber axial_stiffness_N(const JsonObject& nominal, Assumptions& assumptions) {
+    if (nominal.has("EA") && nominal.has("K"))
+        nominal.add_problem("K", "and EA are both stated; state one: K end to end (N/m), or EA (N)");
+    if (nominal.has("EA")) return value_or_range(nominal, "EA");
+    if (nominal.has("K")) {
+        StatedNumber stiffness = value_or_range(nominal, "K");
+        stiffness.value *= nominal.positive("L");
+        return stiffness;
     }
-    return nominal.has("EA") ? nominal.positive("EA") : nominal.positive("K") * nominal.positive("L");
+    assumptions.add("nominal.K or nominal.EA", sought(usual_axial_stiffness_N, "EA", " N"));
+    return within(usual_axial_stiffness_N);
+}
+
+StatedNumber dynamic_friction(const JsonObject& nominal, Assumptions& assumptions) {
+    if (!nominal.has("mu_d")) {
+        assumptions.add("nominal.mu_d", sought(usual_friction, "it", ""));
+        return within(usual_friction);
+    }
+    if (const auto range = nominal.optional_range("mu_d")) return within(*range);
+    const double friction = nominal.number("mu_d");
+    if (friction < 0.0) nominal.add_problem("mu_d", "must not be negative");
+    return {friction};
 }
 
 NominalBench nominal_of(const JsonObject& nominal, Assumptions& assumptions) {
@@ -69,17 +110,20 @@ NominalBench nominal_of(const JsonObject& nominal, Assumptions& assumptions) {
     bench.curvature = curvature_of(nominal, assumptions);
     bench.motor_radius_m = nominal.positive("r_input");
     bench.load_radius_m = nominal.positive("r_load");
-    bench.axial_stiffness_N = axial_stiffness_N(nominal);
-    bench.dynamic_friction = nominal.number("mu_d");
+    const StatedNumber stiffness_N = axial_stiffness_N(nominal, assumptions);
+    bench.axial_stiffness_N = stiffness_N.value;
+    bench.spread.stiffness = stiffness_N.spread;
+    const StatedNumber friction = dynamic_friction(nominal, assumptions);
+    bench.dynamic_friction = friction.value;
+    bench.spread.friction = friction.spread;
     bench.static_friction = bench.dynamic_friction;
     if (nominal.has("mu_s")) {
         bench.static_friction = nominal.number("mu_s");
     } else {
-        assumptions.add("nominal.mu_s", fmt::format("taken as mu_d, {}", bench.dynamic_friction));
+        assumptions.add("nominal.mu_s", fmt::format("taken as mu_d, {:.4g}", bench.dynamic_friction));
     }
     bench.rotor_inertia_kg_m2 = nominal.optional_number("rotor_inertia").value_or(0.0);
     bench.load_pulley_inertia_kg_m2 = nominal.optional_number("load_pulley_inertia").value_or(0.0);
-    if (bench.dynamic_friction < 0.0) nominal.add_problem("mu_d", "must not be negative");
     if (bench.static_friction < bench.dynamic_friction)
         nominal.add_problem("mu_s",
                             "is below mu_d; static friction holds at least as much as dynamic friction");
@@ -168,14 +212,20 @@ std::map<std::string, double> conditions_of(const JsonObject& run) {
     return conditions;
 }
 
-RecordedRun run_of(const JsonObject& json, const std::vector<std::string>& usually_driven) {
+// `pretension_spread` becomes at least that of the run.
+RecordedRun run_of(const JsonObject& json, const std::vector<std::string>& usually_driven,
+                   double& pretension_spread) {
     RecordedRun run;
     run.number = json.integer("run");
     run.protocol = json.has("protocol") ? json.text("protocol")
                    : json.has("source") ? json.text("source")
                                         : "";
     run.session_start_s = json.optional_number("t_session_start").value_or(0.0);
-    if (json.has("T0")) run.pretension_N = json.positive("T0");
+    if (json.has("T0")) {
+        const StatedNumber pretension_N = value_or_range(json, "T0");
+        run.pretension_N = pretension_N.value;
+        pretension_spread = std::max(pretension_spread, pretension_N.spread);
+    }
     run.output = output_of(json);
     run.conditions = conditions_of(json);
     run.driven = json.has("driven") ? json.texts("driven") : usually_driven;
@@ -210,27 +260,21 @@ BenchMode mode_of(const JsonObject& sidecar) {
 }
 
 std::vector<RecordedRun> runs_of(const JsonObject& sidecar, const Recording& recording,
-                                 const SampleTable& samples, Assumptions& assumptions) {
+                                 const SampleTable& samples, double& pretension_spread,
+                                 Assumptions& assumptions) {
     std::vector<RecordedRun> runs;
-    const bool needs_pretension = recording.nominal.has_value();
     const std::vector<std::string> usual = usual_driven_channels(recording.mode, recording.channels);
     if (sidecar.has("runs")) {
         bool any_driven_is_taken = false;
         for (const JsonObject& run : sidecar.objects("runs")) {
-            runs.push_back(run_of(run, usual));
+            runs.push_back(run_of(run, usual, pretension_spread));
             any_driven_is_taken |= !run.has("driven");
             check_driven(run, runs.back(), recording);
-            if (needs_pretension && !runs.back().pretension_N)
-                run.add_problem("T0", "is missing; the pretension of a cable when the run began, in N");
         }
         if (runs.empty()) sidecar.add_problem("runs", "lists no run");
         if (any_driven_is_taken)
             assumptions.add("driven", fmt::format("taken as {}, where a run does not state it",
                                                   fmt::join(usual, " and ")));
-        return runs;
-    }
-    if (needs_pretension) {
-        sidecar.add_problem("runs", "is missing; each run has its pretension T0, [{\"run\": 1, \"T0\": 30}]");
         return runs;
     }
     for (const int number : samples.run_numbers) {
@@ -242,6 +286,24 @@ std::vector<RecordedRun> runs_of(const JsonObject& sidecar, const Recording& rec
     assumptions.add("runs", fmt::format("taken as the {} of the column run, driven by {}", runs.size(),
                                         fmt::join(usual, " and ")));
     return runs;
+}
+
+// A model of known geometry needs the pretension of each run. Where no run states one, all are taken alike.
+void complete_pretensions(const JsonObject& sidecar, Recording& recording, Assumptions& assumptions) {
+    const auto is_missing = [](const RecordedRun& run) { return !run.pretension_N; };
+    if (std::none_of(recording.runs.begin(), recording.runs.end(), is_missing)) return;
+    if (!std::all_of(recording.runs.begin(), recording.runs.end(), is_missing)) {
+        for (std::size_t run = 0; run < recording.runs.size(); ++run)
+            if (is_missing(recording.runs[run]))
+                sidecar.add_problem(fmt::format("runs[{}].T0", run),
+                                    "is missing, but other runs state it; the pretension of a cable when the "
+                                    "run began, in N, or a range [low, high]");
+        return;
+    }
+    const StatedNumber pretension_N = within(usual_pretension_N);
+    assumptions.add("T0 of every run", sought(usual_pretension_N, "one for all", " N"));
+    recording.nominal->spread.pretension = pretension_N.spread;
+    for (RecordedRun& run : recording.runs) run.pretension_N = pretension_N.value;
 }
 
 // A key that is nearly one of ours was probably meant to be it. Others are a laboratory's own notes.
@@ -294,7 +356,12 @@ Recording read_sidecar(const nlohmann::json& json, const std::filesystem::path& 
             sidecar.add_problem("tension_sensors",
                                 fmt::format("'{}' is not among the channels in `units`", sensor.channel));
     }
-    recording.runs = runs_of(sidecar, recording, samples, assumptions);
+    double pretension_spread = 0.0;
+    recording.runs = runs_of(sidecar, recording, samples, pretension_spread, assumptions);
+    if (recording.nominal) {
+        recording.nominal->spread.pretension = pretension_spread;
+        complete_pretensions(sidecar, recording, assumptions);
+    }
     return recording;
 }
 

@@ -124,6 +124,23 @@ TEST(Diagnosis, FindsACauseBesideRoughNumbersZerosAndBearings) {
     EXPECT_NEAR(zero->value, 0.03, 0.015);
 }
 
+// Nobody stated the stiffness or the pretension, and the friction only as a range.
+TEST(Diagnosis, FindsACauseOnABenchOfWhichLittleIsStated) {
+    BenchNumbers numbers;
+    numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 6.0;
+    Recording recording = session_of(numbers);
+    recording.nominal->axial_stiffness_N *= 3.0;
+    recording.nominal->spread = {.friction = 0.3, .stiffness = 1.7, .pretension = 1.7};
+    for (RecordedRun& run : recording.runs) run.pretension_N = 0.4 * *run.pretension_N;
+    const Diagnosis diagnosis = diagnosed(recording);
+    EXPECT_EQ(diagnosis.ranked.front().effect, "viscous_friction");
+    EXPECT_NEAR(diagnosis.stiffness_ratio * 3.0, 1.0, 0.1);
+    EXPECT_NEAR(diagnosis.pretension_ratio * 0.4, 1.0, 0.1);
+    for (const RankedEffect& each : diagnosis.ranked)
+        EXPECT_TRUE(each.effect != "param_K" && each.effect != "param_T0")
+            << "what nobody stated cannot be wrong";
+}
+
 TEST(Diagnosis, LocatesABend) {
     BenchNumbers numbers;
     numbers.effects.of<LocalBend>() = {.extra_angle_rad = 1.0, .middle_m = 1.2, .length_m = 0.2};

@@ -84,7 +84,8 @@ TEST_F(OnASession, WithOwnScalesAChannelCountsByHowItsErrorChanges) {
     const double part = rows / fitter.determined_rows();
     EXPECT_NEAR(errors(50.0, 3.0) / before, std::pow(0.25, part), 1e-9);
     EXPECT_NEAR(errors(100.0, 1.5) / before, std::pow(0.25, 1.0 - part), 1e-9);
-    EXPECT_EQ(errors(0.1, 0.1), 1.0) << "less than noise counts as noise";
+    EXPECT_NEAR(errors(0.2, 0.2) / errors(0.1, 0.1), 4.0, 1e-9);
+    EXPECT_GT(errors(3.0, 0.1), 0.5) << "a channel below noise does not make up for another";
 }
 
 }  // namespace

@@ -70,6 +70,39 @@ TEST(RecordingReader, ReadsTheConditionsOfARunAndWritesThemAgain) {
     EXPECT_EQ(read_recording(copy).runs[1].conditions, read.runs[1].conditions);
 }
 
+TEST(RecordingReader, ARangeIsItsMiddleWithItsSpreadAndIsWrittenAgain) {
+    RecordingFiles files = as_files(measured_session(true_parameters));
+    files.sidecar_json = replaced(files.sidecar_json, "\"K\": 2000.0", "\"K\": [1000, 4000]");
+    files.sidecar_json = replaced(files.sidecar_json, "\"T0\": 6.0", "\"T0\": [3, 12]");
+    const TemporaryFolder folder;
+    const Recording read = read_recording(folder.write(files));
+    const double spread = std::log(4.0) / (2.0 * 1.96);  // a range holds 95%
+    EXPECT_NEAR(read.nominal->axial_stiffness_N, 4000.0, 1e-9);
+    EXPECT_NEAR(read.nominal->spread.stiffness, spread, 1e-4);
+    EXPECT_NEAR(*read.runs[1].pretension_N, 6.0, 1e-9);
+    EXPECT_NEAR(read.nominal->spread.pretension, spread, 1e-4);
+    EXPECT_EQ(read.nominal->spread.friction, 0.0) << "it is stated as a value";
+    const std::filesystem::path copy = folder.write(files).parent_path() / "copy.csv";
+    write_recording(copy, read);
+    EXPECT_NEAR(read_recording(copy).nominal->spread.stiffness, spread, 1e-4);
+}
+
+TEST(RecordingReader, NumbersThatNobodyStatesAreSoughtAndItSaysWhere) {
+    RecordingFiles files = as_files(measured_session(true_parameters));
+    files.sidecar_json = replaced(files.sidecar_json, "\"K\": 2000.0, ", "");
+    for (const char* pretension : {"\"T0\": 4.0, ", "\"T0\": 6.0, "})
+        files.sidecar_json = replaced(files.sidecar_json, pretension, "");
+    const TemporaryFolder folder;
+    const Recording read = read_recording(folder.write(files));
+    EXPECT_GT(read.nominal->spread.stiffness, 1.0);
+    EXPECT_GT(read.nominal->spread.pretension, 1.0);
+    EXPECT_EQ(read.runs[0].pretension_N, read.runs[1].pretension_N);
+    std::string said;
+    for (const std::string& each : read.assumptions) said += each + "\n";
+    EXPECT_NE(said.find("nominal.K or nominal.EA is missing"), std::string::npos) << said;
+    EXPECT_NE(said.find("T0 of every run is missing"), std::string::npos) << said;
+}
+
 struct Fault {
     const char* name;
     std::function<void(RecordingFiles&)> commit;
@@ -169,6 +202,11 @@ const Fault faults[] = {
     {"MissingPretension",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"T0\": 6.0, ", ""); },
      {"runs[1].T0", "missing"}},
+    {"ARangeUpsideDown",
+     [](RecordingFiles& f) {
+         f.sidecar_json = replaced(f.sidecar_json, "\"K\": 2000.0", "\"K\": [4000, 1000]");
+     },
+     {"nominal.K", "[low, high]"}},
     {"ConditionsAsAList",
      [](RecordingFiles& f) {
          f.sidecar_json = replaced(f.sidecar_json, "\"T0\": 6.0, ", "\"T0\": 6.0, \"condition\": [45], ");
