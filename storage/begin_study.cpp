@@ -3,6 +3,7 @@
 #include <string>
 
 #include "capstan/storage/error.h"
+#include "capstan/storage/integrity/content_hash.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/study_ids.h"
 #include "capstan/storage/study_store.h"
@@ -124,6 +125,7 @@ std::int64_t write_description(Database& database, const StudyDescription& descr
     ids.sensor_sets = write_sensor_sets(database, description.sensor_sets, ids.study_id);
     write_layouts(database, description.layouts, ids);
     write_work_units(database, description.work_units, ids);
+    hash_description(database, ids);
     return ids.study_id;
 }
 

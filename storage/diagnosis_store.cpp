@@ -3,6 +3,7 @@
 #include <string>
 
 #include "capstan/storage/error.h"
+#include "capstan/storage/integrity/content_hash.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/transaction.h"
 
@@ -68,6 +69,7 @@ std::int64_t write_diagnosis(Database& database, const DiagnosisRecord& diagnosi
     write_numbered(database, "diagnosis_candidate", "candidate_index", 0, diagnosis.candidates, id);
     write_numbered(database, "diagnosis_channel", "channel_index", 0, diagnosis.channels, id);
     write_numbered(database, "diagnosis_gap", "part_index", 0, diagnosis.gap, id);
+    hash_diagnosis(database, id);
     transaction.commit();
     return id;
 }

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 
+#include "capstan/storage/integrity/verification.h"
 #include "capstan/storage/schema.h"
 #include "capstan/storage/statement.h"
 
@@ -132,6 +133,10 @@ Health examine(Database& database) {
     health.problems = schema_problems(database);
     if (!health.problems.empty()) return health;
     health.problems = problems_in(database);
+    HashCheck hashes = check_hashes(database);
+    health.hashed_parts = hashes.hashed;
+    health.unhashed = std::move(hashes.unhashed);
+    health.problems.insert(health.problems.end(), hashes.problems.begin(), hashes.problems.end());
     health.studies = number_from(database, "SELECT count(*) FROM study");
     health.running_studies = number_from(database, "SELECT count(*) FROM study WHERE status = 'running'");
     health.diagnoses = number_from(database, "SELECT count(*) FROM diagnosis");

@@ -15,11 +15,14 @@ struct Health {
     int running_studies = 0;  // begun and not complete
     int diagnoses = 0;
     int cells = 0;
-    std::vector<std::string> copies;  // of older versions, beside the file
+    int hashed_parts = 0;               // units and the like whose content hashes were compared
+    std::vector<std::string> unhashed;  // studies and diagnoses from before schema version 6, which have none
+    std::vector<std::string> copies;    // of older versions, beside the file
 };
 
-// Reads every page of the file and checks every reference; takes a while on a large one. The database must
-// have been opened for reading, with SchemaCheck::none. Where its schema is not ours, nothing else is read.
+// Reads every page of the file, checks every reference and every content hash; takes a while on a large one.
+// The database must have been opened for reading, with SchemaCheck::none. Where its schema is not ours,
+// nothing else is read.
 Health examine(Database& database);
 
 // Where the tables, views and indices of an open file are not those that capstan makes, in words. The text of

@@ -140,6 +140,36 @@ CREATE TABLE study_mark (
     tags       TEXT    NOT NULL DEFAULT '',        -- words, with single blanks between them
     is_deleted INTEGER NOT NULL DEFAULT 0 CHECK (is_deleted IN (0, 1))  -- 1: in the trash, to be restored or removed
 ) STRICT;
+)sql"},
+        {5,
+         R"sql(-- SHA-256 of what is stored of a study, written in the transaction that stores it: `capstan doctor` and a merge work it
+-- out again. Nothing but the stored values is in it: no number that depends on the file, on threads or on shards.
+CREATE TABLE content_hash (
+    study_id   INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    -- 'description', 'unit', 'conclusions', 'study' (of all other rows here), or 'worlds ' and a condition.
+    part       TEXT    NOT NULL,
+    part_index INTEGER NOT NULL,                   -- of a unit its unit_index, of worlds their number / 64, otherwise 0
+    table_name TEXT    NOT NULL,                   -- the table whose rows are hashed; tables without a row are left out
+    sha256     TEXT    NOT NULL CHECK (length(sha256) = 64),  -- of worlds the sum over rows, as it does not depend on order
+    PRIMARY KEY (study_id, part, part_index, table_name)
+) STRICT, WITHOUT ROWID;
+
+-- The same of a diagnosis.
+CREATE TABLE diagnosis_hash (
+    diagnosis_id INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
+    table_name   TEXT    NOT NULL,                 -- the table whose rows are hashed
+    sha256       TEXT    NOT NULL CHECK (length(sha256) = 64),  -- of its rows
+    PRIMARY KEY (diagnosis_id, table_name)
+) STRICT, WITHOUT ROWID;
+
+-- What a study was computed with: facts about machines, which no answer is made of and no hash has.
+CREATE TABLE computed_with (
+    study_id        INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    simd            TEXT    NOT NULL,              -- vector instructions: 'AVX2', ...; others give other last bits
+    compiler        TEXT    NOT NULL,              -- of the program: 'g++ 12.2.0'
+    program_version TEXT    NOT NULL,              -- of the capstan that computed units or conclusions
+    PRIMARY KEY (study_id, simd, compiler, program_version)
+) STRICT, WITHOUT ROWID;
 )sql"}};
     return steps;
 }

@@ -2,11 +2,13 @@
 // One record in, one row out, and back; generic over the record.
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <type_traits>
 #include <vector>
 
+#include "capstan/storage/integrity/written_rows.h"
 #include "capstan/storage/record_columns.h"
 #include "capstan/storage/statement.h"
 
@@ -35,13 +37,21 @@ template <class Record>
 class RowWriter {
   public:
     RowWriter(Database& database, const std::string& table, const std::string& key_columns)
-        : doing_("write into " + table),
+        : table_(table),
+          columns_(key_columns + ", " + column_names<Record>()),
+          doing_("write into " + table),
           insert_one_(database, insert_text(table, key_columns, 1)),
           insert_batch_(database, insert_text(table, key_columns, batch)) {}
+
+    /// Hashes all rows that are written from now on.
+    void hash(const StudyIds& ids) { written_.emplace(table_, columns_, ids); }
+    /// Null: nothing is hashed.
+    WrittenRows* written() { return written_ ? &*written_ : nullptr; }
 
     template <class... Keys>
     void write(const Record& record, const Keys&... keys) {
         bind_row(insert_one_, 0, record, keys...);
+        hash_row(record, keys...);
         insert_one_.run(doing_);
     }
 
@@ -53,6 +63,7 @@ class RowWriter {
             int bound = 0;
             for (std::size_t i = 0; i < batch; ++i) {
                 bound = bind_row(insert_batch_, bound, records[next + i], keys...);
+                hash_row(records[next + i], keys...);
             }
             insert_batch_.run(doing_);
         }
@@ -70,6 +81,12 @@ class RowWriter {
         return bound;
     }
 
+    template <class... Keys>
+    void hash_row(const Record& record, const Keys&... keys) {
+        if (!written_) return;
+        std::apply([&](const auto&... fields) { written_->add(keys..., fields...); }, fields_of(record));
+    }
+
     static std::string insert_text(const std::string& table, const std::string& key_columns,
                                    std::size_t rows) {
         const std::string columns = key_columns + ", " + column_names<Record>();
@@ -81,7 +98,10 @@ class RowWriter {
         return text;
     }
 
+    std::string table_;
+    std::string columns_;
     std::string doing_;
+    std::optional<WrittenRows> written_;
     Statement insert_one_;
     Statement insert_batch_;
 };

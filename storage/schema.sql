@@ -1,9 +1,9 @@
--- The results database of capstan, version 5. One home: everything that stores or reads goes through this text.
+-- The results database of capstan, version 6. One home: everything that stores or reads goes through this text.
 --
 -- Rules: every physical column ends in its unit (N, m, rad, s); a fraction or a ratio has no unit and says so in its
 -- name; _in_unit is in the unit that the row's column 'unit' names; nodes are numbered from 1 (proximal, motor) to
--- segments + 1 (distal, load); there is no clock in any table but history, so the same program, configuration and seed
--- give the same bits.
+-- segments + 1 (distal, load); there is no clock in any table but history, and no fact about a machine in any but
+-- computed_with, so the same program, configuration and seed give the same bits.
 
 -- One question asked of the engine many times: a configuration, as it ran.
 CREATE TABLE study (
@@ -482,6 +482,35 @@ CREATE TABLE diagnosis_gap (
     high_fraction    REAL    NOT NULL,                -- upper end of that interval
     samples_fraction REAL    NOT NULL,                -- of the compared samples: what chance would give
     PRIMARY KEY (diagnosis_id, part_index)
+) STRICT, WITHOUT ROWID;
+
+-- SHA-256 of what is stored of a study, written in the transaction that stores it: `capstan doctor` and a merge work it
+-- out again. Nothing but the stored values is in it: no number that depends on the file, on threads or on shards.
+CREATE TABLE content_hash (
+    study_id   INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    -- 'description', 'unit', 'conclusions', 'study' (of all other rows here), or 'worlds ' and a condition.
+    part       TEXT    NOT NULL,
+    part_index INTEGER NOT NULL,                   -- of a unit its unit_index, of worlds their number / 64, otherwise 0
+    table_name TEXT    NOT NULL,                   -- the table whose rows are hashed; tables without a row are left out
+    sha256     TEXT    NOT NULL CHECK (length(sha256) = 64),  -- of worlds the sum over rows, as it does not depend on order
+    PRIMARY KEY (study_id, part, part_index, table_name)
+) STRICT, WITHOUT ROWID;
+
+-- The same of a diagnosis.
+CREATE TABLE diagnosis_hash (
+    diagnosis_id INTEGER NOT NULL REFERENCES diagnosis ON DELETE CASCADE,  -- its diagnosis
+    table_name   TEXT    NOT NULL,                 -- the table whose rows are hashed
+    sha256       TEXT    NOT NULL CHECK (length(sha256) = 64),  -- of its rows
+    PRIMARY KEY (diagnosis_id, table_name)
+) STRICT, WITHOUT ROWID;
+
+-- What a study was computed with: facts about machines, which no answer is made of and no hash has.
+CREATE TABLE computed_with (
+    study_id        INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- its study
+    simd            TEXT    NOT NULL,              -- vector instructions: 'AVX2', ...; others give other last bits
+    compiler        TEXT    NOT NULL,              -- of the program: 'g++ 12.2.0'
+    program_version TEXT    NOT NULL,              -- of the capstan that computed units or conclusions
+    PRIMARY KEY (study_id, simd, compiler, program_version)
 ) STRICT, WITHOUT ROWID;
 
 CREATE INDEX scenario_of_study ON scenario (study_id, regime);

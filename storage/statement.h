@@ -39,6 +39,8 @@ class Statement {
     template <class Value>
     Value get(int column) const;
 
+    sqlite3_stmt* handle() const { return statement_.get(); }
+
   private:
     struct Finalizer {
         void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "capstan/storage/error.h"
+#include "capstan/storage/integrity/content_hash.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/report_queries.h"
 #include "capstan/storage/study_ids.h"
@@ -170,6 +171,7 @@ void finish_study(Database& database, std::int64_t study_id,
     RowWriter<PaperComparisonRecord> rows(database, "paper_comparison", "study_id, row_index");
     int row_index = 0;
     for (const PaperComparisonRecord& row : paper_comparison) rows.write(row, study_id, row_index++);
+    hash_conclusions(database, ids);
     transaction.commit();
 }
 

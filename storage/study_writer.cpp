@@ -1,7 +1,9 @@
 // The results of one work unit, and the mark that it is done, in one transaction.
+#include <algorithm>
 #include <string>
 
 #include "capstan/storage/error.h"
+#include "capstan/storage/integrity/content_hash.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/study_ids.h"
 #include "capstan/storage/study_store.h"
@@ -53,23 +55,77 @@ void mark_done(Database& database, const UnitAddress& unit) {
     if (sqlite3_changes(database.connection()) == 0) explain_refusal(database, unit);
 }
 
-void write_cells(Database& database, const StudyIds& ids, const FusionResult& result,
+template <class Record, class Key>
+bool rises(const std::vector<Record>& records, const Key& key) {
+    return std::is_sorted(records.begin(), records.end(),
+                          [&](const Record& a, const Record& b) { return key(a) < key(b); });
+}
+
+template <class Record>
+bool nodes_rise(const std::vector<Record>& records) {
+    return std::all_of(records.begin(), records.end(), [](const Record& record) {
+        return rises(record.nodes, [](const auto& node) { return node.node; });
+    });
+}
+
+// Whether the rows are written in the order in which they are hashed.
+bool is_in_order(const SingleSensorResult& result) {
+    return nodes_rise(result.sensors) && rises(result.sensors, [](const SingleSensorRecord& sensor) {
+               return std::pair(std::string_view(sensor.knowledge), sensor.sensor_node);
+           });
+}
+
+bool is_in_order(const FusionResult& result, const StudyIds& ids) {
+    const auto number = [&](const CellRecord& cell) {
+        return cell_id(ids, result.scenario_index, result.noise_index, cell.set_index, cell.method);
+    };
+    return nodes_rise(result.cells) && rises(result.cells, number) &&
+           rises(result.weights, [](const SensorWeightRecord& weight) { return weight.sensor_node; }) &&
+           rises(result.bounds, [](const KnownDirectionBoundRecord& bound) { return bound.set_index; });
+}
+
+// The hashes of what the writers wrote; read back where that was in another order.
+template <class... Writers>
+void hash_written(Database& database, const StudyIds& ids, int unit_index, bool is_in_order,
+                  Writers&... writers) {
+    if (is_in_order)
+        hash_unit(database, ids, unit_index, {writers.written()...});
+    else
+        hash_unit(database, ids, unit_index);
+}
+
+template <class... Writers>
+void begin_hashing(Database& database, const StudyIds& ids, Writers&... writers) {
+    if (is_hashed(database, ids.study_id)) (writers.hash(ids), ...);
+}
+
+struct CellWriters {
+    CellWriters(Database& database, const StudyIds& ids)
+        : cells(database, "cell", "cell_id, scenario_id, noise_level_id, sensor_set_id"),
+          nodes(database, "cell_node", "cell_id"),
+          blocks(database, "cell_block", "cell_id") {
+        begin_hashing(database, ids, cells, nodes, blocks);
+    }
+
+    RowWriter<CellRecord> cells;
+    RowWriter<CellNodeRecord> nodes;
+    RowWriter<CellBlockRow> blocks;
+};
+
+void write_cells(CellWriters& writers, const StudyIds& ids, const FusionResult& result,
                  const UnitAddress& unit) {
-    RowWriter<CellRecord> cell_rows(database, "cell", "cell_id, scenario_id, noise_level_id, sensor_set_id");
-    RowWriter<CellNodeRecord> node_rows(database, "cell_node", "cell_id");
-    RowWriter<CellBlockRow> block_rows(database, "cell_block", "cell_id");
     std::vector<CellBlockRow> blocks;
     for (const CellRecord& cell : result.cells) {
         const std::int64_t set_id = id_at(ids.sensor_sets, cell.set_index, "sensor set");
         const std::int64_t id =
             cell_id(ids, result.scenario_index, result.noise_index, cell.set_index, cell.method);
-        cell_rows.write(cell, id, unit.scenario_id, unit.noise_level_id, set_id);
-        node_rows.write_all(cell.nodes, id);
+        writers.cells.write(cell, id, unit.scenario_id, unit.noise_level_id, set_id);
+        writers.nodes.write_all(cell.nodes, id);
         blocks.clear();
         for (const double mean_abs_error_N : cell.block_mean_abs_error_N) {
             blocks.push_back({static_cast<int>(blocks.size()), mean_abs_error_N});
         }
-        block_rows.write_all(blocks, id);
+        writers.blocks.write_all(blocks, id);
     }
 }
 
@@ -86,11 +142,13 @@ void write_single_sensor(Database& database, std::int64_t study_id, int unit_ind
     RowWriter<SingleSensorRecord> rows(database, "single_sensor", "scenario_id, noise_level_id");
     RowWriter<SingleSensorNodeRecord> node_rows(database, "single_sensor_node",
                                                 "scenario_id, noise_level_id, knowledge, sensor_node");
+    begin_hashing(database, ids, rows, node_rows);
     for (const SingleSensorRecord& sensor : result.sensors) {
         rows.write(sensor, unit.scenario_id, unit.noise_level_id);
         node_rows.write_all(sensor.nodes, unit.scenario_id, unit.noise_level_id, sensor.knowledge,
                             sensor.sensor_node);
     }
+    hash_written(database, ids, unit_index, is_in_order(result), rows, node_rows);
     transaction.commit();
 }
 
@@ -102,14 +160,19 @@ void write_fusion(Database& database, std::int64_t study_id, int unit_index, con
                            id_at(ids.noise_levels, result.noise_index, "noise level")};
     mark_done(database, unit);
     RowWriter<SensorWeightRecord> weight_rows(database, "sensor_weight", "scenario_id, noise_level_id");
+    begin_hashing(database, ids, weight_rows);
     weight_rows.write_all(result.weights, unit.scenario_id, unit.noise_level_id);
-    write_cells(database, ids, result, unit);
+    CellWriters cells(database, ids);
+    write_cells(cells, ids, result, unit);
     RowWriter<KnownDirectionBoundRecord> bound_rows(database, "known_direction_bound",
                                                     "scenario_id, noise_level_id, sensor_set_id");
+    begin_hashing(database, ids, bound_rows);
     for (const KnownDirectionBoundRecord& bound : result.bounds) {
         bound_rows.write(bound, unit.scenario_id, unit.noise_level_id,
                          id_at(ids.sensor_sets, bound.set_index, "sensor set"));
     }
+    hash_written(database, ids, unit_index, is_in_order(result, ids), weight_rows, cells.cells, cells.nodes,
+                 cells.blocks, bound_rows);
     transaction.commit();
 }
 

@@ -1,5 +1,6 @@
 #include "capstan/storage/world_store.h"
 
+#include "capstan/storage/integrity/content_hash.h"
 #include "capstan/storage/record_rows.h"
 #include "capstan/storage/study_ids.h"
 #include "capstan/storage/transaction.h"
@@ -25,6 +26,7 @@ void add_world_candidate(Database& database, std::int64_t study_id, int candidat
     Transaction transaction(database);
     RowWriter<WorldCandidateRecord>(database, "world_candidate", "study_id, candidate_index")
         .write(candidate, study_id, candidate_index);
+    hash_candidates(database, study_id);
     transaction.commit();
 }
 
@@ -32,6 +34,7 @@ void write_world_errors(Database& database, std::int64_t study_id, std::span<con
     Transaction transaction(database);
     RowWriter<WorldErrorRecord> rows(database, "world_error", "study_id");
     for (const WorldErrorRecord& error : errors) rows.write(error, study_id);
+    hash_world_errors(database, study_id, errors);
     transaction.commit();
 }
 
@@ -46,6 +49,7 @@ void finish_world_study(Database& database, std::int64_t study_id,
     RowWriter<WorldRecommendationRecord>(database, "world_recommendation", "study_id")
         .write(recommendation, study_id);
     mark_complete(database, study_id);
+    hash_conclusions(database, load_study_ids(database, study_id));
     transaction.commit();
 }
 

@@ -19,8 +19,8 @@ book_packages=(
     python3-sphinx python3-myst-parser furo katex fonts-texgyre-math
     python3-nbconvert python3-ipykernel python3-matplotlib python3-pandas doxygen
 )
-# For the test on a Slurm of its own, which is skipped without them.
-slurm_packages=(slurmctld slurmd slurm-client munge)
+# For the tests on a Slurm of its own, with GNU parallel and with Snakemake, which are skipped without them.
+slurm_packages=(slurmctld slurmd slurm-client munge parallel snakemake)
 
 # For the fuzz targets, the thread sanitizer's own oneTBB, and the checks of the code.
 fuzz_packages=(clang libclang-rt-14-dev)

@@ -4,6 +4,8 @@
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/study_answers.h"
+#include "capstan/storage/integrity/computed_with.h"
+#include "capstan/storage/integrity/content_hash.h"
 #include "capstan/storage/statement.h"
 #include "capstan/storage/study_store.h"
 
@@ -63,6 +65,16 @@ std::string description_of(const StudyDescription& study) {
 
 namespace {
 
+void add_integrity(reports::Answer& answer, storage::Database& database, std::int64_t study_id) {
+    Data computations = Data::list();
+    for (const storage::Computation& computation : storage::read_computations(database, study_id))
+        computations.push_back({{"simd", computation.simd},
+                                {"compiler", computation.compiler},
+                                {"program_version", computation.program_version}});
+    answer.values["content_sha256"] = storage::study_hash(database, study_id);
+    answer.values["computed_with"] = std::move(computations);
+}
+
 // A study over worlds: how many trials of each condition are stored.
 reports::Answer world_study_answer(storage::Database& database, std::int64_t study_id,
                                    const StudyDescription& study) {
@@ -97,6 +109,7 @@ reports::Answer world_study_answer(storage::Database& database, std::int64_t stu
                      "",
                      {{"condition", "condition"}, {"sets", "sets"}, {"trials", "sets times worlds"}},
                      conditions}}}};
+    add_integrity(answer, database, study_id);
     return answer;
 }
 
@@ -150,6 +163,7 @@ reports::Answer study_answer(storage::Database& database, std::int64_t study_id)
                                    "show {0} --config` prints its configuration.",
                                    study_id)
                      : fmt::format("`capstan study resume {0}` completes it.", study_id)}};
+    add_integrity(answer, database, study_id);
     return answer;
 }
 

@@ -10,6 +10,7 @@
 #include "capstan/config/plan_checks.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/placement/study_merge.h"
+#include "capstan/platform/simd_width.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/storage/study_store.h"
 #include "capstan/worlds/world_shard.h"
@@ -134,6 +135,7 @@ ExitCode run_all_worlds(const Invocation& invocation, const std::vector<StudyPla
 }
 
 ExitCode run_study_run(const Invocation& invocation) {
+    use_stated_simd(invocation);
     config::ReadConfig config = read_config_of(invocation);
     if (invocation.has("from-diagnosis")) take_diagnosis(invocation, config.plan);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
@@ -195,6 +197,13 @@ ExitCode resume_one(const Invocation& invocation, storage::Database& database, s
             "the last bits.",
             id, study.program_version, program_version()));
     }
+    use_simd_of(invocation, storage::read_computations(database, id));
+    for (const storage::Computation& before : storage::read_computations(database, id))
+        if (before.simd != simd_width())
+            say(fmt::format(
+                "Note: study {} was begun with SIMD {}, and this is {}; the remaining units may differ in "
+                "the last bits.",
+                id, before.simd, simd_width()));
     if (stored.plan.uncertainty.is_stated) return run_watched_worlds(invocation, &database, id, stored.plan);
     return run_watched(invocation, database, study.name, [&](const RunOptions& options) {
         return resume_study(database, id, stored.plan, options);
@@ -240,9 +249,13 @@ Command study_resume_command() {
 
 namespace {
 
-bool first_holds_worlds(const std::vector<std::filesystem::path>& shards) {
+// Whether it holds worlds. From now on the program uses the vector instructions that it was computed with.
+bool look_at_first(const Invocation& invocation, const std::vector<std::filesystem::path>& shards) {
+    use_stated_simd(invocation);
     if (!std::filesystem::exists(shards.front())) return false;  // reported with the others
     storage::Database database = storage::Database::open_read_only(shards.front());
+    for (const storage::StudySummary& study : storage::list_studies(database))
+        use_simd_of(invocation, storage::read_computations(database, study.study_id));
     return holds_worlds(database);
 }
 
@@ -250,7 +263,7 @@ ExitCode run_study_merge(const Invocation& invocation) {
     const std::string& file = invocation.text("db");
     const auto& names = invocation.repeated_argument();
     const std::vector<std::filesystem::path> shards(names.begin(), names.end());
-    if (first_holds_worlds(shards)) {
+    if (look_at_first(invocation, shards)) {
         const WatchedTable watched = watch_table(invocation, "merge", [&](const TableOptions& options) {
             merge_world_shards(file, shards, options);
         });
@@ -276,24 +289,27 @@ ExitCode run_study_merge(const Invocation& invocation) {
 }  // namespace
 
 Command study_merge_command() {
-    return {.name = "study merge",
-            .summary = "Join the shards of a study.",
-            .description =
-                "Joins the files written by `capstan study run --shard` into a new database and computes the "
-                "recommendations. Every table has the same bits as after one run. Every shard must be given "
-                "once, be finished, and belong to the same study. Otherwise nothing is written, and every "
-                "missing, repeated, foreign or unfinished shard is named.",
-            .arguments = {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
-            .options = {{.name = "db",
-                         .value = "FILE",
-                         .meaning = "The new database; it is written completely or not at all.",
-                         .default_value = "capstan.db"},
-                        jobs_option,
-                        progress_option,
-                        help_option},
-            .examples = {"capstan study merge --db atlas.db shard-*.db"},
-            .run = run_study_merge,
-            .can_be_stopped = true};
+    return {
+        .name = "study merge",
+        .summary = "Join the shards of a study.",
+        .description =
+            "Joins the files written by `capstan study run --shard` into a new database and computes the "
+            "recommendations. Every table has the same bits as after one run. Every shard must be given "
+            "once, be finished, belong to the same study, hold what was written (by its content hashes), and "
+            "be computed with the same program and vector instructions. Otherwise nothing is written, and "
+            "every missing, repeated, foreign, unfinished, damaged or different shard is named.",
+        .arguments = {{"SHARD", "The files of all shards, in any order.", ArgumentNeed::one_or_more}},
+        .options = {{.name = "db",
+                     .value = "FILE",
+                     .meaning = "The new database; it is written completely or not at all.",
+                     .default_value = "capstan.db"},
+                    jobs_option,
+                    simd_option,
+                    progress_option,
+                    help_option},
+        .examples = {"capstan study merge --db atlas.db shard-*.db"},
+        .run = run_study_merge,
+        .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

@@ -6,7 +6,14 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
-#include "capstan/cluster/slurm_queue.h"
+#include "capstan/cli/program.h"
+#include "capstan/cli/watched_run.h"
+#include "capstan/cluster/lease.h"
+#include "capstan/cluster/shard_record.h"
+#include "capstan/cluster/study_queue.h"
+#include "capstan/cluster/worker.h"
+#include "capstan/platform/simd_width.h"
+#include "capstan/platform/standard_streams.h"
 
 namespace capstan::cli {
 
@@ -18,40 +25,67 @@ using reports::Data;
 
 // State of a shard or of the merge.
 struct TaskStatus {
-    std::string state;  // done, running, waiting, failed, not_started; without Slurm also unfinished
+    std::string
+        state;  // done, running, late, waiting, failed, not_started; without its scheduler also unfinished
     cluster::ShardProgress progress;
     std::optional<QueuedTask> task;
+    std::string worker;   // that holds its lease
+    std::string message;  // the last line of the log of one that failed
 };
 
 struct StudyStatus {
     StudyDirectory directory;
-    bool slurm = false;
+    const cluster::Scheduler* scheduler = nullptr;  // null: it is not on this machine, or there is none
     std::vector<TaskStatus> shards;
     TaskStatus merge;
+    cluster::Outlook outlook;
 };
 
-std::string state_of(bool is_done, bool was_begun, const std::optional<QueuedTask>& task, bool slurm) {
+std::string state_of(bool is_done, bool was_begun, const std::optional<QueuedTask>& task, bool knows_queue) {
     if (is_done) return "done";
     if (task) return task->is_running() ? "running" : "waiting";
     if (!was_begun) return "not_started";
-    return slurm ? "failed" : "unfinished";
+    return knows_queue ? "failed" : "unfinished";
+}
+
+TaskStatus shard_status(const StudyStatus& status, const cluster::StudyQueue& queue, double now_s,
+                        int number) {
+    const StudyDirectory& directory = status.directory;
+    const cluster::WorkOptions usual;
+    TaskStatus shard;
+    shard.progress = cluster::progress_of(directory, number);
+    if (const auto task = queue.shards.find(number); task != queue.shards.end()) shard.task = task->second;
+    shard.state =
+        state_of(shard.progress.is_done(), shard.progress.was_begun, shard.task, status.scheduler != nullptr);
+    if (shard.state != "done" && cluster::is_held(directory.lease_file(number), now_s)) {
+        shard.state =
+            cluster::is_late(directory, number, usual.late_after_s, usual.late_factor) ? "late" : "running";
+        if (const auto lease = cluster::read_lease(directory.lease_file(number)))
+            shard.worker = lease->worker;
+    }
+    if (shard.state == "failed" || shard.state == "unfinished")
+        shard.message = cluster::last_line_of(directory.shard_log(number));
+    return shard;
 }
 
 StudyStatus status_of(const std::string& named) {
-    StudyStatus status{cluster::read_directory(named), cluster::slurm_is_there(), {}, {}};
+    StudyStatus status;
+    status.directory = cluster::read_directory(named);
     const StudyDirectory& directory = status.directory;
-    const cluster::StudyQueue queue = status.slurm ? cluster::read_queue(directory) : cluster::StudyQueue{};
-    for (int number = 1; number <= directory.shards; ++number) {
-        TaskStatus shard{{}, cluster::progress_of(directory, number), {}};
-        if (const auto task = queue.shards.find(number); task != queue.shards.end())
-            shard.task = task->second;
-        shard.state = state_of(shard.progress.is_done(), shard.progress.was_begun, shard.task, status.slurm);
-        status.shards.push_back(std::move(shard));
-    }
+    status.scheduler = cluster::find_scheduler(directory.scheduler);
+    if (status.scheduler != nullptr && !cluster::is_there(*status.scheduler)) status.scheduler = nullptr;
+    const cluster::StudyQueue queue = status.scheduler != nullptr
+                                          ? cluster::read_queue(*status.scheduler, directory)
+                                          : cluster::StudyQueue{};
+    const double now_s = cluster::disk_time_s(directory.leases_folder());
+    for (int number = 1; number <= directory.shards; ++number)
+        status.shards.push_back(shard_status(status, queue, now_s, number));
     const bool merged = std::filesystem::exists(directory.merged_file());
     const bool begun = std::filesystem::exists(directory.merge_log());
-    status.merge.state = state_of(merged, begun, queue.merge, status.slurm);
+    status.merge.state = state_of(merged, begun, queue.merge, status.scheduler != nullptr);
+    if (!merged && cluster::is_held(directory.merge_lease_file(), now_s)) status.merge.state = "running";
     status.merge.task = queue.merge;
+    status.outlook = cluster::outlook_of(directory);
     return status;
 }
 
@@ -62,7 +96,9 @@ std::string advice(const StudyStatus& status) {
     if (status.merge.state == "done") {
         return fmt::format("Complete: capstan recommend --db {}", directory.merged_file().string());
     }
-    if (!status.slurm) return "There is no Slurm on this machine, so only the files are known.";
+    if (status.scheduler == nullptr)
+        return fmt::format("There is no queue of {} on this machine, so only the files are known.",
+                           directory.scheduler);
     bool left = status.merge.state == "failed" || status.merge.state == "not_started";
     for (const TaskStatus& shard : status.shards) {
         left = left || shard.state == "failed" || shard.state == "not_started";
@@ -70,8 +106,16 @@ std::string advice(const StudyStatus& status) {
     if (!left) return "Running; nothing to do.";
     return fmt::format(
         "Some tasks are not in the queue. The logs in {0}/logs show why; submit them again with:\n"
-        "capstan study submit --slurm {0}/config.toml --shards {1} --processors {2} --directory {0}",
-        folder, directory.shards, directory.processors_per_shard);
+        "capstan study submit --scheduler {3} {0}/config.toml --shards {1} --processors {2} --directory {0}",
+        folder, directory.shards, directory.processors_per_shard, directory.scheduler);
+}
+
+std::string outlook_words(const StudyStatus& status) {
+    const cluster::Outlook& outlook = status.outlook;
+    if (outlook.mean_shard_s == 0.0 || status.merge.state == "done") return {};
+    return fmt::format(
+        " Left: {:.2g} core-hours, about {:.0f} s with {} at work.", outlook.left_core_h, outlook.left_s,
+        outlook.running == 1 ? "1 worker" : fmt::format("{} workers", std::max(outlook.running, 1)));
 }
 
 Data task_data(const TaskStatus& task) {
@@ -81,7 +125,9 @@ Data task_data(const TaskStatus& task) {
         data["units"] = task.progress.units;
     }
     if (!task.progress.problem.empty()) data["problem"] = task.progress.problem;
-    if (task.task) data["slurm"] = {{"job", task.task->id}, {"state", task.task->state}};
+    if (task.task) data["queue"] = {{"job", task.task->id}, {"state", task.task->state}};
+    if (!task.worker.empty()) data["worker"] = task.worker;
+    if (!task.message.empty()) data["message"] = task.message;
     return data;
 }
 
@@ -98,15 +144,16 @@ reports::Answer answer_of(const StudyStatus& status) {
     Data merge = {{"shard", "merge"}};
     merge.update(task_data(status.merge));
     rows.push_back(std::move(merge));
-    reports::Answer answer{.id = "status",
-                           .kind = "A submitted study",
-                           .title = status.directory.name,
-                           .headline = fmt::format("{} of {} shards are done. {}", done,
-                                                   status.directory.shards, advice(status))};
-    answer.values = {{"name", status.directory.name},
-                     {"directory", status.directory.path.string()},
-                     {"slurm", status.slurm},
-                     {"shards", shards},
+    reports::Answer answer{
+        .id = "status",
+        .kind = "A submitted study",
+        .title = status.directory.name,
+        .headline = fmt::format("{} of {} shards are done.{} {}", done, status.directory.shards,
+                                outlook_words(status), advice(status))};
+    answer.values = {{"name", status.directory.name},           {"directory", status.directory.path.string()},
+                     {"scheduler", status.directory.scheduler}, {"knows_queue", status.scheduler != nullptr},
+                     {"workers", status.outlook.running},       {"left_core_h", status.outlook.left_core_h},
+                     {"left_s", status.outlook.left_s},         {"shards", shards},
                      {"merge", task_data(status.merge)}};
     answer.sections = {{.id = "shards",
                         .heading = "Shards in " + status.directory.path.string(),
@@ -116,8 +163,10 @@ reports::Answer answer_of(const StudyStatus& status) {
                                      {"state", "state"},
                                      {"units_done", "units done"},
                                      {"units", "units"},
-                                     {"slurm.job", "Slurm job"},
-                                     {"slurm.state", "Slurm state"},
+                                     {"worker", "worker"},
+                                     {"queue.job", "job"},
+                                     {"queue.state", "state in the queue"},
+                                     {"message", "last message"},
                                      {"problem", "problem"}},
                                     rows}}}};
     return answer;
@@ -137,13 +186,89 @@ Command study_status_command() {
         .summary = "Show the progress of a submitted study.",
         .description =
             "Shows for every shard in a folder made by `capstan study submit` whether it is done, "
-            "running, waiting, failed (started, but not in Slurm's queue) or not started, how many of "
-            "its units are stored, and its state in Slurm; then shows what to do next. It reads the "
-            "shards' files and also works without Slurm.",
+            "running, late, waiting, failed (started, but neither in the queue nor at work; with the last line of its "
+            "log) or not started, how many of its units are stored, who works on it, and its state in the queue; then "
+            "what is left in time and core-hours, and what to do next. It reads the shards' files and leases, and also "
+            "works without the scheduler.",
         .arguments = {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
         .options = {output_option, json_option, help_option},
         .examples = {"capstan study status atlas", "capstan study status atlas --json | jq -r .merge.state"},
         .run = run_study_status};
+}
+
+namespace {
+
+ExitCode run_study_work(const Invocation& invocation) {
+    const StudyDirectory directory = cluster::read_directory(invocation.argument("DIR"));
+    if (!directory.simd.empty())
+        limit_simd(directory.simd, "the folder states --simd ");
+    else
+        use_stated_simd(invocation);
+    std::optional<int> own;
+    if (invocation.has("shard")) own = static_cast<int>(invocation.integer("shard"));
+    if (own && *own > directory.shards)
+        throw UsageError(fmt::format("--shard is {}, but the study has {} shards", *own, directory.shards));
+    cluster::WorkOptions work_options;
+    work_options.program_version = program_version();
+    work_options.say = [](const std::string& text) { say(text); };
+    work_options.late_after_s = invocation.number("late");
+    return watch(invocation, directory.name, [&](const RunOptions& options) -> WatchedEnd {
+        work_options.run = options;
+        if (!invocation.has("jobs")) work_options.run.jobs = directory.processors_per_shard;
+        const RunEnd end = invocation.has("merge") ? cluster::merge(directory, work_options)
+                                                   : cluster::work(directory, own, work_options);
+        const std::string words =
+            end == RunEnd::stopped ? "Stopped; every finished unit is kept. The same command goes on."
+            : std::filesystem::exists(directory.merged_file())
+                ? fmt::format("The study is complete: {}", directory.merged_file().string())
+                : "Nothing is left to do here; other workers have the other shards.";
+        return {end, {}, words, 0};
+    });
+}
+
+}  // namespace
+
+Command study_work_command() {
+    return {
+        .name = "study work",
+        .summary = "Work on the shards of a submitted study.",
+        .description =
+            "Runs shards in a folder made by `capstan study submit`, one after the other, until none is left; any "
+            "number of such workers on any machines share the folder, each shard under a lease. Where all shards "
+            "have been begun, a worker waits beside one that runs and computes it once more if it is late (longer "
+            "than --late and than three times the median shard) or its worker has died; both give the same bits. "
+            "The last worker joins the shards into study.db. The jobs of schedulers call it; by hand it serves "
+            "where there is none.",
+        .arguments = {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
+        .options = {{.name = "shard",
+                     .kind = OptionKind::integer,
+                     .value = "I",
+                     .meaning = "Run this shard, whoever has it, and no other that is free.",
+                     .low = 1,
+                     .high = 1e6},
+                    {.name = "merge",
+                     .kind = OptionKind::flag,
+                     .meaning = "Only join the shards, if that is not done."},
+                    {.name = "late",
+                     .kind = OptionKind::number,
+                     .value = "SECONDS",
+                     .meaning = "A shard is never late before that.",
+                     .default_value = "30",
+                     .low = 0,
+                     .high = 1e9},
+                    {.name = "jobs",
+                     .letter = 'j',
+                     .kind = OptionKind::integer,
+                     .value = "N",
+                     .meaning = "Number of threads, instead of the processors per task of the submission.",
+                     .low = 0,
+                     .high = 1024},
+                    simd_option,
+                    progress_option,
+                    help_option},
+        .examples = {"capstan study work atlas", "capstan study work atlas --shard 7"},
+        .run = run_study_work,
+        .can_be_stopped = true};
 }
 
 }  // namespace capstan::cli

@@ -16,9 +16,11 @@
     COMMAND(study_restore)        \
     COMMAND(study_note)           \
     COMMAND(study_merge)          \
+    COMMAND(study_verify)         \
     COMMAND(study_plan)           \
     COMMAND(study_submit)         \
     COMMAND(study_status)         \
+    COMMAND(study_work)           \
     COMMAND(recommend)            \
     COMMAND(place)                \
     COMMAND(budget)               \

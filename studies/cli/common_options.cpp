@@ -5,9 +5,11 @@
 #include <charconv>
 #include <sstream>
 
+#include "capstan/cli/program.h"
 #include "capstan/config/config_truth.h"
 #include "capstan/config/far_end_log.h"
 #include "capstan/platform/nearest_name.h"
+#include "capstan/platform/simd_width.h"
 
 namespace capstan::cli {
 
@@ -56,6 +58,13 @@ const Option progress_option{
 const Option stats_option{.name = "stats",
                           .kind = OptionKind::flag,
                           .meaning = "Print on standard error how much time each stage took."};
+const Option simd_option{
+    .name = "simd",
+    .value = "WIDTH",
+    .meaning =
+        "Use no wider vector instructions than WIDTH (SSE4, AVX2, ...), so that different processors give the "
+        "same last bits; `capstan doctor` prints those in use. By default those with which the study was begun, "
+        "if this processor has them, otherwise its widest."};
 const Option segments_option{
     .name = "segments",
     .kind = OptionKind::integer,
@@ -81,6 +90,16 @@ const Argument config_argument{
     "CONFIG", "The study's configuration (TOML); `capstan config default` explains every key."};
 const Argument study_argument{"STUDY", "Its number, its name (the newest study of that name), or latest.",
                               ArgumentNeed::optional, "latest"};
+
+void use_stated_simd(const Invocation& invocation) {
+    if (invocation.has("simd")) limit_simd(invocation.text("simd"), "--simd ");
+}
+
+void use_simd_of(const Invocation& invocation, const std::vector<storage::Computation>& computations) {
+    use_stated_simd(invocation);
+    if (invocation.has("simd") || simd_is_limited() || computations.size() != 1) return;
+    limit_simd_width(computations.front().simd);  // false: not here, which is said where it matters
+}
 
 config::ReadConfig read_config_of(const Invocation& invocation) {
     config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));

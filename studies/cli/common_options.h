@@ -8,6 +8,7 @@
 #include "capstan/cli/command.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/plan/study_plan.h"
+#include "capstan/storage/integrity/computed_with.h"
 
 namespace capstan::cli {
 
@@ -20,12 +21,20 @@ extern const Option repetitions_option;
 extern const Option json_option;
 extern const Option progress_option;
 extern const Option stats_option;
+extern const Option simd_option;  ///< see use_stated_simd()
 extern const Option segments_option;
 extern const Option format_option;
 extern const Option page_option;
 
 extern const Argument config_argument;
 extern const Argument study_argument;  ///< latest where left out
+
+/// Takes no wider vector instructions than --simd states. Throws UsageError for a width that is not there.
+/// Before anything is computed.
+void use_stated_simd(const Invocation& invocation);
+
+/// The same; where nothing is stated, what a study was computed with so far, if this processor has it.
+void use_simd_of(const Invocation& invocation, const std::vector<storage::Computation>& computations);
 
 /// The configuration that the argument CONFIG names, with --seed, --repetitions and --truth in place of its
 /// own.

@@ -1,10 +1,9 @@
 #include "capstan/cli/program.h"
 
 #include <fmt/format.h>
-#include <hwy/targets.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -21,6 +20,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/platform/nearest_name.h"
+#include "capstan/platform/simd_width.h"
 #include "capstan/platform/wrapped_text.h"
 #include "capstan/reports/page_frame.h"
 #include "capstan/storage/error.h"
@@ -185,38 +185,19 @@ ExitCode run_program(const std::vector<std::string>& words) {
     }
 }
 
-namespace {
-
-// Of those that the program was built for. The lower bit is the better target.
-std::int64_t targets_here() {
-    return hwy::SupportedTargets() & HWY_TARGETS;
+void limit_simd(std::string_view wanted, std::string_view origin) {
+    if (limit_simd_width(wanted)) return;
+    throw UsageError(fmt::format("{}{}: this program on this processor has {}", origin, wanted,
+                                 fmt::join(simd_widths(), ", ")));
 }
 
-std::string names(std::int64_t targets) {
-    std::string list;
-    for (; targets != 0; targets &= targets - 1)
-        list += fmt::format("{}{}", list.empty() ? "" : ", ", hwy::TargetName(targets & -targets));
-    return list;
-}
-
-}  // namespace
-
-std::string simd_in_use() {
-    return hwy::TargetName(targets_here() & -targets_here());
+bool simd_is_limited() {
+    const char* const wanted = std::getenv("CAPSTAN_SIMD");
+    return wanted != nullptr && !std::string_view(wanted).empty();
 }
 
 void limit_simd_from_environment() {
-    const char* const wanted = std::getenv("CAPSTAN_SIMD");
-    if (wanted == nullptr || std::string_view(wanted).empty()) return;
-    const std::int64_t there = targets_here();
-    for (std::int64_t rest = there; rest != 0; rest &= rest - 1) {
-        const std::int64_t target = rest & -rest;
-        if (std::string_view(hwy::TargetName(target)) != wanted) continue;
-        hwy::DisableTargets(target - 1);
-        return;
-    }
-    throw UsageError(
-        fmt::format("CAPSTAN_SIMD={}: this program on this processor has {}", wanted, names(there)));
+    if (simd_is_limited()) limit_simd(std::getenv("CAPSTAN_SIMD"), "CAPSTAN_SIMD=");
 }
 
 }  // namespace capstan::cli

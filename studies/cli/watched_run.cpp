@@ -50,14 +50,14 @@ void say_end(ProgressMode mode, const std::string& event, const std::string& wor
 }  // namespace
 
 std::vector<Option> watched_run_options() {
-    return {database_option, jobs_option,  output_option, json_option,
-            progress_option, stats_option, help_option};
+    return {database_option, jobs_option,     simd_option,  output_option,
+            json_option,     progress_option, stats_option, help_option};
 }
 
 ExitCode watch(const Invocation& invocation, const std::string& name, const WatchedWork& work) {
     ProgressDisplay display(progress_mode(invocation.text("progress")));
     RunOptions options;
-    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    if (invocation.has("jobs")) options.jobs = static_cast<int>(invocation.integer("jobs"));
     options.on_progress = [&](const StudyProgress& progress) {
         display.show(counted_progress(name, progress.units_done, progress.units, "units"));
     };

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "capstan/cluster/shard_record.h"
 #include "capstan/placement/study_merge.h"
 #include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
@@ -16,6 +17,11 @@ namespace fs = std::filesystem;
 
 fs::path StudyDirectory::shard_file(int number) const {
     return path / ("shard-" + std::to_string(number) + "-of-" + std::to_string(shards) + ".db");
+}
+
+fs::path StudyDirectory::second_file(int number, const std::string& worker) const {
+    return path /
+           ("shard-" + std::to_string(number) + "-of-" + std::to_string(shards) + "-by-" + worker + ".db");
 }
 
 fs::path StudyDirectory::shard_log(int number) const {
@@ -35,7 +41,9 @@ std::string submission_text(const StudyDirectory& directory) {
     const nlohmann::ordered_json json = {{"name", directory.name},
                                          {"shards", directory.shards},
                                          {"processors_per_shard", directory.processors_per_shard},
-                                         {"program", directory.program.string()}};
+                                         {"program", directory.program.string()},
+                                         {"scheduler", directory.scheduler},
+                                         {"simd", directory.simd}};
     return json.dump(2) + "\n";
 }
 
@@ -44,9 +52,9 @@ StudyDirectory read_directory(const fs::path& path) {
     directory.path = fs::absolute(path).lexically_normal();
     if (!directory.path.has_filename()) directory.path = directory.path.parent_path();
     if (!fs::exists(directory.submission_file())) {
-        throw std::runtime_error(
-            path.string() + " holds no submitted study; `capstan study submit --slurm CONFIG --directory " +
-            path.string() + "` makes one");
+        throw std::runtime_error(path.string() +
+                                 " holds no submitted study; `capstan study submit CONFIG --directory " +
+                                 path.string() + "` makes one");
     }
     try {
         const auto json = nlohmann::json::parse(read_file(directory.submission_file()));
@@ -54,6 +62,8 @@ StudyDirectory read_directory(const fs::path& path) {
         directory.shards = json.at("shards");
         directory.processors_per_shard = json.at("processors_per_shard");
         directory.program = json.at("program").get<std::string>();
+        directory.scheduler = json.value("scheduler", directory.scheduler);
+        directory.simd = json.value("simd", "");
     } catch (const nlohmann::json::exception& error) {
         throw std::runtime_error(directory.submission_file().string() +
                                  " is damaged; submit the study into a new folder. (" + error.what() + ")");
@@ -63,7 +73,7 @@ StudyDirectory read_directory(const fs::path& path) {
 
 ShardProgress progress_of(const StudyDirectory& directory, int number) {
     ShardProgress progress;
-    const fs::path file = directory.shard_file(number);
+    const fs::path file = file_of_shard(directory, number);
     progress.was_begun = fs::exists(file) || fs::exists(directory.shard_log(number));
     if (!fs::exists(file) || fs::file_size(file) == 0) return progress;
     try {

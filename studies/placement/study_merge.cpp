@@ -8,6 +8,8 @@
 #include "capstan/placement/stored_study.h"
 #include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
+#include "capstan/storage/integrity/computed_with.h"
+#include "capstan/storage/integrity/verification.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan {
@@ -47,13 +49,17 @@ class ShardSet {
     explicit ShardSet(const std::vector<fs::path>& paths) {
         for (const fs::path& path : paths) take(path);
         name_missing();
-        if (problems_.empty()) return;
+        if (problems_.empty()) {
+            computations_.require_same_simd_here();
+            return;
+        }
         std::string text = "These shards cannot be merged; nothing was written.";
         for (const std::string& problem : problems_) text += "\n  " + problem;
         throw storage::Error(text);
     }
 
     const std::vector<StudyDescription>& studies() const { return studies_; }
+    const storage::SameComputation& computations() const { return computations_; }
 
     int count() const { return count_; }
     Database& file_of(int number) { return *files_.at(number).database; }
@@ -67,6 +73,10 @@ class ShardSet {
             if (!state)
                 return problem(path, "is not the file of a shard; `capstan study run --shard` writes one");
             file.state = *state;
+            if (const std::string other = computations_.problem_of(*file.database); !other.empty())
+                problem(path, other);
+            for (const std::string& changed : storage::check_hashes(*file.database).problems)
+                problem(path, "is damaged (" + changed + "); run it again, into a new file");
             compare(path, file);
         } catch (const storage::Error& error) {
             problems_.push_back(error.what());
@@ -128,6 +138,7 @@ class ShardSet {
     std::map<int, ShardFile> files_;  // by shard number
     int count_ = 0;
     fs::path first_;
+    storage::SameComputation computations_;
     std::vector<std::string> problems_;
 };
 
@@ -154,6 +165,8 @@ RunEnd write_merged(ShardSet& shards, Database& merged, const RunOptions& option
     const Deal deal = deal_out(shards.studies(), shards.count());
     for (std::size_t k = 0; k < ids.size(); ++k) {
         const StudyDescription& study = shards.studies()[k];
+        if (const auto& computation = shards.computations().common())
+            storage::write_computation(merged, ids[k], *computation);
         for (std::size_t unit = 0; unit < study.work_units.size(); ++unit) {
             if (options.stop != nullptr && options.stop->load()) return RunEnd::stopped;
             const storage::WorkUnitRecord& record = study.work_units[unit];

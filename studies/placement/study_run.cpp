@@ -5,6 +5,7 @@
 #include "capstan/placement/stored_study.h"
 #include "capstan/placement/unit_run.h"
 #include "capstan/platform/clocks.h"
+#include "capstan/storage/integrity/computed_with.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan {
@@ -30,6 +31,7 @@ RunEnd work_on(storage::Database& database, const PreparedStudy& study, std::int
         report();
     };
     report();
+    storage::write_computation(database, study_id);
     const RunEnd end = run_units(database, study, std::move(work), options, times);
     if (end == RunEnd::complete) conclude_study(database, study_id, study.plan, options, times);
     return end;
@@ -93,6 +95,7 @@ void conclude_study(storage::Database& database, std::int64_t study_id, const St
     }
     times.conclusions_s += wall_time_s() - start_s;
     start_s = wall_time_s();
+    storage::write_computation(database, study_id);
     storage::finish_study(database, study_id, recommendations, paper);
     times.storage_s += wall_time_s() - start_s;
 }

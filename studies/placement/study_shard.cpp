@@ -6,6 +6,7 @@
 #include "capstan/placement/unit_run.h"
 #include "capstan/platform/clocks.h"
 #include "capstan/storage/error.h"
+#include "capstan/storage/integrity/computed_with.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan {
@@ -142,6 +143,10 @@ ShardOutcome run_shard(storage::Database& database, std::span<const StudyPlan> p
         work.push_back({{ids[k], {}, {}, true}, static_cast<int>(owned.size())});
         for (const int unit : storage::pending_units(database, ids[k])) {
             if (owned.count(unit) != 0) work[k].to_run.units.insert(unit);
+        }
+        if (!work[k].to_run.units.empty()) {
+            storage::require_same_simd(database, ids[k]);
+            storage::write_computation(database, ids[k]);
         }
         progress.units += work[k].units;
         progress.units_done += work[k].units - static_cast<int>(work[k].to_run.units.size());

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "capstan/config/config_writer.h"
+#include "capstan/storage/integrity/computed_with.h"
 #include "capstan/storage/study_store.h"
 #include "capstan/storage/world_store.h"
 #include "capstan/worlds/sensor_places.h"
@@ -180,6 +181,7 @@ namespace {
 ErrorTable stored_table(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
                         TableOptions options, bool is_complete) {
     if (!is_complete) {
+        storage::write_computation(database, study_id);
         const auto stored = static_cast<int>(storage::load_study(database, study_id).world_candidates.size());
         options.keep_candidate = [&database, study_id, stored, offers = sensor_offers(plan)](
                                      int number, const Candidate& candidate) {

@@ -8,6 +8,8 @@
 #include "capstan/config/config_reader.h"
 #include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
+#include "capstan/storage/integrity/computed_with.h"
+#include "capstan/storage/integrity/verification.h"
 #include "capstan/storage/study_store.h"
 #include "capstan/storage/world_store.h"
 #include "capstan/worlds/choice.h"
@@ -71,6 +73,7 @@ struct WorldShards {
     storage::StudyDescription study;
     StudyPlan plan;
     std::vector<storage::WorldErrorRecord> errors;
+    storage::SameComputation computations;
 };
 
 WorldShards read_shards(const std::vector<fs::path>& paths) {
@@ -103,6 +106,11 @@ WorldShards read_shards(const std::vector<fs::path>& paths) {
                                            words(*mark), at->second.string()));
             continue;
         }
+        if (const std::string other = shards.computations.problem_of(database); !other.empty())
+            problems.push_back(fmt::format("{} {}.", path.string(), other));
+        for (const std::string& changed : storage::check_hashes(database).problems)
+            problems.push_back(
+                fmt::format("{} is damaged ({}); run it again, into a new file.", path.string(), changed));
         auto errors = storage::read_world_errors(database, id);
         const std::size_t all = errors_of(shards.plan, *mark);
         if (errors.size() < all)
@@ -118,7 +126,10 @@ WorldShards read_shards(const std::vector<fs::path>& paths) {
                 "Shard {} of {} is missing; name its file, or run it: capstan study run CONFIG --shard {}/{} --db "
                 "FILE.",
                 number, count, number, count));
-    if (problems.empty()) return shards;
+    if (problems.empty()) {
+        shards.computations.require_same_simd_here();
+        return shards;
+    }
     throw storage::Error(std::accumulate(
         problems.begin(), problems.end(), std::string("These shards cannot be merged; nothing was written."),
         [](const std::string& text, const std::string& problem) { return text + "\n  " + problem; }));
@@ -160,6 +171,7 @@ void run_world_shard(storage::Database& database, const StudyPlan& plan, const s
     const storage::StudyDescription description = describe_worlds(plan, program_version);
     require_worlds_for(plan, shard.shards);
     const std::int64_t id = begin_or_find(database, shard, description);
+    storage::require_same_simd(database, id);
     fill_worlds(database, id, plan, options, shard.shard - 1, sharded(plan).worlds, shard.shards);
 }
 
@@ -175,6 +187,8 @@ void merge_world_shards(const fs::path& merged, const std::vector<fs::path>& pat
     try {
         storage::Database database = storage::Database::open_or_create(unfinished);
         const std::int64_t id = storage::begin_study(database, shards.study);
+        if (const auto& computation = shards.computations.common())
+            storage::write_computation(database, id, *computation);
         run_worlds(database, id, shards.plan, options, shards.errors);
         storage::fold_write_ahead_log(database);
     } catch (...) {

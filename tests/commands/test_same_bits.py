@@ -2,6 +2,8 @@
 
 import contextlib
 import json
+import os
+import pathlib
 import random
 import signal
 import sqlite3
@@ -31,10 +33,26 @@ class SameBits(CapstanTest):
             return None
 
     def test_any_number_of_jobs(self):
+        """Also with more threads than processors: so many really are there, which is looked up while it runs."""
         expected, _ = self.uninterrupted()
-        for jobs in (1, 2, 7):
-            self.run_capstan("study", "run", *STUDY, "--db", f"jobs{jobs}.db", "--jobs", jobs)
+        for jobs in (1, 2, 7, 16):
+            process = self.start_capstan("study", "run", *STUDY, "--db", f"jobs{jobs}.db", "--jobs", jobs, "--progress", "none")
+            threads = self.most_threads(process)
+            self.assertEqual(process.returncode, 0, process.stderr.read())
+            self.assertEqual(threads, jobs)
+            print(f"the same bits with {threads} threads on {os.cpu_count()} processors")
             self.assert_same_bits(expected, self.tables(f"jobs{jobs}.db"))
+
+    @staticmethod
+    def most_threads(process):
+        """That the process had at any time until it ended."""
+        most = 0
+        while process.poll() is None:
+            with contextlib.suppress(OSError, StopIteration):
+                lines = pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines()
+                most = max(most, int(next(line for line in lines if line.startswith("Threads:")).split()[1]))
+            time.sleep(0.002)
+        return most
 
     def test_killed_ten_times_at_random_moments(self):
         expected, duration_s = self.uninterrupted()

@@ -13,7 +13,7 @@ class Sensitivity(CapstanTest):
         return self.write("small.toml", (CONFIGS / "quick.toml").read_text() + SMALL + more)
 
     def test_same_bits_for_any_number_of_threads(self):
-        answers = {self.run_capstan("sensitivity", self.small(), "--json", "--jobs", jobs).stdout for jobs in (1, 2, 7)}
+        answers = {self.run_capstan("sensitivity", self.small(), "--json", "--jobs", jobs).stdout for jobs in (1, 2, 7, 16)}
         self.assertEqual(len(answers), 1)
         answer = json.loads(answers.pop())
         self.assertEqual([p["name"] for p in answer["parameters"]],

@@ -34,8 +34,9 @@ class WithoutSlurm(CapstanTest):
     def run_scripts(self, study, name):
         done = self.run_capstan("study", "submit", "--slurm", *study, "--shards", 3, "--directory", name, "--dry-run", env=self.NO_SLURM)
         folder = self.folder / name
-        self.assertIn("sbatch --array=1-3 ", done.stdout)
+        self.assertIn("sbatch --parsable --array=1-3 ", done.stdout)
         self.assertIn((folder / "shards.sbatch").read_text(), done.stdout)
+        self.assertIn("sbatch --parsable --dependency=afterok:JOB ", done.stdout)
         states = lambda: [shard["state"] for shard in self.status(folder)["shards"]]
         self.assertEqual(states(), ["not_started"] * 3)
         for task in (1, 2, 3):
@@ -132,7 +133,8 @@ class OnACluster(CapstanTest):
         states = [shard["state"] for shard in self.status()["shards"]]
         self.assertEqual(states, ["done", "done", "done", "failed", "done"])
         self.assertEqual(self.status()["merge"]["state"], "not_started")
-        self.assertIn("study submit --slurm", self.capstan("study", "status", "study"))
+        self.assertIn("study submit --scheduler slurm", self.capstan("study", "status", "study"))
+        self.assertIn("not a database", self.status()["shards"][3]["message"])  # the last line of its log
         self.assertEqual((self.folder / "study/shard-4-of-5.db").read_text(), text)
 
         (self.folder / "study/shard-4-of-5.db").unlink()
@@ -140,6 +142,17 @@ class OnACluster(CapstanTest):
         self.wait_for_the_merge()
         self.assert_same_bits(self.tables("complete.db"), self.tables("study/study.db"))
         self.assertIn("nothing to submit", self.submit(*QUICK, shards=5))
+
+    def test_more_shards_than_an_array_may_have(self):
+        """Three arrays of at most ten, four tasks at a time in each; the merge waits for all."""
+        self.run_capstan("study", "run", *QUICK, "--db", "complete.db")
+        text = self.capstan("study", "submit", "--slurm", *QUICK, "--shards", 28, "--array-limit", 10, "--throttle", 4,
+                            "--directory", "study")
+        self.assertRegex(text, r"Submitted shards 1-28 of 28 as jobs \d+ to \d+")
+        self.assertNotIn("Submitted", self.capstan("study", "submit", "--slurm", *QUICK, "--shards", 28, "--array-limit", 10,
+                                                   "--directory", "study"))
+        self.wait_for_the_merge()
+        self.assert_same_bits(self.tables("complete.db"), self.tables("study/study.db"))
 
     def test_submitted_twice_at_once_nothing_runs_twice(self):
         self.submit(*STUDY, shards=4)

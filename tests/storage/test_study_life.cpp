@@ -29,7 +29,8 @@ class StudyLife : public testing::Test {
 std::map<std::string, std::string> tables_of(Database& database) {
     std::vector<std::string> names;
     Statement tables(
-        database, "SELECT name FROM sqlite_schema WHERE type = 'table' AND name != 'history' ORDER BY name");
+        database,
+        "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT IN ('history', 'computed_with') ORDER BY name");
     while (tables.step()) names.push_back(tables.get<std::string>(0));
     std::map<std::string, std::string> content;
     for (const std::string& name : names) {

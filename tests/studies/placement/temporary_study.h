@@ -37,7 +37,9 @@ class TemporaryStudy {
 
     Dump dump() {
         Dump tables;
-        for (const auto& row : rows("SELECT name FROM sqlite_schema WHERE type = 'table' AND name != 'history'")) {
+        for (
+            const auto& row : rows(
+                "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT IN ('history', 'computed_with')")) {
             const std::string table = std::get<std::string>(row[0]);
             tables[table] = rows("SELECT * FROM " + table);
             std::sort(tables[table].begin(), tables[table].end());

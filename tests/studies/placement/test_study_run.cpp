@@ -38,7 +38,7 @@ TEST(StudyRun, FillsEveryTableOfItsResults) {
 }
 
 TEST(StudyRun, AnyNumberOfThreadsGivesTheSameBits) {
-    for (const int jobs : {2, 7}) {
+    for (const int jobs : {2, 7, 16}) {
         TemporaryStudy study;
         run_study(study.database(), test::small_plan(40), "test", with_jobs(jobs));
         SCOPED_TRACE(std::to_string(jobs) + " jobs");

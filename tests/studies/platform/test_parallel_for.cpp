@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "capstan/platform/parallel_for.h"
@@ -8,6 +10,26 @@
 
 namespace capstan {
 namespace {
+
+// Whether 7 and 16 threads give the same bits can only be tested where they run at once, whatever the
+// processors.
+TEST(ParallelFor, RunsAsManyThreadsAtOnceAsJobs) {
+    for (const int jobs : {2, 7, 16}) {
+        std::atomic<int> inside{0};
+        std::atomic<bool> all_met{false};
+        std::atomic<int> most{0};
+        parallel_for_each_index(8 * jobs, jobs, [&](int) {
+            const int now = ++inside;
+            for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) continue;
+            if (now == jobs) all_met = true;
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+            while (!all_met && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+            --inside;
+        });
+        EXPECT_TRUE(all_met) << jobs;
+        EXPECT_EQ(most, jobs);
+    }
+}
 
 TEST(ParallelFor, CallsEachIndexOnce) {
     std::vector<int> calls(1000, 0);

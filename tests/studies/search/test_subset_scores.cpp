@@ -129,7 +129,7 @@ TEST(ScoredDraws, MoreRepetitionsKeepTheFirstOnes) {
 TEST(ScoredDraws, AnyNumberOfThreadsGivesTheSameBits) {
     const StudyPlan plan = test::short_cable_plan(60);
     std::vector<std::vector<double>> errors_N;
-    for (const int jobs : {1, 2, 7}) {
+    for (const int jobs : {1, 2, 7, 16}) {
         EveryLayout every(plan, 0, jobs);
         every.draws.extend({60, 2}, every.weights, jobs);
         errors_N.emplace_back();
