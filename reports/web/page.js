@@ -171,7 +171,7 @@
     if (template.facet?.column && columns > 1 && beside < narrowest_panel_px) {
       oneBelowTheOther(template);
       const panels = columns * (info.rows_by ? distinct(rows, info.rows_by).length : 1);
-      figure.querySelector(".chart").style.minHeight = panels * (info.panel_height_px + 44) + info.frame_height_px + "px";
+      figure.querySelector(".chart").style.minHeight = panels * (info.panel_height_px + 48) + info.frame_height_px + "px";
       columns = 1;
     }
     const labels = template.data?.name === "paper_comparison" ? Math.min(frame - 30, room * 0.45) : frame;
@@ -234,11 +234,14 @@
     figure.view?.finalize();
     const place = chart.firstElementChild ?? chart.appendChild(document.createElement("div"));
     let done = await vegaEmbed(place, spec, options);
-    // If long tick labels or legends exceed the width of the figure, it is drawn again, narrower by the excess.
-    const excess = Math.ceil(chart.querySelector("svg").getBoundingClientRect().width) - chart.clientWidth;
-    if (excess > 0) {
+    // If long tick labels or legends exceed the width of the figure, it is drawn again, narrower by the excess. Narrower
+    // panels may have longer labels.
+    for (let trim = 0, redrawn = 0; redrawn < 3; ++redrawn) {
+      const excess = Math.ceil(chart.querySelector("svg").getBoundingClientRect().width) - chart.clientWidth;
+      if (excess <= 0) break;
+      trim += excess + 1;
       done.finalize();
-      done = await vegaEmbed(place, specOf(figure, excess + 1), options);
+      done = await vegaEmbed(place, specOf(figure, trim), options);
     }
     // What Vega marks as a symbol without a name is part of the chart, which has one; a chart that scrolls can be reached.
     for (const part of chart.querySelectorAll("svg g[role]:not([aria-label])")) part.removeAttribute("role");
