@@ -30,7 +30,7 @@ class Described(CapstanTest):
         for key in ("sample_rate_hz", "units", "runs"):
             self.assertTrue(any(key in words for words in assumed), (key, assumed))
 
-    def test_stiffness_is_stated_as_ea_or_end_to_end_but_not_both(self):
+    def test_stiffness_is_stated_as_ea_or_end_to_end_or_sought_but_not_stated_twice(self):
         template = json.loads(self.run_capstan("recording", "template").stdout)
         self.write("bench.csv", self.samples([name for name in template["units"] if name != "t"]))
         template["nominal"]["K"] = 4500
@@ -38,7 +38,7 @@ class Described(CapstanTest):
         self.assertIn("both stated", self.run_capstan("recording", "check", "bench", expect=2).stdout)
         del template["nominal"]["K"], template["nominal"]["EA"]
         self.write("bench.json", json.dumps(template))
-        self.assertIn("state one: K end to end (N/m), or EA (N)", self.run_capstan("recording", "check", "bench", expect=2).stdout)
+        self.assertIn("nominal.K or nominal.EA is missing; EA is sought from", self.run_capstan("recording", "check", "bench").stdout)
 
     def test_equal_problems_are_told_once(self):
         self.write("bench.json", '{"mode": "lumped_drive", "runs": [{"run": 2}]}')
