@@ -36,13 +36,17 @@ std::vector<Computation> read_computations(Database& database, std::int64_t stud
     return computations;
 }
 
+std::optional<std::string> other_simd(Database& database, std::int64_t study_id) {
+    for (const Computation& computation : read_computations(database, study_id))
+        if (computation.simd != simd_width()) return computation.simd;
+    return std::nullopt;
+}
+
 void require_same_simd(Database& database, std::int64_t study_id) {
-    for (const Computation& before : read_computations(database, study_id)) {
-        if (before.simd == simd_width()) continue;
-        throw Error(database.path().string() + " was begun with SIMD " + before.simd + ", and this is " +
-                    simd_width() + ", which gives other last bits. Run it with --simd " + before.simd +
+    if (const auto before = other_simd(database, study_id))
+        throw Error(database.path().string() + " was begun with SIMD " + *before + ", and this is " +
+                    simd_width() + ", which gives other last bits. Run it with --simd " + *before +
                     ", or on a machine of the kind that began it, or name a new file.");
-    }
 }
 
 std::string SameComputation::problem_of(Database& database) {

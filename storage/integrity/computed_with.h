@@ -27,6 +27,9 @@ void write_computation(Database& database, std::int64_t study_id,
 /// More than one where a study was resumed by another build or on another processor; none: not known.
 std::vector<Computation> read_computations(Database& database, std::int64_t study_id);
 
+/// The width with which the study was computed, where it is not the one in use.
+std::optional<std::string> other_simd(Database& database, std::int64_t study_id);
+
 /// Refuses to go on with a study that was computed with vector instructions of another width than those in
 /// use: its numbers would be those of no run. An Error says what to do.
 void require_same_simd(Database& database, std::int64_t study_id);

@@ -129,7 +129,7 @@ Data values_of(const DiagnosisRecord& diagnosis) {
     return data;
 }
 
-// The fitted numbers, and the nominal ones as ratios to what was stated.
+// The fitted numbers, and the nominal ones as ratios to their nominal values.
 Data fitted_data(const DiagnosisRecord& diagnosis) {
     Data rows = Data::list();
     for (const DiagnosisCauseRecord& cause : diagnosis.causes) {
@@ -146,7 +146,7 @@ Data fitted_data(const DiagnosisRecord& diagnosis) {
                         {"number", name},
                         {"value", ratio},
                         {"interval_95", interval_or_nothing(low, high)},
-                        {"unit", "stated value"}});
+                        {"unit", "nominal value"}});
     };
     add("friction", diagnosis.friction_ratio, diagnosis.friction_low_ratio, diagnosis.friction_high_ratio);
     add("stiffness", diagnosis.stiffness_ratio, diagnosis.stiffness_low_ratio,
@@ -299,6 +299,7 @@ Answer diagnosis_answer(const Recording& recording, const Diagnosis& diagnosis) 
                                next_section(diagnosis.non_identifiable, answer.values["non_identifiable"]));
     answer.sections.push_back({.id = "runs", .heading = "Measured, nominal, corrected"});
     answer.sections.push_back({.id = "loops", .heading = "Loops"});
+    if (!recording.assumptions.empty()) answer.sections.push_back(assumptions_section(recording));
     for (Table& curve : diagnosis_curves(recording, diagnosis)) answer.drawn.push_back(std::move(curve));
     return answer;
 }

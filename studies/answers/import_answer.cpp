@@ -153,13 +153,19 @@ reports::Answer column_list_answer(const imports::ColumnList& list) {
     return answer;
 }
 
+reports::AnswerSection assumptions_section(const Recording& recording) {
+    Data assumed = Data::list();
+    for (const std::string& assumption : recording.assumptions)
+        assumed.push_back({{"assumption", assumption}});
+    return {.id = "assumptions",
+            .heading = "What the sidecar leaves out",
+            .tables = {{"assumptions", "", {{"assumption", "what was taken"}}, assumed}}};
+}
+
 reports::Answer recording_check_answer(const Recording& recording, const std::vector<std::string>& problems) {
     reports::Answer answer{.id = "recording_check", .kind = "Check of a recording", .title = recording.name};
     Data listed = Data::list();
     for (const std::string& problem : problems) listed.push_back({{"problem", problem}});
-    Data assumed = Data::list();
-    for (const std::string& assumption : recording.assumptions)
-        assumed.push_back({{"assumption", assumption}});
     Data runs = Data::list();
     bool any_condition = false;
     for (const RecordedRun& run : recording.runs) {
@@ -192,11 +198,7 @@ reports::Answer recording_check_answer(const Recording& recording, const std::ve
         answer.sections.push_back({.id = "problems",
                                    .heading = "Problems",
                                    .tables = {{"problems", "", {{"problem", "problem"}}, listed}}});
-    if (!recording.assumptions.empty())
-        answer.sections.push_back(
-            {.id = "assumptions",
-             .heading = "What the sidecar leaves out",
-             .tables = {{"assumptions", "", {{"assumption", "what was taken"}}, assumed}}});
+    if (!recording.assumptions.empty()) answer.sections.push_back(assumptions_section(recording));
     if (problems.empty()) {
         answer.sections.push_back({.id = "channels",
                                    .heading = "Channels",

@@ -108,6 +108,9 @@ reports::Answer import_answer(const imports::ImportReport& report);
 /// The columns of logs; for programs also a few numbers of each, for drawing them.
 reports::Answer column_list_answer(const imports::ColumnList& list);
 
+/// What was taken for what a recording's sidecar leaves out. The recording has such assumptions.
+reports::AnswerSection assumptions_section(const Recording& recording);
+
 /// Whether a recording can be used: every problem, or what was taken for what its sidecar leaves out.
 reports::Answer recording_check_answer(const Recording& recording, const std::vector<std::string>& problems);
 

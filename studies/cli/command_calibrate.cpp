@@ -16,16 +16,6 @@ namespace capstan::cli {
 
 namespace {
 
-std::vector<std::string> split_at_commas(const std::string& text) {
-    std::vector<std::string> parts;
-    for (std::size_t first = 0; first <= text.size();) {
-        const std::size_t end = std::min(text.find(',', first), text.size());
-        if (end > first) parts.push_back(text.substr(first, end - first));
-        first = end + 1;
-    }
-    return parts;
-}
-
 ExitCode run_calibrate(const Invocation& invocation) {
     Recording recording = read_recording(invocation.argument("LOG"));
     if (invocation.has("runs"))

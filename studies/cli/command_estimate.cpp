@@ -129,10 +129,9 @@ void expect_work_of(const Invocation& invocation, const std::vector<SensedCable>
     for (const SensedCable& cable : cables) {
         const double once = estimate::tracking_work(cable, options);
         if (invocation.has("leave-out")) {
-            const auto channels =
-                static_cast<double>(named_channels(cable, invocation.text("leave-out")).size());
-            expect_work(estimate::leave_out_work(cable, static_cast<std::size_t>(channels), options) +
-                        (invocation.has("html") ? channels * once : 0.0));
+            const std::size_t channels = named_channels(cable, invocation.text("leave-out")).size();
+            expect_work(estimate::leave_out_work(cable, channels, options) +
+                        (invocation.has("html") ? static_cast<double>(channels) * once : 0.0));
         } else {
             expect_work(estimate::tuning_work(cable, options) + (invocation.has("html") ? once : 0.0) +
                         (invocation.has("json") ? 0.0 : once));

@@ -121,6 +121,8 @@ ExitCode simulate_recording(const Invocation& invocation) {
     std::vector<double> values = gap::nominal_values(*twin);
     if (invocation.has("parameters"))
         values = gap::read_parameter_values(invocation.text("parameters"), twin->parameters());
+    else
+        require_stated_numbers(recording, "give them with --parameters, as a calibration writes them");
     std::vector<TwinRun> modelled;
     for (std::size_t run = 0; run < recording.runs.size(); ++run) modelled.push_back(twin->run(run, values));
     deliver_page(invocation, answers::recording_answer(recording, modelled));

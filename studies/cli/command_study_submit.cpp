@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <sstream>
 #include <stdexcept>
 
 #include "capstan/cli/commands.h"
@@ -63,14 +62,6 @@ struct Request {
     cluster::ArrayOptions arrays;
     std::vector<std::string> hosts;
 };
-
-std::vector<std::string> hosts_in(const std::string& text) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, ',');)
-        if (!part.empty()) parts.push_back(part);
-    return parts;
-}
 
 std::string stated_scheduler(const Invocation& invocation) {
     if (invocation.has("scheduler")) return invocation.text("scheduler");
@@ -179,7 +170,7 @@ Request request_of(const Invocation& invocation, const std::string& study_name) 
         request.arrays.limit = static_cast<int>(invocation.integer("array-limit"));
     if (invocation.has("throttle"))
         request.arrays.throttle = static_cast<int>(invocation.integer("throttle"));
-    if (invocation.has("hosts")) request.hosts = hosts_in(invocation.text("hosts"));
+    if (invocation.has("hosts")) request.hosts = split_at_commas(invocation.text("hosts"));
     if (directory.scheduler == "ssh" && request.hosts.empty())
         throw UsageError("capstan study submit: --scheduler ssh needs --hosts, such as --hosts node1,node2");
     return request;

@@ -142,6 +142,14 @@ const Argument log_argument{
     "LOG",
     "A recording: NAME.csv with NAME.json beside it, which says what the columns are; either name is taken."};
 
+std::vector<std::string> split_at_commas(const std::string& listed) {
+    std::vector<std::string> parts;
+    std::istringstream stream(listed);
+    for (std::string part; std::getline(stream, part, ',');)
+        if (!part.empty()) parts.push_back(part);
+    return parts;
+}
+
 std::vector<int> run_numbers(const std::string& listed) {
     std::vector<int> numbers;
     std::istringstream words(listed);

@@ -41,6 +41,18 @@ bool make_first(const fs::path& file, const std::string& text) {
     return true;
 }
 
+// Removes the lease of a dead worker. Between the look at a lease and its removal another worker may have
+// taken it over; so it is moved aside first, where nobody else touches it, and put back if it turns out to be
+// alive.
+void remove_stale(const fs::path& file, double now_s) {
+    const fs::path aside = file.string() + ".stale-" + this_worker();
+    std::error_code none;
+    fs::rename(file, aside, none);
+    if (none) return;  // another worker was first
+    if (is_held(aside, now_s)) fs::create_hard_link(aside, file, none);
+    fs::remove(aside, none);
+}
+
 std::string lease_text(double begun_s) {
     std::ostringstream text;
     text.precision(17);
@@ -85,10 +97,8 @@ std::optional<Lease> Lease::claim(const fs::path& file) {
     const double now_s = disk_time_s(file.parent_path());
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (make_first(file, lease_text(now_s))) return Lease(file, now_s);
-        const auto beat_s = modification_time_s(file);
-        if (beat_s && now_s - *beat_s < stale_after_s) return std::nullopt;
-        std::error_code none;
-        fs::remove(file, none);  // of a dead worker
+        if (is_held(file, now_s)) return std::nullopt;
+        remove_stale(file, now_s);
     }
     return std::nullopt;
 }

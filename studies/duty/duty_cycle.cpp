@@ -164,6 +164,8 @@ DutyCycle measure_duty(const Recording& recording, const DutyOptions& options) {
                          "pull_pull or single_cable",
                          recording.name)});
     }
+    if (!options.parameters)
+        require_stated_numbers(recording, "give them with --parameters, as a calibration writes them");
     const std::vector<double> values =
         options.parameters ? gap::read_parameter_values(*options.parameters, twin->parameters())
                            : gap::nominal_values(*twin);

@@ -128,6 +128,7 @@ CableSpecification SensedCable::specification_in(const SensedRun& run) const {
 
 std::vector<SensedCable> sensed_cables(const Recording& as_recorded, int segments) {
     demand_what_it_takes(as_recorded);
+    require_stated_numbers(as_recorded, "give the model that a diagnosis saves, with --model");
     const Recording recording = with_estimated_noise(as_recorded);
     const NominalBench& bench = *recording.nominal;
     std::vector<SensedCable> cables;

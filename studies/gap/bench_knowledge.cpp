@@ -9,12 +9,11 @@ namespace capstan::gap {
 
 namespace {
 
-// Wherever a search goes, the bench can still be built. A pretension may be as good as none.
+// Wherever a search goes, the bench can still be built: a factor of twelve, or 2.5 deviations of a number of
+// which next to nothing is stated. Downwards a factor of fifty, because a pretension may be as good as none.
 double bounded_ratio(double logarithm, double prior_std) {
-    constexpr double deviations = 3.0;
-    const double min_log = -std::max(4.0, deviations * prior_std);
-    const double max_log = std::max(2.5, deviations * prior_std);
-    return std::exp(std::clamp(logarithm, min_log, max_log));
+    const double wide = 2.5 * prior_std;
+    return std::exp(std::clamp(logarithm, -std::max(4.0, wide), std::max(2.5, wide)));
 }
 
 FloatingNumber ratio(const std::string& name, double prior_std, const std::string& effect,
@@ -26,24 +25,18 @@ FloatingNumber ratio(const std::string& name, double prior_std, const std::strin
             .apply = [number](BenchNumbers& bench, double value) { bench.*number = value; }};
 }
 
-// `is_stated`: a number that is far from its nominal value is a wrong one.
-FloatingNumber ratio_of_friction(double prior_std, bool is_stated) {
-    return ratio("friction", prior_std, is_stated ? "param_mu" : "", &BenchNumbers::friction_ratio);
-}
-FloatingNumber ratio_of_stiffness(double prior_std, bool is_stated) {
-    return ratio("stiffness", prior_std, is_stated ? "param_K" : "", &BenchNumbers::stiffness_ratio);
-}
-FloatingNumber ratio_of_pretension(double prior_std, bool is_stated) {
-    return ratio("pretension", prior_std, is_stated ? "param_T0" : "", &BenchNumbers::pretension_ratio);
-}
-
 // The three numbers with these uncertainties where the sidecar states values, and with its own where it
-// states ranges or nothing.
+// states ranges or nothing. Only a stated value can be a wrong one.
 std::vector<FloatingNumber> ratios(const NominalSpread& of_values, const NominalSpread& stated) {
-    const auto known = [](double spread, double of_value) { return spread > 0.0 ? spread : of_value; };
-    return {ratio_of_friction(known(stated.friction, of_values.friction), stated.friction == 0.0),
-            ratio_of_stiffness(known(stated.stiffness, of_values.stiffness), stated.stiffness == 0.0),
-            ratio_of_pretension(known(stated.pretension, of_values.pretension), stated.pretension == 0.0)};
+    const auto number = [](const char* name, const char* wrong, double of_value, double spread,
+                           double BenchNumbers::*in_bench) {
+        return spread > 0.0 ? ratio(name, spread, "", in_bench) : ratio(name, of_value, wrong, in_bench);
+    };
+    return {
+        number("friction", "param_mu", of_values.friction, stated.friction, &BenchNumbers::friction_ratio),
+        number("stiffness", "param_K", of_values.stiffness, stated.stiffness, &BenchNumbers::stiffness_ratio),
+        number("pretension", "param_T0", of_values.pretension, stated.pretension,
+               &BenchNumbers::pretension_ratio)};
 }
 
 // Half of what a channel covers over all runs.

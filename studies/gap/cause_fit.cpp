@@ -137,19 +137,24 @@ Visibility CauseFitter::visibility(const CauseFit& fit) const {
     return visibility;
 }
 
-double CauseFitter::clearest_change(const Eigen::VectorXd& change) const {
-    std::map<std::size_t, std::pair<double, double>> by_channel;  // sum of squares, rows
+std::map<std::size_t, double> CauseFitter::mean_squares(const Eigen::VectorXd& residuals) const {
+    std::map<std::size_t, double> squares;
+    std::map<std::size_t, double> rows;
     for (const ResidualSeries& series : series_) {
-        auto& [squares, rows] = by_channel[series.channel];
-        squares +=
-            change
+        squares[series.channel] +=
+            residuals
                 .segment(static_cast<Eigen::Index>(series.first_row), static_cast<Eigen::Index>(series.rows))
                 .squaredNorm();
-        rows += static_cast<double>(series.determined_rows());
+        rows[series.channel] += static_cast<double>(series.determined_rows());
     }
+    for (auto& [channel, mean_square] : squares) mean_square /= std::max(1.0, rows[channel]);
+    return squares;
+}
+
+double CauseFitter::clearest_change(const Eigen::VectorXd& change) const {
     double clearest = 0.0;
-    for (const auto& [channel, sums] : by_channel)
-        clearest = std::max(clearest, std::sqrt(sums.first / std::max(1.0, sums.second)));
+    for (const auto& [channel, mean_square] : mean_squares(change))
+        clearest = std::max(clearest, std::sqrt(mean_square));
     return clearest;
 }
 
@@ -234,21 +239,12 @@ Eigen::MatrixXd CauseFitter::residuals(const Hypothesis& hypothesis, const Eigen
     return all;
 }
 
+// E53.
 SeriesWeights CauseFitter::balancing_weights(const Eigen::VectorXd& residuals) const {
-    std::map<std::size_t, std::pair<double, double>> by_channel;  // sum of squares, rows
-    for (const ResidualSeries& series : series_) {
-        auto& [squares, rows] = by_channel[series.channel];
-        squares +=
-            residuals
-                .segment(static_cast<Eigen::Index>(series.first_row), static_cast<Eigen::Index>(series.rows))
-                .squaredNorm();
-        rows += static_cast<double>(series.determined_rows());
-    }
+    const std::map<std::size_t, double> left = mean_squares(residuals);
     SeriesWeights weights;
-    for (const ResidualSeries& series : series_) {
-        const auto& [squares, rows] = by_channel[series.channel];
-        weights.push_back(1.0 / std::sqrt(std::max(1.0, squares / std::max(1.0, rows))));
-    }
+    for (const ResidualSeries& series : series_)
+        weights.push_back(1.0 / std::sqrt(std::max(1.0, left.at(series.channel))));
     return weights;
 }
 

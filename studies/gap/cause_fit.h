@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -88,9 +89,9 @@ class CauseFitter {
         bool any_size = true;
         double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
         SeriesWeights weights{};
-        /// The weights follow what the fit leaves of each channel, where that is more than noise: a channel
-        /// with little noise would else decide alone, although the model errs by more than that, and the
-        /// priors would count for nothing.
+        /// The weights follow what the fit leaves of each channel, where that is more than noise (E53).
+        /// Otherwise a channel with little noise decides alone, although the model's error is larger, and the
+        /// priors count for nothing.
         bool balanced = false;
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
@@ -124,6 +125,8 @@ class CauseFitter {
     void write_residuals(std::size_t run, const TwinRun& twin,
                          const std::map<std::string, SensorFaults>& faults,
                          Eigen::Ref<Eigen::VectorXd> all) const;
+    /// Of each channel, by its index.
+    std::map<std::size_t, double> mean_squares(const Eigen::VectorXd& residuals) const;
     double clearest_change(const Eigen::VectorXd& change) const;
     SeriesWeights balancing_weights(const Eigen::VectorXd& residuals) const;
     void apply(const SeriesWeights& weights, Eigen::Ref<Eigen::MatrixXd> residuals) const;

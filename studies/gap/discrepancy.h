@@ -37,7 +37,7 @@ class Discrepancy {
     /// `residuals`: all series one after the other, in units of noise and floor.
     Marginals of(const Eigen::VectorXd& residuals) const;
     /// The same where each channel's error has an unknown scale of its own: the misfit is one that is as
-    /// likely for all channels alike.
+    /// likely for all channels alike (E54).
     Marginals with_own_scales(const Eigen::VectorXd& residuals) const;
 
   private:

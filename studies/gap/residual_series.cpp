@@ -79,7 +79,7 @@ double mean_size(const std::vector<double>& values) {
 
 // How far a cable's tension changes at the end that turns back by `turned_m`. The change falls over the
 // length that it reaches by twice the friction, 2 q T per metre, and its strain over that length is the
-// motion: turned = change^2 / (4 q T EA). A long motion stretches the complete cable.
+// motion: turned = change^2 / (4 q T EA). A long motion stretches the complete cable (E55).
 double change_at_reversal_N(const NominalBench& bench, double tension_N, double turned_m) {
     double length_m = 0.0;
     double wrap_rad = 0.0;

@@ -1,6 +1,11 @@
 #include "capstan/recording/recording.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+
+#include "capstan/cable/invalid_input.h"
 
 namespace capstan {
 
@@ -14,6 +19,18 @@ CableSpecification cable_specification(const std::vector<CurvaturePiece>& routin
     cable.static_friction = std::max(numbers.static_friction, numbers.dynamic_friction);
     cable.pretension_N = numbers.pretension_N;
     return cable;
+}
+
+void require_stated_numbers(const Recording& recording, const std::string& instead) {
+    if (!recording.nominal) return;
+    const NominalSpread& spread = recording.nominal->spread;
+    std::vector<std::string> open;
+    if (spread.friction > 0.0) open.emplace_back("nominal.mu_d");
+    if (spread.stiffness > 0.0) open.emplace_back("nominal.K or nominal.EA");
+    if (spread.pretension > 0.0) open.emplace_back("T0 of its runs");
+    if (open.empty()) return;
+    throw InvalidInput({fmt::format("{}: the sidecar gives no value of {}; state values, or {}",
+                                    recording.name, fmt::join(open, ", "), instead)});
 }
 
 bool RecordedRun::drives(std::string_view channel) const {

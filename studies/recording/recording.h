@@ -91,6 +91,12 @@ struct CableNumbers {
 CableSpecification cable_specification(const std::vector<CurvaturePiece>& routing,
                                        const CableNumbers& numbers, int segments);
 
+struct Recording;
+
+/// For what takes the nominal numbers as they are. Throws InvalidInput where the sidecar states one as a
+/// range or not at all; `instead`, in a sentence, is what else would do.
+void require_stated_numbers(const Recording& recording, const std::string& instead);
+
 /// A session on a bench: several runs, all with the same channels.
 struct Recording {
     std::string name;

@@ -64,7 +64,7 @@ const std::vector<RecordingKey> keys = {
     {"nominal", "r_load", "number", "m", "Radius of the load pulley.", "", "0.04", with_geometry},
     {"nominal", "K", range, "N/m",
      "Stiffness of one complete cable, end to end. State K or EA, as a value or as a range [low, high] that "
-     "holds it with 95%.",
+     "holds it with 95%; the nominal value is then its geometric mean.",
      "EA / L", "", with_geometry},
     {"nominal", "EA", range, "N", "Axial stiffness of the cable: force over strain. State K or EA.",
      "K L; without both it is fitted", "9000", with_geometry},

@@ -30,10 +30,6 @@ class Assumptions {
     std::vector<std::string>* said_;
 };
 
-std::string sought(std::pair<double, double> range, const char* what, const char* unit) {
-    return fmt::format("{} is sought from {:.4g} to {:.4g}{}", what, range.first, range.second, unit);
-}
-
 // R_profile as the lengths of its pieces; a piece without an R is straight.
 std::vector<CurvaturePiece> curvature_of(const JsonObject& nominal, Assumptions& assumptions) {
     const double length_m = nominal.positive("L");
@@ -74,6 +70,11 @@ StatedNumber within(std::pair<double, double> range) {
 constexpr std::pair usual_friction{0.03, 0.5};
 constexpr std::pair usual_axial_stiffness_N{500.0, 5e5};
 constexpr std::pair usual_pretension_N{0.3, 300.0};
+
+std::string sought(std::pair<double, double> range, const char* what, const char* unit) {
+    return fmt::format("{0} is taken as {1:.5g}{4}; a diagnosis seeks it from {2} to {3}{4}", what,
+                       within(range).value, range.first, range.second, unit);
+}
 
 StatedNumber value_or_range(const JsonObject& object, const char* key) {
     if (const auto range = object.optional_range(key)) return within(*range);
@@ -124,6 +125,8 @@ NominalBench nominal_of(const JsonObject& nominal, Assumptions& assumptions) {
     }
     bench.rotor_inertia_kg_m2 = nominal.optional_number("rotor_inertia").value_or(0.0);
     bench.load_pulley_inertia_kg_m2 = nominal.optional_number("load_pulley_inertia").value_or(0.0);
+    // The middle of a range may lie above it.
+    if (friction.spread > 0.0) bench.static_friction = std::max(bench.static_friction, friction.value);
     if (bench.static_friction < bench.dynamic_friction)
         nominal.add_problem("mu_s",
                             "is below mu_d; static friction holds at least as much as dynamic friction");
@@ -301,7 +304,7 @@ void complete_pretensions(const JsonObject& sidecar, Recording& recording, Assum
         return;
     }
     const StatedNumber pretension_N = within(usual_pretension_N);
-    assumptions.add("T0 of every run", sought(usual_pretension_N, "one for all", " N"));
+    assumptions.add("T0 of every run", sought(usual_pretension_N, "each", " N"));
     recording.nominal->spread.pretension = pretension_N.spread;
     for (RecordedRun& run : recording.runs) run.pretension_N = pretension_N.value;
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::chrono::seconds plan_limit{60};
 constexpr std::chrono::seconds pilot_limit{6};
-constexpr std::size_t most_output = 1 << 20;
+constexpr std::size_t max_output = 1 << 20;
 constexpr int pilot_nice_increment = 5;
 
 ordered_json unknown() {
@@ -39,7 +39,7 @@ ordered_json cost_of_command(const JobCommands& commands, const std::vector<std:
         all.emplace_back(word);
     const double begin_s = wall_time_s();
     const CommandOutput ended = run_command(all, {.nice_increment = pilot_nice_increment},
-                                            {pilot_limit, most_output, commands.ending});
+                                            {pilot_limit, max_output, commands.ending});
     const double took_s = wall_time_s() - begin_s;
     if (!ended.is_late)
         return ended.exit_code == 0 ? ordered_json{{"known", true}, {"seconds", took_s}, {"studies", 1}}
@@ -62,7 +62,7 @@ ordered_json cost_of_studies(const JobCommands& commands, const std::string& tom
     const CommandOutput ended =
         run_command({commands.program, "study", "plan", file, "--json", "--seconds", "1"},
                     {.nice_increment = pilot_nice_increment, .processor_s = 60},
-                    {plan_limit, most_output, commands.ending});
+                    {plan_limit, max_output, commands.ending});
     if (ended.exit_code != 0) return unknown();  // then the start says what is wrong
     const auto plan = nlohmann::json::parse(ended.output, nullptr, false);
     if (!plan.is_object()) return unknown();

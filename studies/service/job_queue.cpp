@@ -100,6 +100,15 @@ void JobQueue::keep() {
     changed_.notify_all();
 }
 
+Job JobQueue::new_job(const std::string& title, JobKind kind, std::vector<std::string> options) const {
+    Job job;
+    job.number = next_number();
+    job.kind = kind;
+    job.title = title;
+    job.options = std::move(options);
+    return job;
+}
+
 Job JobQueue::add(Job job) {
     jobs_.push_back(std::move(job));
     keep();
@@ -111,9 +120,8 @@ std::vector<Job> JobQueue::add_studies(const std::vector<std::pair<std::string, 
     std::vector<Job> added;
     int number = next_number();
     for (const auto& [name, toml] : named_toml) {
-        Job job;
+        Job job = new_job(name);
         job.number = number++;
-        job.title = name;
         job.file = fmt::format("{}/study.toml", job.number);
         folder_.write_file(job.file, toml);
         added.push_back(std::move(job));
@@ -127,11 +135,7 @@ Job JobQueue::add_answer(JobKind kind, const std::string& name, const std::strin
                          std::vector<std::string> options) {
     require_room(1, toml.size());
     const std::lock_guard lock(mutex_);
-    Job job;
-    job.number = next_number();
-    job.kind = kind;
-    job.title = name;
-    job.options = std::move(options);
+    Job job = new_job(name, kind, std::move(options));
     job.file = fmt::format("{}/study.toml", job.number);
     folder_.write_file(job.file, toml);
     return add(std::move(job));
@@ -141,11 +145,7 @@ Job JobQueue::add_recording(JobKind kind, const std::string& name, std::string_v
                             std::string_view sidecar, std::vector<std::string> options) {
     require_room(1, log.size() + sidecar.size());
     const std::lock_guard lock(mutex_);
-    Job job;
-    job.number = next_number();
-    job.kind = kind;
-    job.title = name;
-    job.options = std::move(options);
+    Job job = new_job(name, kind, std::move(options));
     const std::string stem = safe_stem(name);
     job.file = fmt::format("{}/{}.csv", job.number, stem);
     folder_.write_file(fmt::format("{}/{}.json", job.number, stem), sidecar);
@@ -156,9 +156,7 @@ Job JobQueue::add_recording(JobKind kind, const std::string& name, std::string_v
 Job JobQueue::add_resume(const std::string& name, std::int64_t study_id) {
     require_room(1, 0);
     const std::lock_guard lock(mutex_);
-    Job job;
-    job.number = next_number();
-    job.title = name;
+    Job job = new_job(name);
     job.result_id = study_id;
     return add(std::move(job));
 }

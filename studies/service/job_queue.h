@@ -72,6 +72,9 @@ class JobQueue {
     void work();
     void run(Job job);
     void on_output(int number, const std::string& line, std::string& messages);
+    /// With the next number; while locked.
+    Job new_job(const std::string& title, JobKind kind = JobKind::study,
+                std::vector<std::string> options = {}) const;
     Job add(Job job);
     void keep();              // what was added; while locked
     void drop_old();          // while locked

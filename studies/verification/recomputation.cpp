@@ -21,7 +21,7 @@ namespace capstan {
 
 namespace {
 
-constexpr std::size_t most_problems = 20;  // that are named
+constexpr std::size_t max_problems = 20;  // that are named
 
 template <class Unit>
 std::vector<Unit> sample_of(std::vector<Unit> units, const Sample& sample) {
@@ -34,13 +34,11 @@ std::vector<Unit> sample_of(std::vector<Unit> units, const Sample& sample) {
 }
 
 void require_width_of(storage::Database& database, std::int64_t study_id) {
-    const std::string here = storage::this_computation().simd;
-    for (const storage::Computation& computation : storage::read_computations(database, study_id))
-        if (computation.simd != here)
-            throw storage::Error(fmt::format(
-                "Study {0} was computed with SIMD {1}, and this is {2}, which gives other last bits. Verify it with --simd "
-                "{1}, on a machine that has it.",
-                study_id, computation.simd, here));
+    if (const auto simd = storage::other_simd(database, study_id))
+        throw storage::Error(fmt::format(
+            "Study {0} was computed with SIMD {1}, and this is {2}, which gives other last bits. Verify it with --simd "
+            "{1}, on a machine that has it.",
+            study_id, *simd, storage::this_computation().simd));
 }
 
 storage::Database empty_results() {
@@ -68,11 +66,11 @@ void compare_unit(storage::Database& stored, std::int64_t stored_id, storage::Da
     auto was = digests_of_unit(stored, stored_id, unit);
     auto is = digests_of_unit(computed, computed_id, unit);
     for (auto& [table, sha256] : is)
-        if (was[table] != sha256 && problems.size() < most_problems)
+        if (was[table] != sha256 && problems.size() < max_problems)
             problems.push_back(
                 fmt::format("unit {}: table {} is not what this program computes", unit, table));
     for (auto& [table, sha256] : was)
-        if (is.count(table) == 0 && problems.size() < most_problems)
+        if (is.count(table) == 0 && problems.size() < max_problems)
             problems.push_back(fmt::format("unit {}: this program stores nothing in table {}", unit, table));
 }
 
@@ -157,7 +155,7 @@ Recomputation recompute_worlds(storage::Database& database, const StoredStudy& s
             for (const auto& record : errors.at(task))
                 if (record.candidate_index >= 0 && record.candidate_index < known &&
                     !is_same(table.at(condition, record.candidate_index, world), record) &&
-                    result.problems.size() < most_problems)
+                    result.problems.size() < max_problems)
                     result.problems.push_back(fmt::format(
                         "world {} under {}, set {}: table world_error is not what this program computes",
                         world, record.condition, record.candidate_index));

@@ -38,7 +38,17 @@ class Described(CapstanTest):
         self.assertIn("both stated", self.run_capstan("recording", "check", "bench", expect=2).stdout)
         del template["nominal"]["K"], template["nominal"]["EA"]
         self.write("bench.json", json.dumps(template))
-        self.assertIn("nominal.K or nominal.EA is missing; EA is sought from", self.run_capstan("recording", "check", "bench").stdout)
+        self.assertIn("nominal.K or nominal.EA is missing; EA is taken as 15811 N; a diagnosis seeks it from 500 to 500000 N", self.run_capstan("recording", "check", "bench").stdout)
+
+    def test_what_takes_nominal_numbers_as_they_are_refuses_ranges(self):
+        template = json.loads(self.run_capstan("recording", "template").stdout)
+        self.write("bench.csv", self.samples([name for name in template["units"] if name != "t"]))
+        template["nominal"]["mu_d"] = [0.05, 0.2]
+        self.write("bench.json", json.dumps(template))
+        for command, instead in (("simulate", "--parameters"), ("duty", "--parameters"), ("estimate", "--model")):
+            said = self.run_capstan(command, "bench.csv", expect=2).stderr
+            self.assertIn("the sidecar gives no value of nominal.mu_d", said)
+            self.assertIn(instead, said)
 
     def test_equal_problems_are_told_once(self):
         self.write("bench.json", '{"mode": "lumped_drive", "runs": [{"run": 2}]}')
