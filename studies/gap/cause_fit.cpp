@@ -17,6 +17,9 @@ constexpr double correlation_time_s = 0.25;
 // Trials of a search after each Jacobian, which move side by side.
 constexpr int dampings_at_once = 4;
 constexpr int max_iterations = 20;
+// Steps of derivatives. A wide one leads over the ripples that fronts make, towards the right minimum.
+constexpr double fine_step = 0.01;
+constexpr double rough_step = 0.1;
 // A search ends where a further step promises to change the evidence by less than this.
 constexpr double min_gain = 0.02;
 
@@ -257,7 +260,7 @@ void CauseFitter::apply(const SeriesWeights& weights, Eigen::Ref<Eigen::MatrixXd
 // The nominal numbers can explain much of what a cause does, and a search that moves them first can stop in
 // that local minimum. Therefore a coarse scan sizes the last cause with everything else held.
 Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOptions& options,
-                                           int& evaluations) const {
+                                           const SeriesWeights& weights, int& evaluations) const {
     const std::vector<OpenNumber>& numbers = start.causes.back()->numbers;
     const bool is_a_step = std::any_of(numbers.begin(), numbers.end(), [](const OpenNumber& number) {
         return number.kind == OpenNumber::Kind::step;
@@ -276,7 +279,9 @@ Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOpt
     }
     if (!has_size) return start.coordinates;
     Eigen::Index best = 0;
-    residuals(start, tried, options.left_out).colwise().squaredNorm().minCoeff(&best);
+    Eigen::MatrixXd left = residuals(start, tried, options.left_out);
+    apply(weights, left);
+    left.colwise().squaredNorm().minCoeff(&best);
     evaluations += static_cast<int>(factors.size());
     return tried.col(best);
 }
@@ -285,9 +290,13 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     int evaluations = 0;
     Hypothesis from = start;
     if (options.any_size && !start.causes.empty())
-        from.coordinates = roughly_sized(start, options, evaluations);
+        from.coordinates =
+            roughly_sized(start, options,
+                          options.balanced ? balancing_weights(data_residuals({&start, 1}, options.left_out))
+                                           : options.weights,
+                          evaluations);
     if (!options.balanced) {
-        CauseFit fit = fit_with(options.weights, from, options, max_iterations);
+        CauseFit fit = fit_with(options.weights, from, options, max_iterations, fine_step);
         fit.evaluations += evaluations;
         return fit;
     }
@@ -300,7 +309,8 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     bool holds = false;
     for (int round = 0; round < max_rounds; ++round) {
         const bool is_last = holds || round + 1 == max_rounds;
-        fit = fit_with(weights, from, options, is_last ? max_iterations : rough_iterations);
+        fit = is_last ? fit_with(weights, from, options, max_iterations, fine_step)
+                      : fit_with(weights, from, options, rough_iterations, rough_step);
         evaluations += fit.evaluations;
         if (is_last) break;
         from.coordinates = fit.coordinates;
@@ -308,7 +318,6 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
         holds = std::equal(next.begin(), next.end(), weights.begin(), [](double one, double other) {
             return std::max(one, other) < clearly * std::min(one, other);
         });
-        if (holds && fit.converged) break;
         if (!holds) weights = next;
     }
     fit.evaluations = evaluations;
@@ -316,13 +325,14 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
 }
 
 CauseFit CauseFitter::fit_with(const SeriesWeights& weights, const Hypothesis& start,
-                               const FitOptions& options, int iterations) const {
+                               const FitOptions& options, int iterations, double difference_step) const {
     CauseFit fit;
     fit.causes = start.causes;
     fit.bench = start.bench;
     fit.weights = weights;
     LeastSquaresOptions search;
     search.differences = Differences::forward;
+    search.difference_step = difference_step;
     search.parameter_tolerance = 1e-3;
     search.max_iterations = iterations;
     search.jacobian_at_end = false;

@@ -101,6 +101,8 @@ class CauseFitter {
     /// Residuals and priors for one set of coordinates a column.
     Eigen::MatrixXd residuals(const Hypothesis& hypothesis, const Eigen::MatrixXd& coordinates,
                               std::optional<LeftOut> left_out = {}) const;
+    /// To residuals of the data in the first rows, a column a hypothesis. Empty weights change nothing.
+    void apply(const SeriesWeights& weights, Eigen::Ref<Eigen::MatrixXd> residuals) const;
     /// How visible each cause of a fit is, and each number of the bench that a measured bench does not have.
     Visibility visibility(const CauseFit& fit) const;
     /// Half the squared distance of the nominal numbers from their nominal values, in their uncertainties.
@@ -129,10 +131,10 @@ class CauseFitter {
     std::map<std::size_t, double> mean_squares(const Eigen::VectorXd& residuals) const;
     double clearest_change(const Eigen::VectorXd& change) const;
     SeriesWeights balancing_weights(const Eigen::VectorXd& residuals) const;
-    void apply(const SeriesWeights& weights, Eigen::Ref<Eigen::MatrixXd> residuals) const;
     CauseFit fit_with(const SeriesWeights& weights, const Hypothesis& start, const FitOptions& options,
-                      int iterations) const;
-    Eigen::VectorXd roughly_sized(const Hypothesis& start, const FitOptions& options, int& evaluations) const;
+                      int iterations, double difference_step) const;
+    Eigen::VectorXd roughly_sized(const Hypothesis& start, const FitOptions& options,
+                                  const SeriesWeights& weights, int& evaluations) const;
 
     const Recording& recording_;
     EffectsTwin twin_;

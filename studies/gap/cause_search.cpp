@@ -165,7 +165,8 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
                                    ? start
                                    : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
-    const std::vector<Screened> screened = screen(coarse_.fitter, level.causes, nothing);
+    const std::vector<Screened> screened =
+        screen(coarse_.fitter, level.causes, nothing, singles.front().fit.weights);
     std::size_t fitted = 0;
     for (const Screened& each : screened) {
         // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal

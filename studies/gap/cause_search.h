@@ -87,7 +87,8 @@ class CauseSearch {
                         Fits& singles);
     static double pruned_at(const Fits& fits);
     Fits larger_sets(const Level& level, const Fits& smaller);
-    void add_sets(const Level& level, const Hypothesis& hypothesis, Fits& sets);
+    void add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
+                  std::size_t max_further, Fits& sets);
 
     CauseSearchOptions options_;
     std::size_t run_count_;

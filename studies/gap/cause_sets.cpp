@@ -6,8 +6,10 @@ namespace capstan::gap {
 
 namespace {
 
-// How many causes get a full fit beside others.
+// How many causes get a full fit beside others. Where the bench's numbers float widely, they take up much of
+// what a cause does, and the screening, which is linear, says less: beside the best set more are fitted.
 constexpr std::size_t max_fitted_further = 3;
+constexpr std::size_t max_fitted_beside_the_best = 8;
 // How many of the best sets of one size are extended.
 constexpr std::size_t max_extended = 2;
 constexpr std::size_t max_causes = 5;
@@ -41,10 +43,11 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
 // Others in the place of a single cause, from where it led the bench's own numbers: where these float widely,
 // several causes explain much the same, and each deserves the same start.
 void CauseSearch::try_others(const Level& level, Fits& all) {
-    const Hypothesis best = all.front().fit.hypothesis();
+    const CauseFit best = all.front().fit;
     if (best.causes.front()->effect == "none" || best.causes.size() > 1 || is_out_of_time()) return;
     Fits others;
-    add_sets(level, only_causes(best, [](const CandidateCause&) { return false; }), others);
+    add_sets(level, only_causes(best.hypothesis(), [](const CandidateCause&) { return false; }), best.weights,
+             max_fitted_further, others);
     std::move(others.begin(), others.end(), std::back_inserter(all));
     sort_by_evidence(all);
 }
@@ -86,22 +89,29 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
             continue;
         if (each.fit.causes.size() > 1 && !firsts.empty()) break;
         firsts.push_back(first);
-        if (worth_a_further_cause(each)) add_sets(level, each.fit.hypothesis(), sets);
+        const bool is_wide = firsts.size() == 1 && !level.bench.is_measured();
+        if (worth_a_further_cause(each))
+            add_sets(level, each.fit.hypothesis(), each.fit.weights,
+                     is_wide ? max_fitted_beside_the_best : max_fitted_further, sets);
     }
     sort_by_evidence(sets);
     if (sets.empty() || sets.front().fit.causes.size() > 2) return sets;
     if (!worth_a_further_cause(sets.front())) return sets;
-    const Hypothesis best = sets.front().fit.hypothesis();
+    const CauseFit best = sets.front().fit;
     for (const CandidateCause* kept : best.causes)
-        add_sets(level, only_causes(best, [&](const CandidateCause& cause) { return &cause == kept; }), sets);
+        add_sets(level,
+                 only_causes(best.hypothesis(), [&](const CandidateCause& cause) { return &cause == kept; }),
+                 best.weights, max_fitted_further, sets);
     sort_by_evidence(sets);
     return sets;
 }
 
-void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, Fits& sets) {
+// `weights`: of the fit that the hypothesis comes from; `max_further`: causes that are tried beside it.
+void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
+                           std::size_t max_further, Fits& sets) {
     std::size_t further = 0;
-    for (const Screened& each : screen(coarse_.fitter, level.causes, hypothesis)) {
-        if (further == max_fitted_further || is_out_of_time()) break;
+    for (const Screened& each : screen(coarse_.fitter, level.causes, hypothesis, weights)) {
+        if (further == max_further || is_out_of_time()) break;
         const bool known =
             std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), [&](const CandidateCause* cause) {
                 return (cause->effect == each.cause->effect && cause->variant == each.cause->variant) ||

@@ -112,7 +112,7 @@ Eigen::VectorXd sized(const Probe& probe, const Eigen::VectorXd& weights) {
 }  // namespace
 
 std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<CandidateCause>& causes,
-                             const Hypothesis& present) {
+                             const Hypothesis& present, const SeriesWeights& weights) {
     constexpr double step = 0.02;
     const Eigen::Index known = present.coordinates.size();
     const std::vector<Probe> probes = probes_of(causes, present);
@@ -125,7 +125,8 @@ std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<Candid
         for (const Eigen::VectorXd& direction : probe.directions)
             hypotheses.push_back(with_cause(present, probe.cause, direction));
     }
-    const Eigen::MatrixXd data = fitter.data_residuals(hypotheses);
+    Eigen::MatrixXd data = fitter.data_residuals(hypotheses);
+    fitter.apply(weights, data);
 
     // The priors of the present numbers are part of the residuals.
     const Eigen::Index rows = data.rows() + known;

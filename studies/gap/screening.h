@@ -14,9 +14,9 @@ struct Screened {
 };
 
 /// A linear estimate of how much each cause could explain in addition to `present`, whose numbers are free to
-/// follow: least squares on the changes of the residuals. Most promising first. The fitter may be a coarse
-/// one.
+/// follow: least squares on the changes of the residuals, weighted by `weights`. Most promising first. The
+/// fitter may be a coarse one.
 std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<CandidateCause>& causes,
-                             const Hypothesis& present);
+                             const Hypothesis& present, const SeriesWeights& weights = {});
 
 }  // namespace capstan::gap
