@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t compared_runs = 3;
 constexpr std::size_t compared_samples = 600;  // of a run
 constexpr int compared_segments = 20;
-constexpr int modelled_segments = 60;
+constexpr int modelled_segments = 100;  // with more, friction at rest changes by less than 1%
 // Parts of a channel's variance that the model leaves.
 constexpr double not_explained = 0.5;  // with more, a channel is not explained
 constexpr double explaining_gain =
