@@ -13,6 +13,7 @@ namespace capstan::reports {
 namespace {
 
 constexpr std::size_t text_width = 100;
+constexpr std::string_view breakable = "wrap";  // the format of a column of long texts
 
 std::string number_text(double value, const std::string& format) {
     if (!std::isfinite(value)) return "-";
@@ -47,18 +48,76 @@ std::string padded(const std::string& text, std::size_t width, bool to_the_right
     return to_the_right ? blanks + text : text + blanks;
 }
 
+std::size_t longest_word(const std::vector<std::vector<std::string>>& cells, std::size_t column) {
+    std::size_t longest = 0;
+    for (const auto& row : cells) {
+        std::string_view rest = row[column];
+        while (!rest.empty()) {
+            const std::string_view word = rest.substr(0, rest.find(' '));
+            longest = std::max(longest, columns_of(word));
+            rest.remove_prefix(std::min(rest.size(), word.size() + 1));
+        }
+    }
+    return longest;
+}
+
+// Columns whose texts may be broken are narrowed, the widest first, until the table fits.
+void fit_widths(const AnswerTable& table, const std::vector<std::vector<std::string>>& cells,
+                std::vector<std::size_t>& widths) {
+    std::size_t total = 1;
+    std::vector<std::size_t> narrowest = widths;
+    for (std::size_t c = 0; c < widths.size(); ++c) {
+        total += widths[c] + 2;
+        if (table.columns[c].format == breakable) narrowest[c] = longest_word(cells, c);
+    }
+    while (total > text_width) {
+        std::size_t widest = widths.size();
+        for (std::size_t c = 0; c < widths.size(); ++c)
+            if (widths[c] > narrowest[c] && (widest == widths.size() || widths[c] > widths[widest]))
+                widest = c;
+        if (widest == widths.size()) return;
+        --widths[widest];
+        --total;
+    }
+}
+
+std::vector<std::string> lines_of(const std::string& cell, std::size_t width) {
+    if (columns_of(cell) <= width) return {cell};
+    std::vector<std::string> lines(1);
+    for (const char letter : wrapped(cell, width, "", "")) {
+        if (letter == '\n')
+            lines.emplace_back();
+        else
+            lines.back() += letter;
+    }
+    return lines;
+}
+
 std::string table_text(const AnswerTable& table) {
     const auto cells = cells_of(table);
     std::vector<std::size_t> widths(table.columns.size(), 0);
     for (const auto& row : cells)
         for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], columns_of(row[c]));
+    fit_widths(table, cells, widths);
     std::string text = table.caption.empty() ? "" : table.caption + "\n";
     for (const auto& row : cells) {
-        std::string line = " ";
-        for (std::size_t c = 0; c < row.size(); ++c)
-            line += " " + padded(row[c], widths[c], is_numeric(table, table.columns[c])) + " ";
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
+        std::vector<std::vector<std::string>> broken;  // columns x lines
+        std::size_t height = 1;
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            broken.push_back(table.columns[c].format == breakable ? lines_of(row[c], widths[c])
+                                                                  : std::vector{row[c]});
+            height = std::max(height, broken.back().size());
+        }
+        for (std::size_t k = 0; k < height; ++k) {
+            std::string line = " ";
+            for (std::size_t c = 0; c < row.size(); ++c)
+                line += " " +
+                        padded(k < broken[c].size() ? broken[c][k] : "", widths[c],
+                               is_numeric(table, table.columns[c])) +
+                        " ";
+            line.erase(line.find_last_not_of(' ') + 1);
+            text += line + "\n";
+        }
     }
     return text;
 }
