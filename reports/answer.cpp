@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "capstan/platform/wrapped_text.h"
@@ -48,49 +49,26 @@ std::string padded(const std::string& text, std::size_t width, bool to_the_right
     return to_the_right ? blanks + text : text + blanks;
 }
 
-std::size_t longest_word(const std::vector<std::vector<std::string>>& cells, std::size_t column) {
-    std::size_t longest = 0;
-    for (const auto& row : cells) {
-        std::string_view rest = row[column];
-        while (!rest.empty()) {
-            const std::string_view word = rest.substr(0, rest.find(' '));
-            longest = std::max(longest, columns_of(word));
-            rest.remove_prefix(std::min(rest.size(), word.size() + 1));
+// Too wide for a terminal: each row as its short cells, and its long texts below.
+std::string records_text(const AnswerTable& table, const std::vector<std::vector<std::string>>& cells) {
+    constexpr std::string_view indent = "      ";
+    std::string text;
+    for (std::size_t row = 1; row < cells.size(); ++row) {
+        std::string head = " ", below;
+        for (std::size_t c = 0; c < cells[row].size(); ++c) {
+            const std::string& cell = cells[row][c];
+            if (cell == "-") continue;
+            if (table.columns[c].format != breakable) {
+                head += " " + cell;
+                continue;
+            }
+            std::string title = cells[0][c];
+            title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+            below += (below.empty() ? "" : title + ": ") + cell + (cell.ends_with('.') ? " " : ". ");
         }
+        text += head + "\n" + wrapped(below, text_width, indent, indent) + "\n";
     }
-    return longest;
-}
-
-// Columns whose texts may be broken are narrowed, the widest first, until the table fits.
-void fit_widths(const AnswerTable& table, const std::vector<std::vector<std::string>>& cells,
-                std::vector<std::size_t>& widths) {
-    std::size_t total = 1;
-    std::vector<std::size_t> narrowest = widths;
-    for (std::size_t c = 0; c < widths.size(); ++c) {
-        total += widths[c] + 2;
-        if (table.columns[c].format == breakable) narrowest[c] = longest_word(cells, c);
-    }
-    while (total > text_width) {
-        std::size_t widest = widths.size();
-        for (std::size_t c = 0; c < widths.size(); ++c)
-            if (widths[c] > narrowest[c] && (widest == widths.size() || widths[c] > widths[widest]))
-                widest = c;
-        if (widest == widths.size()) return;
-        --widths[widest];
-        --total;
-    }
-}
-
-std::vector<std::string> lines_of(const std::string& cell, std::size_t width) {
-    if (columns_of(cell) <= width) return {cell};
-    std::vector<std::string> lines(1);
-    for (const char letter : wrapped(cell, width, "", "")) {
-        if (letter == '\n')
-            lines.emplace_back();
-        else
-            lines.back() += letter;
-    }
-    return lines;
+    return text;
 }
 
 std::string table_text(const AnswerTable& table) {
@@ -98,26 +76,20 @@ std::string table_text(const AnswerTable& table) {
     std::vector<std::size_t> widths(table.columns.size(), 0);
     for (const auto& row : cells)
         for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], columns_of(row[c]));
-    fit_widths(table, cells, widths);
     std::string text = table.caption.empty() ? "" : table.caption + "\n";
+    std::size_t total = 1;
+    bool is_breakable = false;
+    for (std::size_t c = 0; c < widths.size(); ++c) {
+        total += widths[c] + 2;
+        is_breakable = is_breakable || table.columns[c].format == breakable;
+    }
+    if (is_breakable && total > text_width) return text + records_text(table, cells);
     for (const auto& row : cells) {
-        std::vector<std::vector<std::string>> broken;  // columns x lines
-        std::size_t height = 1;
-        for (std::size_t c = 0; c < row.size(); ++c) {
-            broken.push_back(table.columns[c].format == breakable ? lines_of(row[c], widths[c])
-                                                                  : std::vector{row[c]});
-            height = std::max(height, broken.back().size());
-        }
-        for (std::size_t k = 0; k < height; ++k) {
-            std::string line = " ";
-            for (std::size_t c = 0; c < row.size(); ++c)
-                line += " " +
-                        padded(k < broken[c].size() ? broken[c][k] : "", widths[c],
-                               is_numeric(table, table.columns[c])) +
-                        " ";
-            line.erase(line.find_last_not_of(' ') + 1);
-            text += line + "\n";
-        }
+        std::string line = " ";
+        for (std::size_t c = 0; c < row.size(); ++c)
+            line += " " + padded(row[c], widths[c], is_numeric(table, table.columns[c])) + " ";
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
     }
     return text;
 }
