@@ -28,7 +28,7 @@ constexpr double named_offset_deviations = 3.0;  // it is larger than so many ti
 constexpr double angle_model_error = 1e-6;
 constexpr double torque_model_error = 2e-3;
 constexpr double nominal_model_error = 2e-4;
-constexpr std::size_t most_runs_looked_at = 6;
+constexpr std::size_t max_runs_looked_at = 6;
 
 // Samples of a run at one rate, for looking at it: its longest piece.
 std::vector<std::vector<double>> preview_of(const ImportState& state, std::size_t run, std::size_t limit,
@@ -87,7 +87,7 @@ std::optional<ChannelOffset> channel_offset(const ImportState& state, std::size_
                                             const std::vector<std::size_t>& aligned, bool other_clock) {
     std::vector<ClockOffset> found;
     double rate_Hz = 1.0;
-    for (std::size_t run = 0; run < state.logs.runs.size() && found.size() < most_runs_looked_at; ++run) {
+    for (std::size_t run = 0; run < state.logs.runs.size() && found.size() < max_runs_looked_at; ++run) {
         if (state.plans[run].pieces.empty()) continue;
         const auto values = preview_of(state, run, 3 * preview_samples, rate_Hz);
         std::vector<ClockReference> others;
@@ -118,7 +118,7 @@ std::optional<ChannelOffset> offset_by_model(ImportState& state, std::size_t k,
     if (!recording.nominal) return std::nullopt;
     std::vector<ClockOffset> found;
     double period_s = 1.0;
-    for (std::size_t run = 0; run < recording.runs.size() && found.size() < most_runs_looked_at; ++run) {
+    for (std::size_t run = 0; run < recording.runs.size() && found.size() < max_runs_looked_at; ++run) {
         const RecordedRun& recorded = recording.runs[run];
         const bool inputs_aligned =
             std::all_of(recorded.driven.begin(), recorded.driven.end(), [&](const auto& name) {

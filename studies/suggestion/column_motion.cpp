@@ -45,11 +45,11 @@ bool looks_like_angle(const SeenColumn& column) {
 }
 
 ColumnsByMotion columns_by_motion(const std::vector<const SeenColumn*>& columns) {
-    constexpr double least_alike = 0.5;
+    constexpr double min_alike = 0.5;
     std::vector<const SeenColumn*> angles;
     std::vector<const SeenColumn*> torques;
     for (const SeenColumn* column : columns) (looks_like_angle(*column) ? angles : torques).push_back(column);
-    ColumnsByMotion found{.angles_alike = least_alike};
+    ColumnsByMotion found{.angles_alike = min_alike};
     for (std::size_t a = 0; a < angles.size(); ++a) {
         for (std::size_t b = a + 1; b < angles.size(); ++b) {
             const double alike = std::abs(correlation(angles[a]->readings, angles[b]->readings));
