@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "capstan/platform/wrapped_text.h"
@@ -13,6 +14,7 @@ namespace capstan::reports {
 namespace {
 
 constexpr std::size_t text_width = 100;
+constexpr std::string_view breakable = "wrap";  // the format of a column of long texts
 
 std::string number_text(double value, const std::string& format) {
     if (!std::isfinite(value)) return "-";
@@ -47,12 +49,41 @@ std::string padded(const std::string& text, std::size_t width, bool to_the_right
     return to_the_right ? blanks + text : text + blanks;
 }
 
+// Too wide for a terminal: each row as its short cells, and its long texts below.
+std::string records_text(const AnswerTable& table, const std::vector<std::vector<std::string>>& cells) {
+    constexpr std::string_view indent = "      ";
+    std::string text;
+    for (std::size_t row = 1; row < cells.size(); ++row) {
+        std::string head = " ", below;
+        for (std::size_t c = 0; c < cells[row].size(); ++c) {
+            const std::string& cell = cells[row][c];
+            if (cell == "-") continue;
+            if (table.columns[c].format != breakable) {
+                head += " " + cell;
+                continue;
+            }
+            std::string title = cells[0][c];
+            title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+            below += (below.empty() ? "" : title + ": ") + cell + (cell.ends_with('.') ? " " : ". ");
+        }
+        text += head + "\n" + wrapped(below, text_width, indent, indent) + "\n";
+    }
+    return text;
+}
+
 std::string table_text(const AnswerTable& table) {
     const auto cells = cells_of(table);
     std::vector<std::size_t> widths(table.columns.size(), 0);
     for (const auto& row : cells)
         for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], columns_of(row[c]));
     std::string text = table.caption.empty() ? "" : table.caption + "\n";
+    std::size_t total = 1;
+    bool is_breakable = false;
+    for (std::size_t c = 0; c < widths.size(); ++c) {
+        total += widths[c] + 2;
+        is_breakable = is_breakable || table.columns[c].format == breakable;
+    }
+    if (is_breakable && total > text_width) return text + records_text(table, cells);
     for (const auto& row : cells) {
         std::string line = " ";
         for (std::size_t c = 0; c < row.size(); ++c)

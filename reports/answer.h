@@ -15,7 +15,7 @@ struct Column {
     std::string path;      ///< of the value within a row, "optimum.error_N"
     std::string title;     ///< for people
     std::string unit{};    ///< empty: none
-    std::string format{};  ///< of a number: ".3f", "+.3f", ".1%"; empty: four significant digits
+    std::string format{};  ///< of a number: ".3f", "+.3f", ".1%", else four digits; "wrap": long texts
 };
 
 /// Rows to read. A value that is missing reads "-"; a list of two numbers "0.1 to 0.2".

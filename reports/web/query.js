@@ -2,7 +2,7 @@
 // The query box of the front page: SQL, a schema to click, answers to sort, and a link to each query.
 (() => {
   const { at, ask, get, post, element } = capstanPage;
-  const most_shown = 1000;
+  const max_shown = 1000;
 
   function sorted(rows, name, falling) {
     const order = (a, b) => a == null ? (b == null ? 0 : 1) : b == null ? -1 : a < b ? -1 : a > b ? 1 : 0;
@@ -15,7 +15,7 @@
     const table = element("table");
     const is_number = (name) => typeof rows[0][name] === "number";
     const body = table.createTBody();
-    const fill = (ordered) => body.replaceChildren(...ordered.slice(0, most_shown).map((row) => element("tr", {}, ...columns.map((name) => {
+    const fill = (ordered) => body.replaceChildren(...ordered.slice(0, max_shown).map((row) => element("tr", {}, ...columns.map((name) => {
       const value = row[name];
       const number = typeof value === "number";
       return element("td", { className: number ? "number" : "", textContent: number && !Number.isInteger(value) ? value.toPrecision(6) : value ?? "" });
@@ -47,7 +47,7 @@
       const rows = await answer.json();
       const parts = [rows.length + (rows.length === 1 ? " row" : " rows"), ((performance.now() - begin) / 1000).toFixed(2) + " s"];
       if (answer.headers.get("X-Truncated")) parts.push("cut off: the answer has more");
-      if (rows.length > most_shown) parts.push("the first " + most_shown + " are shown");
+      if (rows.length > max_shown) parts.push("the first " + max_shown + " are shown");
       at("query-count").textContent = parts.join(", ");
       at("query-rows").replaceChildren(tableOf(rows));
       at("query-rows").hidden = rows.length === 0;

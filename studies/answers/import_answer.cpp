@@ -59,7 +59,7 @@ std::string condition_words(const RecordedRun& run) {
 }  // namespace
 
 reports::Answer import_answer(const imports::ImportReport& report) {
-    reports::Answer answer{.id = "recording", .kind = "Import of a log", .title = report.recording.name};
+    reports::Answer answer{.id = "import", .kind = "Import of a log", .title = report.recording.name};
     std::size_t samples = 0;
     Data runs = Data::list();
     reports::Table drawn_runs{"run", "Runs of the recording", {"run", "protocol", "samples"}, {}};
@@ -125,6 +125,10 @@ reports::Answer column_list_answer(const imports::ColumnList& list) {
                          {"format", log.format},
                          {"same_columns_as", log.same_columns_as},
                          {"remarks", log.remarks}});
+    Data remarks = Data::list();
+    for (const imports::ListedLog& log : list.logs)
+        for (const std::string& remark : log.remarks)
+            remarks.push_back({{"file", log.file}, {"remark", remark}});
     Data columns = Data::list();
     Data shown = Data::list();
     for (const imports::ListedColumn& column : list.columns) {
@@ -150,6 +154,11 @@ reports::Answer column_list_answer(const imports::ColumnList& list) {
                                      {"smallest", "smallest"},
                                      {"largest", "largest"}},
                                     shown}}}};
+    if (!remarks.items().empty())
+        answer.sections.push_back(
+            {.id = "remarks",
+             .heading = "What was not read, or taken for granted",
+             .tables = {{"remarks", "", {{"file", "file"}, {"remark", "remark"}}, remarks}}});
     return answer;
 }
 
@@ -272,10 +281,10 @@ reports::Answer recording_keys_answer() {
                      {{"section", "section"},
                       {"name", "key"},
                       {"unit", "unit"},
-                      {"meaning", "meaning"},
-                      {"default", "where it is missing"},
-                      {"example", "example"},
-                      {"kinds", "kinds of bench"}},
+                      {"meaning", "meaning", "", "wrap"},
+                      {"default", "where it is missing", "", "wrap"},
+                      {"example", "example", "", "wrap"},
+                      {"kinds", "kinds of bench", "", "wrap"}},
                      keys}}},
         {.id = "channels",
          .heading = "Columns of NAME.csv",

@@ -1,6 +1,7 @@
 // MCAP files (mcap.dev/spec), for viewers. The records are put together in memory, chunk by chunk.
 #include <zlib.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -227,6 +228,14 @@ class McapWriting {
     std::uint32_t chunks_ = 0;
 };
 
+// As ROS 2 has topics, and as viewers read them in "/topic.field": letters, digits and underscores.
+std::string topic_name(const Series& series, const SeriesChannel& channel) {
+    std::string name = "/" + series.name + "/" + channel.name;
+    for (char& letter : name)
+        if (!std::isalnum(static_cast<unsigned char>(letter)) && letter != '/') letter = '_';
+    return name;
+}
+
 std::uint64_t nanoseconds(double time_s) {
     return static_cast<std::uint64_t>(std::llround(1e9 * time_s));
 }
@@ -239,7 +248,7 @@ void write_mcap_file(const std::filesystem::path& path, const std::vector<Series
     for (const Series& each : series) {
         topics.emplace_back();
         for (const SeriesChannel& channel : each.channels)
-            topics.back().push_back(file.add_topic({"/" + each.name + "/" + channel.name, channel.unit}));
+            topics.back().push_back(file.add_topic({topic_name(each, channel), channel.unit}));
     }
     for (std::size_t number = 0; number < series.size(); ++number) {
         const Series& each = series[number];

@@ -38,8 +38,9 @@ void write_series(const std::filesystem::path& path, const std::vector<Series>& 
 void write_mat_file(const std::filesystem::path& path, const std::vector<Series>& series);
 
 /// MCAP (mcap.dev/spec): the topic /series/channel for each channel, std_msgs/msg/Float64 in CDR, with the
-/// unit in the metadata of the topic ("unit"). Times are nanoseconds from the start of the clock; those of a
-/// series that begins before 0 are counted from its first. In chunks, with an index and statistics.
+/// unit in the metadata of the topic ("unit"). A dot in a name becomes an underscore: viewers plot "/topic.data".
+/// Times are nanoseconds from the start of the clock; those of a series that begins before 0 are counted from
+/// its first. In chunks, with an index and statistics.
 void write_mcap_file(const std::filesystem::path& path, const std::vector<Series>& series);
 
 }  // namespace capstan::exports

@@ -24,7 +24,7 @@ namespace asio = boost::asio;
 namespace beast_http = boost::beast::http;
 
 constexpr std::chrono::seconds linger_time{2};
-constexpr std::size_t most_discarded = 1 << 20;
+constexpr std::size_t max_discarded = 1 << 20;
 constexpr std::size_t charged_at_once = 1 << 20;  // of the memory limit
 
 std::string_view view_of(boost::beast::string_view text) {
@@ -266,7 +266,7 @@ void Connection::discard() {
     socket_.async_read_some(asio::buffer(received_),
                             [self = shared_from_this()](const Error& error, std::size_t bytes) {
                                 self->discarded_ += bytes;
-                                if (error || self->discarded_ > most_discarded) return self->close();
+                                if (error || self->discarded_ > max_discarded) return self->close();
                                 self->discard();
                             });
 }

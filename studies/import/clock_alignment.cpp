@@ -28,7 +28,7 @@ constexpr double named_offset_deviations = 3.0;  // it is larger than so many ti
 constexpr double angle_model_error = 1e-6;
 constexpr double torque_model_error = 2e-3;
 constexpr double nominal_model_error = 2e-4;
-constexpr std::size_t most_runs_looked_at = 6;
+constexpr std::size_t max_runs_looked_at = 6;
 
 // Samples of a run at one rate, for looking at it: its longest piece.
 std::vector<std::vector<double>> preview_of(const ImportState& state, std::size_t run, std::size_t limit,
@@ -87,7 +87,7 @@ std::optional<ChannelOffset> channel_offset(const ImportState& state, std::size_
                                             const std::vector<std::size_t>& aligned, bool other_clock) {
     std::vector<ClockOffset> found;
     double rate_Hz = 1.0;
-    for (std::size_t run = 0; run < state.logs.runs.size() && found.size() < most_runs_looked_at; ++run) {
+    for (std::size_t run = 0; run < state.logs.runs.size() && found.size() < max_runs_looked_at; ++run) {
         if (state.plans[run].pieces.empty()) continue;
         const auto values = preview_of(state, run, 3 * preview_samples, rate_Hz);
         std::vector<ClockReference> others;
@@ -105,6 +105,12 @@ std::optional<ChannelOffset> channel_offset(const ImportState& state, std::size_
     return together(k, found, 1.0 / rate_Hz, other_clock);
 }
 
+bool is_constant(const ImportState& state, std::size_t k) {
+    return std::all_of(state.plans.begin(), state.plans.end(), [&](const StretchPlan& plan) {
+        return plan.surveys.empty() || plan.surveys[state.kept[k]].constant();
+    });
+}
+
 // A channel of a clock of its own beside what the nominal model says of it from the aligned inputs.
 std::optional<ChannelOffset> offset_by_model(ImportState& state, std::size_t k,
                                              const std::vector<std::size_t>& aligned) {
@@ -112,13 +118,14 @@ std::optional<ChannelOffset> offset_by_model(ImportState& state, std::size_t k,
     if (!recording.nominal) return std::nullopt;
     std::vector<ClockOffset> found;
     double period_s = 1.0;
-    for (std::size_t run = 0; run < recording.runs.size() && found.size() < most_runs_looked_at; ++run) {
+    for (std::size_t run = 0; run < recording.runs.size() && found.size() < max_runs_looked_at; ++run) {
         const RecordedRun& recorded = recording.runs[run];
         const bool inputs_aligned =
             std::all_of(recorded.driven.begin(), recorded.driven.end(), [&](const auto& name) {
                 const auto channel = recording.channel(name);
-                return channel && std::find(aligned.begin(), aligned.end(),
-                                            static_cast<std::size_t>(*channel)) != aligned.end();
+                return channel && (is_constant(state, static_cast<std::size_t>(*channel)) ||
+                                   std::find(aligned.begin(), aligned.end(),
+                                             static_cast<std::size_t>(*channel)) != aligned.end());
             });
         if (!inputs_aligned || recorded.samples() < 2) continue;
         const std::vector<double> modelled = modelled_channel(recording, run, k);
@@ -172,6 +179,28 @@ bool settle_offset(ImportState& state, const ChannelOffset& found, const LogRun&
     return found.other_clock;
 }
 
+// `offset`: nothing where no shift explains the channel.
+void note_doubt(ImportState& state, std::size_t k, const std::optional<ChannelOffset>& offset) {
+    if (is_constant(state, k)) return;
+    const std::string& name = state.report.channels[k];
+    const double known_to_s =
+        offset ? std::abs(offset->offset.offset_s) + named_offset_deviations * offset->offset.uncertainty_s
+               : 0.0;
+    if (offset && known_to_s <= named_offset_deviations * offset->period_s) return;
+    const std::string how =
+        offset
+            ? fmt::format("this log tells how far they are off only to {:.0f} ms", 1e3 * known_to_s)
+            : "this log does not tell how far they are off, as the other channels explain too little of it";
+    state.report.findings.push_back(
+        {.kind = FindingKind::clock_offset,
+         .channel = name,
+         .uncertainty = offset ? known_to_s : longest_offset_s,
+         .words = fmt::format(
+             "{} has times of its own (another file, table or topic), and {}; it is not shifted. State "
+             "clock_offset_s if it is known, or log a motion with several speeds",
+             name, how)});
+}
+
 }  // namespace
 
 void align_clocks(ImportState& state) {
@@ -182,7 +211,8 @@ void align_clocks(ImportState& state) {
     const LogRun& run = state.logs.runs[state.pieces.front().log_run];
     std::vector<std::size_t> aligned;
     bool shifted = false;
-    for (const std::size_t k : order) {
+    for (std::size_t at = 0; at < order.size(); ++at) {
+        const std::size_t k = order[at];
         const bool known = aligned.empty() ||
                            state.mapping.channels[state.kept[k]].clock_offset_s.has_value() ||
                            std::any_of(aligned.begin(), aligned.end(),
@@ -196,7 +226,13 @@ void align_clocks(ImportState& state) {
                 if (modelled && (!offset || modelled->offset.uncertainty_s < offset->offset.uncertainty_s))
                     offset = modelled;
             }
-            if (offset) shifted |= settle_offset(state, *offset, run);
+            const bool settled = offset && settle_offset(state, *offset, run);
+            shifted |= settled;
+            const bool another_may_tell =
+                std::any_of(order.begin() + static_cast<std::ptrdiff_t>(at) + 1, order.end(),
+                            [&](std::size_t later) { return same_clock(state, run, k, later); });
+            if (!known && !offset && another_may_tell) continue;
+            if (!known && !settled) note_doubt(state, k, offset);
         }
         aligned.push_back(k);
     }

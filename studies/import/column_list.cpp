@@ -79,6 +79,7 @@ ColumnList list_columns(const std::vector<std::filesystem::path>& files,
         listed.file = files[file].filename().string();
         listed.format = log.format;
         listed.remarks = log.remarks;
+        listed.remarks.insert(listed.remarks.end(), log.assumptions.begin(), log.assumptions.end());
         names.push_back(column_names(log));
         const auto same = std::find(names.begin(), names.end() - 1, names.back());
         if (same != names.end() - 1) {

@@ -26,7 +26,7 @@ struct ListedColumn {
 struct ListedLog {
     std::string file;
     std::string format;                ///< "MCAP"
-    std::vector<std::string> remarks;  ///< what was not read
+    std::vector<std::string> remarks;  ///< what was not read, and what was taken for granted
     std::string same_columns_as;       ///< an earlier file; its columns are not listed again
 };
 

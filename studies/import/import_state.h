@@ -34,7 +34,8 @@ void number_runs(ImportState& state);
 /// Shifts channels of other clocks to that of the first angle, or of the first channel, by what their motion
 /// shows. Then clock after clock is aligned to those that are: an angle that follows another angle knows its
 /// offset best, and speaks for its clock; a torque lags behind angles for other reasons too, so it comes
-/// last. Offsets that the mapping states are kept. An angle that is late within the first clock is named and
+/// last. A clock whose offset the log does not tell stays as it is, which is named. Offsets that the mapping
+/// states are kept. An angle that is late within the first clock is named and
 /// left.
 void align_clocks(ImportState& state);
 

@@ -6,6 +6,7 @@
 
 #include "capstan/import/import_state.h"
 #include "capstan/import/log_files.h"
+#include "capstan/recording/driven_inputs.h"
 #include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
 
@@ -172,7 +173,8 @@ Recording preview_recording(ImportState& state) {
         state.report.runs[index].samples =
             for_each_row(state.logs.runs[piece.log_run], piece, state.kept, keep_some);
     }
-    return recording;
+    // As every reader has it: a model that is driven by noise slips where the bench stuck.
+    return with_estimated_noise(std::move(recording));
 }
 
 }  // namespace capstan::imports

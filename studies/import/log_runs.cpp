@@ -255,6 +255,10 @@ LogRuns read_wanted(const std::vector<std::filesystem::path>& files, const Mappi
         for (const std::string& remark : log->remarks)
             found.findings.push_back({.kind = FindingKind::unread,
                                       .words = fmt::format("{}: {}", log->file.filename().string(), remark)});
+        for (const std::string& assumption : log->assumptions)
+            found.findings.push_back(
+                {.kind = FindingKind::assumed,
+                 .words = fmt::format("{}: {}", log->file.filename().string(), assumption)});
     }
     for (const FileGroup& group : groups) {
         std::vector<const Log*> group_logs;

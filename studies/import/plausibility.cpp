@@ -22,15 +22,15 @@ namespace {
 constexpr std::size_t compared_runs = 3;
 constexpr std::size_t compared_samples = 600;  // of a run
 constexpr int compared_segments = 20;
-constexpr int modelled_segments = 60;
+constexpr int modelled_segments = 100;  // with more, friction at rest changes by less than 1%
 // Parts of a channel's variance that the model leaves.
 constexpr double not_explained = 0.5;  // with more, a channel is not explained
 constexpr double explaining_gain =
     0.4;  // and a correction that explains it takes this much of the sum over channels
 constexpr double looked_into = 0.1;  // with less, no correction is tried
-constexpr double most_left = 0.2;    // of the sum over channels, by a correction that explains none anew
+constexpr double max_left = 0.2;    // of the sum over channels, by a correction that explains none anew
 constexpr double guessed = 0.34;     // with more after all corrections, these are called guesses
-constexpr int most_corrections = 3;
+constexpr int max_corrections = 3;
 
 /// A channel's numbers times a factor, or two channels exchanged.
 struct Correction {
@@ -198,7 +198,7 @@ std::vector<Finding> doubts_by_model(const Recording& recording) {
     if (now.runs.empty()) return found;
     std::optional<ModelFit> fit = fit_of(now);
     const std::vector<Correction> corrections = corrections_of(recording);
-    for (int round = 0; round < most_corrections && fit && fit->worst() > looked_into; ++round) {
+    for (int round = 0; round < max_corrections && fit && fit->worst() > looked_into; ++round) {
         std::optional<ModelFit> best;
         const Correction* chosen = nullptr;
         for (const Correction& correction : corrections) {
@@ -213,7 +213,7 @@ std::vector<Finding> doubts_by_model(const Recording& recording) {
         // all.
         const bool explains =
             best->unexplained() < fit->unexplained() && fit->total() - best->total() > explaining_gain;
-        if (!explains && best->total() > most_left * fit->total()) break;
+        if (!explains && best->total() > max_left * fit->total()) break;
         found.push_back(named(now, *chosen, *fit, *best));
         now = corrected(now, *chosen);
         fit = best;
@@ -296,12 +296,12 @@ std::vector<Finding> doubts_by_work(const Recording& recording) {
     if (work.motor_path_Nm_rad <= 0.0 || work.load_path_Nm_rad <= 0.0) return found;
     const double passed_on = work.load_path_Nm_rad / work.motor_path_Nm_rad;
     constexpr double largest_angle_rad = 8.0 * std::numbers::pi;  // four turns; more is rather in degrees
-    constexpr double least_passed_on = 0.02;  // friction of exp(-4), a wrap of three turns at 0.2
-    constexpr double most_passed_on = 5.0;    // a load that drives the motor through the same friction
+    constexpr double min_passed_on = 0.02;  // friction of exp(-4), a wrap of three turns at 0.2
+    constexpr double max_passed_on = 5.0;    // a load that drives the motor through the same friction
     constexpr double rather_torque =
         300.0;  // between the factors of a degree, 57, and of a millinewton metre, 1000
     const bool large_angle = angle_span > largest_angle_rad;
-    if (passed_on > least_passed_on && passed_on < most_passed_on && !large_angle) return found;
+    if (passed_on > min_passed_on && passed_on < max_passed_on && !large_angle) return found;
     const double off = passed_on > 1.0 ? passed_on : 1.0 / passed_on;
     const char* unit = !large_angle && off > rather_torque ? "mN m" : "deg";
     std::string suspect = channel::motor_angle;

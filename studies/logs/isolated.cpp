@@ -34,6 +34,7 @@ enum Letter : char {
     numbers_letter = 'N',
     rows_letter = 'R',
     remark_letter = 'M',
+    assumption_letter = 'A',
     format_letter = 'F',
     refusal_letter = 'X',
     progress_letter = 'P',
@@ -77,6 +78,7 @@ void send_log(int to, const Log& log) {
         send(to, rows_letter, bytes_of_number(static_cast<std::uint64_t>(table.rows)));
     }
     for (const std::string& remark : log.remarks) send(to, remark_letter, remark);
+    for (const std::string& assumption : log.assumptions) send(to, assumption_letter, assumption);
     send(to, end_letter, "");
 }
 
@@ -179,6 +181,9 @@ class Receiver {
                 break;
             case rows_letter:
                 if (table_ >= 0) writer_.set_rows(table_, cursor.number<std::uint64_t>());
+                break;
+            case assumption_letter:
+                writer_.assume(piece_);
                 break;
             case remark_letter:
                 log_.remarks.push_back(piece_);

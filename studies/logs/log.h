@@ -41,6 +41,8 @@ struct Log {
     std::vector<LogTable> tables;
     /// What was not read, in sentences: a file that is cut short, messages of an unknown type.
     std::vector<std::string> remarks;
+    /// What was taken for granted, in sentences: where the seconds of a column of dates begin.
+    std::vector<std::string> assumptions;
     std::shared_ptr<NumberStore> store = std::make_shared<NumberStore>();
 
     /// Index in `tables`, or -1.

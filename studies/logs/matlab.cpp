@@ -11,6 +11,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/logs/byte_source.h"
 #include "capstan/logs/isolated.h"
+#include "capstan/logs/matlab_objects.h"
 #include "capstan/logs/text_lines.h"
 #include "capstan/logs/vector_groups.h"
 
@@ -135,6 +136,8 @@ class MatReading {
         if (!complete.is_cut && complete.count != SIZE_MAX && variables.size() < complete.count)
             writer_.remark(fmt::format("{} of {} variables can be read; the file is damaged",
                                        variables.size(), complete.count));
+        if (version == MAT_FT_MAT5)
+            for (std::string& object : matlab_objects(path_)) leave_out(std::move(object));
         read_units();
         write_groups(matrices_, writer_);
         if (complete.is_cut)
@@ -144,6 +147,11 @@ class MatReading {
             writer_.remark(fmt::format("Left out, as {} no matrix of real numbers: {}",
                                        left_out_.size() == 1 ? "it is" : "they are",
                                        fmt::join(left_out_, ", ")));
+        if (std::any_of(left_out_.begin(), left_out_.end(),
+                        [](const std::string& what) { return what.find("(an object") != what.npos; }))
+            writer_.remark(
+                "Objects such as timeseries and timetable cannot be read: in MATLAB, save their numbers, for "
+                "example log.t = ts.Time; log.x = ts.Data; save('log.mat', 'log')");
     }
 
   private:

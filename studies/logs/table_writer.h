@@ -40,6 +40,7 @@ class TableWriter {
     /// Whether another column would be one too many.
     bool is_full() const { return columns_ >= LogLimits::columns; }
     Log& log() { return log_; }
+    void assume(std::string sentence) { log_.assumptions.push_back(std::move(sentence)); }
     void remark(std::string sentence) { log_.remarks.push_back(std::move(sentence)); }
 
   private:

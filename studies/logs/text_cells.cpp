@@ -89,13 +89,34 @@ bool digits_at(std::string_view cell, std::size_t at, std::size_t count, int& va
     return true;
 }
 
-// "10:00", "10:00:00", "10:00:00.250" from `at` on, which moves behind it.
+// A number of one or two digits from `at` on, which moves behind it.
+bool one_or_two_digits(std::string_view cell, std::size_t& at, int& value) {
+    const std::size_t count = digits_at(cell, at, 2, value) ? 2 : 1;
+    if (count == 1 && !digits_at(cell, at, 1, value)) return false;
+    at += count;
+    return true;
+}
+
+// " PM" from `at` on, which moves behind it; false where the hour does not go with it.
+bool half_of_day(std::string_view cell, std::size_t& at, int& hour) {
+    std::size_t next = at;
+    while (next < cell.size() && is_blank(cell[next])) ++next;
+    if (next + 2 > cell.size() || (cell[next + 1] | 0x20) != 'm') return true;
+    const int letter = cell[next] | 0x20;
+    if (letter != 'a' && letter != 'p') return true;
+    if (hour < 1 || hour > 12) return false;
+    hour = hour % 12 + (letter == 'p' ? 12 : 0);
+    at = next + 2;
+    return true;
+}
+
+// "10:00", "10:00:00", "10:00:00.250", "1:00:00 PM" from `at` on, which moves behind it.
 bool time_of_day(std::string_view cell, std::size_t& at, CellInstant& instant) {
     int hour = 0, minute = 0, second = 0;
-    if (!digits_at(cell, at, 2, hour) || at + 2 >= cell.size() || cell[at + 2] != ':' ||
-        !digits_at(cell, at + 3, 2, minute) || hour > 24 || minute > 59)
+    if (!one_or_two_digits(cell, at, hour) || at >= cell.size() || cell[at] != ':' ||
+        !digits_at(cell, at + 1, 2, minute) || hour > 24 || minute > 59)
         return false;
-    at += 5;
+    at += 3;
     if (at < cell.size() && cell[at] == ':') {
         if (!digits_at(cell, at + 1, 2, second) || second > 60) return false;
         at += 3;
@@ -109,8 +130,51 @@ bool time_of_day(std::string_view cell, std::size_t& at, CellInstant& instant) {
             instant.fraction_s = digits / scale;
         }
     }
+    if (!half_of_day(cell, at, hour)) return false;
     instant.seconds += hour * 3600 + minute * 60 + second;
     return true;
+}
+
+std::optional<long long> days_of(int year, int month, int day) {
+    const std::chrono::year_month_day date{std::chrono::year(year),
+                                           std::chrono::month(static_cast<unsigned>(month)),
+                                           std::chrono::day(static_cast<unsigned>(day))};
+    if (!date.ok()) return std::nullopt;
+    return std::chrono::sys_days(date).time_since_epoch().count();
+}
+
+// "2024-05-01", "2024/05/01" at the beginning; `at` moves behind it.
+bool date_with_year_first(std::string_view cell, std::size_t& at, CellInstant& instant) {
+    int year = 0, month = 0, day = 0;
+    if (cell.size() < 10 || (cell[4] != '-' && cell[4] != '/') || cell[7] != cell[4] ||
+        !digits_at(cell, 0, 4, year) || !digits_at(cell, 5, 2, month) || !digits_at(cell, 8, 2, day))
+        return false;
+    const auto days = days_of(year, month, day);
+    instant.date_days = days.value_or(0);
+    at = 10;
+    return days.has_value();
+}
+
+// "01.05.2024", "5/1/2024", "01-05-2024" at the beginning; `at` moves behind it.
+bool date_with_year_last(std::string_view cell, std::size_t& at, std::optional<DateOrder> order,
+                         CellInstant& instant) {
+    int first = 0, second = 0, year = 0;
+    if (!one_or_two_digits(cell, at, first) || at >= cell.size()) return false;
+    const char between = cell[at];
+    if ((between != '.' && between != '/' && between != '-') || !one_or_two_digits(cell, ++at, second) ||
+        at >= cell.size() || cell[at] != between || !digits_at(cell, at + 1, 4, year))
+        return false;
+    at += 5;
+    const auto day_first = days_of(year, second, first), month_first = days_of(year, first, second);
+    const bool is_doubtful = day_first && month_first && *day_first != *month_first;
+    DateOrder taken = between == '/' ? DateOrder::month_first : DateOrder::day_first;
+    if (!day_first) taken = DateOrder::month_first;
+    if (!month_first) taken = DateOrder::day_first;
+    taken = order.value_or(taken);
+    const auto days = taken == DateOrder::day_first ? day_first : month_first;
+    instant.date_days = days.value_or(0);
+    if (is_doubtful) instant.doubtful_order = taken;
+    return days.has_value();
 }
 
 constexpr std::size_t longest_unit = 32;
@@ -185,27 +249,23 @@ CellKind number_of_cell(std::string_view cell, bool decimal_comma, double& numbe
     return number_of_unusual_cell(cell, decimal_comma, number);
 }
 
-std::optional<CellInstant> instant_of_cell(std::string_view cell) {
+std::optional<CellInstant> instant_of_cell(std::string_view cell, std::optional<DateOrder> order) {
     CellInstant instant;
     std::size_t at = 0;
-    int year = 0, month = 0, day = 0;
-    if (cell.size() >= 5 && cell[2] == ':') {
+    const std::size_t colon = cell.find(':');
+    if (cell.size() >= 4 && (colon == 1 || colon == 2)) {
         instant.is_time_of_day = true;
         if (!time_of_day(cell, at, instant) || at != cell.size()) return std::nullopt;
         return instant;
     }
-    if (cell.size() < 10 || (cell[4] != '-' && cell[4] != '/') || cell[7] != cell[4] ||
-        !digits_at(cell, 0, 4, year) || !digits_at(cell, 5, 2, month) || !digits_at(cell, 8, 2, day))
-        return std::nullopt;
-    const std::chrono::year_month_day date{std::chrono::year(year),
-                                           std::chrono::month(static_cast<unsigned>(month)),
-                                           std::chrono::day(static_cast<unsigned>(day))};
-    if (!date.ok()) return std::nullopt;
-    instant.seconds = std::chrono::sys_days(date).time_since_epoch().count() * 86400LL;
-    at = 10;
+    const bool is_date =
+        date_with_year_first(cell, at, instant) || date_with_year_last(cell, at = 0, order, instant);
+    if (!is_date) return std::nullopt;
+    instant.seconds = instant.date_days * 86400LL;
     if (at == cell.size()) return instant;
     if (cell[at] != 'T' && cell[at] != ' ') return std::nullopt;
-    if (!time_of_day(cell, ++at, instant)) return std::nullopt;
+    at = cell.find_first_not_of(" ", at + 1);
+    if (at == std::string_view::npos || !time_of_day(cell, at, instant)) return std::nullopt;
     std::string_view zone = trimmed(cell.substr(at));
     if (zone.empty() || zone == "Z" || zone == "UTC") return instant;
     int hours = 0, minutes = 0;

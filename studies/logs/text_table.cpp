@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 namespace capstan::logs {
@@ -41,8 +42,7 @@ TextTable::TextTable(const TextLayout& layout, TableWriter& writer, const std::s
         writer_.remark(fmt::format("{} before the data {} left out", count_of_lines(layout.lines_left_out),
                                    layout.lines_left_out == 1 ? "is" : "are"));
     not_numbers_.resize(layout.columns.size());
-    origins_.resize(layout.columns.size());
-    origin_texts_.resize(layout.columns.size());
+    instants_.resize(layout.columns.size());
 }
 
 void TextTable::take(std::string_view line, std::size_t number, bool is_unfinished) {
@@ -81,9 +81,9 @@ void TextTable::end() {
             writer_.remark(words_of(not_numbers_[column],
                                     fmt::format("'{}' has no number there; it is read as missing", name),
                                     fmt::format("'{}' has no number there; they are read as missing", name)));
-        if (!origin_texts_[column].empty())
-            writer_.remark(
-                fmt::format("'{}' is read as seconds since its first row, {}", name, origin_texts_[column]));
+        if (instants_[column].origin)
+            writer_.assume(fmt::format("'{}' is read as seconds since its first row, {}{}", name,
+                                       instants_[column].origin_text, words_on_dates(instants_[column])));
     }
     if (ends_without_line_end_ > 0)
         writer_.remark(
@@ -102,7 +102,8 @@ bool TextTable::fill_row(std::size_t number) {
         if (kind == ColumnKind::text || (slots_[column] < 0 && slots_.size() > 1)) continue;
         double value = 0.0;
         CellKind cell = number_of_cell(cells_[column], layout_.style.decimal_comma, value);
-        if (kind == ColumnKind::instants && cell != CellKind::missing) cell = instant(column, value);
+        if (kind == ColumnKind::instants && cell != CellKind::missing)
+            cell = instant(cells_[column], instants_[column], value);
         if (cell == CellKind::text) bad_columns_.push_back(column);
         good += cell == CellKind::number ? 1 : 0;
         if (slots_[column] >= 0) row[static_cast<std::size_t>(slots_[column])] = value;
@@ -116,17 +117,56 @@ bool TextTable::fill_row(std::size_t number) {
     return true;
 }
 
-CellKind TextTable::instant(std::size_t column, double& seconds) {
+CellKind TextTable::instant(std::string_view cell, Instants& column, double& seconds) {
     seconds = std::numeric_limits<double>::quiet_NaN();
-    const auto now = instant_of_cell(cells_[column]);
+    auto now = instant_of_cell(cell, column.order);
     if (!now) return CellKind::text;
-    if (!origins_[column]) {
-        origins_[column] = now;
-        origin_texts_[column] = std::string(cells_[column]);
+    if (!column.origin) {
+        column.origin = now;
+        column.origin_text = std::string(cell);
     }
-    seconds = static_cast<double>(now->seconds - origins_[column]->seconds) +
-              (now->fraction_s - origins_[column]->fraction_s);
+    if (column.origin->doubtful_order && !column.order && now->date_days != column.origin->date_days) {
+        settle_order(cell, *now, column);
+        now = instant_of_cell(cell, column.order);
+    }
+    seconds = static_cast<double>(now->seconds - column.origin->seconds) +
+              (now->fraction_s - column.origin->fraction_s);
     return CellKind::number;
+}
+
+// Up to here all rows have the date of the first one, so that their seconds hold in either order.
+void TextTable::settle_order(std::string_view cell, const CellInstant& now, Instants& column) {
+    if (!now.doubtful_order) {
+        for (const DateOrder order : {DateOrder::day_first, DateOrder::month_first})
+            if (const auto again = instant_of_cell(cell, order)) column.order = order;
+        column.settled_by = "a later date has no other reading";
+    } else {
+        constexpr long long back_in_time = 1'000'000;
+        const auto days_between = [&](DateOrder order) {
+            const long long days = instant_of_cell(cell, order)->date_days -
+                                   instant_of_cell(column.origin_text, order)->date_days;
+            return days >= 0 ? days : back_in_time - days;
+        };
+        const long long day_first = days_between(DateOrder::day_first);
+        const long long month_first = days_between(DateOrder::month_first);
+        column.order = day_first < month_first   ? DateOrder::day_first
+                       : month_first < day_first ? DateOrder::month_first
+                                                 : *now.doubtful_order;
+        column.settled_by = day_first == month_first ? "a guess: the other order fits as well"
+                                                     : "the next date then follows it more closely";
+    }
+    column.origin = instant_of_cell(column.origin_text, column.order);
+}
+
+std::string TextTable::words_on_dates(const Instants& column) {
+    if (!column.origin->doubtful_order) return "";
+    const std::chrono::year_month_day date{
+        std::chrono::sys_days(std::chrono::days(column.origin->date_days))};
+    const bool day_first = *column.origin->doubtful_order == DateOrder::day_first;
+    return fmt::format(
+        ", taken as {}-{:02}-{:02} with the {} first: {}", static_cast<int>(date.year()),
+        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), day_first ? "day" : "month",
+        column.order ? column.settled_by : "a guess, on which no time depends, as all rows have this date");
 }
 
 }  // namespace capstan::logs

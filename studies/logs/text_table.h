@@ -31,8 +31,18 @@ class TextTable {
     void end();
 
   private:
+    /// The instants of a column: where its seconds begin, and how its dates are read.
+    struct Instants {
+        std::optional<CellInstant> origin{};
+        std::string origin_text{};
+        std::optional<DateOrder> order{};  ///< settled by a later row
+        std::string_view settled_by{};
+    };
+
     bool fill_row(std::size_t number);
-    CellKind instant(std::size_t column, double& seconds);
+    CellKind instant(std::string_view cell, Instants& column, double& seconds);
+    static void settle_order(std::string_view cell, const CellInstant& now, Instants& column);
+    static std::string words_on_dates(const Instants& column);
 
     const TextLayout& layout_;
     TableWriter& writer_;
@@ -41,8 +51,7 @@ class TextTable {
     std::vector<std::string_view> cells_;
     std::vector<std::size_t> bad_columns_;
     std::vector<LineTally> not_numbers_;  ///< columns of the file
-    std::vector<std::optional<CellInstant>> origins_;
-    std::vector<std::string> origin_texts_;
+    std::vector<Instants> instants_;
     LineTally too_few_, too_many_, no_data_;
     std::size_t ends_without_line_end_ = 0;
 };

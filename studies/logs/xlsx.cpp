@@ -214,6 +214,7 @@ class WorkbookReading {
         table_.reset();
         row_ = 0;
         const std::size_t remarks_before = log_.remarks.size();
+        const std::size_t assumptions_before = log_.assumptions.size();
         const bool is_there = archive_.parse(
             part,
             {.begin = [&](const std::string& element, const Attributes& with) { begin(name, element, with); },
@@ -228,6 +229,8 @@ class WorkbookReading {
         if (table_) table_->end();
         for (std::size_t k = remarks_before; k < log_.remarks.size(); ++k)
             log_.remarks[k] = fmt::format("Sheet '{}': {}", name, log_.remarks[k]);
+        for (std::size_t k = assumptions_before; k < log_.assumptions.size(); ++k)
+            log_.assumptions[k] = fmt::format("Sheet '{}': {}", name, log_.assumptions[k]);
     }
 
     void begin(const std::string&, const std::string& element, const Attributes& with) {

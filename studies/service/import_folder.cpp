@@ -17,7 +17,7 @@ constexpr std::chrono::seconds import_limit{120};
 constexpr ChildLimits import_process{.nice_increment = 5, .memory_bytes = 2UL << 30, .processor_s = 240};
 constexpr std::size_t max_import_output = 16 << 20;
 constexpr std::size_t longest_name = 120;
-constexpr std::size_t most_message_bytes = 20000;
+constexpr std::size_t max_message_bytes = 20000;
 
 // Runs a command and ends it after `import_limit`.
 CommandOutput run_limited(const std::vector<std::string>& words, const std::atomic<bool>* ending) {
@@ -39,7 +39,7 @@ std::string plain_messages(std::string text, const std::string& folder) {
             text.erase(at, unwanted.size());
     }
     while (text.ends_with('\n')) text.pop_back();
-    return text.size() > most_message_bytes ? text.substr(0, most_message_bytes) + " ..." : text;
+    return text.size() > max_message_bytes ? text.substr(0, max_message_bytes) + " ..." : text;
 }
 
 }  // namespace

@@ -44,4 +44,28 @@ bool looks_like_angle(const SeenColumn& column) {
     return second < first;
 }
 
+ColumnsByMotion columns_by_motion(const std::vector<const SeenColumn*>& columns) {
+    constexpr double min_alike = 0.5;
+    std::vector<const SeenColumn*> angles;
+    std::vector<const SeenColumn*> torques;
+    for (const SeenColumn* column : columns) (looks_like_angle(*column) ? angles : torques).push_back(column);
+    ColumnsByMotion found{.angles_alike = min_alike};
+    for (std::size_t a = 0; a < angles.size(); ++a) {
+        for (std::size_t b = a + 1; b < angles.size(); ++b) {
+            const double alike = std::abs(correlation(angles[a]->readings, angles[b]->readings));
+            if (alike <= found.angles_alike) continue;
+            found = {.motor_angle = angles[a], .load_angle = angles[b], .angles_alike = alike};
+        }
+    }
+    if (found.motor_angle == nullptr && !angles.empty()) found.motor_angle = angles.front();
+    if (found.motor_angle == nullptr) return found;
+    const auto loop = [&](const SeenColumn* torque) {
+        return std::abs(loop_work(torque->readings, found.motor_angle->readings)) / torque->span;
+    };
+    std::stable_sort(torques.begin(), torques.end(), [&](auto* a, auto* b) { return loop(a) > loop(b); });
+    if (!torques.empty()) found.motor_torque = torques[0];
+    if (torques.size() > 1) found.load_torque = torques[1];
+    return found;
+}
+
 }  // namespace capstan::imports

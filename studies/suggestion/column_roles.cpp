@@ -36,6 +36,14 @@ Words words_of(const std::string& name) {
     return words;
 }
 
+// "crank_trq_mNm" without its unit, which is no word.
+Words words_of_column(const SeenColumn& column) {
+    const std::string& name = column.column->name;
+    const bool ends_with_unit =
+        column.column->unit.empty() && !column.unit.empty() && name.ends_with(column.unit);
+    return words_of(ends_with_unit ? name.substr(0, name.size() - column.unit.size()) : name);
+}
+
 bool has_any(const Words& words, std::initializer_list<const char*> wanted) {
     return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
         return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& want) {
@@ -48,8 +56,9 @@ constexpr std::initializer_list<const char*> motor_words = {
     "motor",   "input", "in",  "proximal", "prox",    "drive", "driver", "actuator", "act",
     "spindle", "winch", "mot", "m",        "antrieb", "back",  "theta1", "q1",       "tau1"};
 constexpr std::initializer_list<const char*> load_words = {
-    "load",  "output", "out",  "distal", "dist", "joint", "jaw",    "tip", "handle",
-    "wrist", "elbow",  "link", "l",      "last", "front", "theta2", "q2",  "tau2"};
+    "load",   "output", "out",   "distal", "dist",    "joint", "jaw",    "tip",
+    "handle", "knob",   "wrist", "elbow",  "link",    "l",     "last",   "front",
+    "theta2", "q2",     "tau2",  "finger", "gripper", "tool",  "abtrieb"};
 constexpr std::initializer_list<const char*> angle_words = {
     "angle", "ang", "pos", "position", "theta", "theta1",   "theta2", "encoder",
     "enc",   "q",   "q1",  "q2",       "phi",   "rotation", "winkel", "alpha"};
@@ -98,8 +107,17 @@ bool is_command(const SeenColumn& column) {
                                                    "reference", "ref", "goal", "error", "pwm", "voltage"});
 }
 
+bool is_run_number(const SeenColumn& column) {
+    constexpr std::size_t rows_of_a_run = 20;
+    std::size_t changes = 0;
+    for (std::size_t k = 1; k < column.readings.size(); ++k)
+        changes += column.readings[k] != column.readings[k - 1] ? 1u : 0u;
+    return column.integers_only && changes * rows_of_a_run < column.readings.size() &&
+           has_any(words_of_column(column), {"run", "trial", "session", "versuch", "lauf"});
+}
+
 double name_fits(const SeenColumn& column, const std::string& channel) {
-    Words words = words_of(column.column->name);
+    Words words = words_of_column(column);
     for (const std::string& word : words_of(column.table->name)) words.push_back(word);
     const auto unit = find_unit(column.unit);
     const bool is_angle = channel.ends_with("_angle");

@@ -30,4 +30,7 @@ double name_fits(const SeenColumn& column, const std::string& channel);
 /// True for what a controller asked for rather than what a sensor read.
 bool is_command(const SeenColumn& column);
 
+/// True for a number of the run that each row belongs to, by its name and its values.
+bool is_run_number(const SeenColumn& column);
+
 }  // namespace capstan::imports

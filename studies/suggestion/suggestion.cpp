@@ -8,16 +8,16 @@
 #include <set>
 
 #include "capstan/cable/invalid_input.h"
-#include "capstan/suggestion/column_motion.h"
-#include "capstan/suggestion/column_roles.h"
-#include "capstan/suggestion/guessed_signs.h"
-#include "capstan/suggestion/guessed_units.h"
 #include "capstan/import/importer.h"
 #include "capstan/import/log_files.h"
 #include "capstan/import/log_times.h"
 #include "capstan/platform/statistics.h"
 #include "capstan/recording/recording_keys.h"
 #include "capstan/rig/channel_names.h"
+#include "capstan/suggestion/column_motion.h"
+#include "capstan/suggestion/column_roles.h"
+#include "capstan/suggestion/guessed_signs.h"
+#include "capstan/suggestion/guessed_units.h"
 
 namespace capstan::imports {
 
@@ -47,6 +47,7 @@ class Suggesting {
         }
         columns_ = seen_columns(looked_at);
         find_times();
+        find_run_numbers();
         find_channels();
         find_kind();
         guess_signs(suggestion_.mapping, chosen_, suggestion_.guesses);
@@ -100,6 +101,17 @@ class Suggesting {
             time.sample_rate_Hz = 1000.0;
             guess("time", Doubt::doubtful,
                   "the log has no column of times; the rate is made up, state the logger's own");
+        }
+    }
+
+    void find_run_numbers() {
+        for (const SeenColumn& column : columns_) {
+            if (times_.count(column.column) > 0 || !is_run_number(column)) continue;
+            used_.insert(&column);
+            suggestion_.mapping.run_column = column.column->name;
+            return guess(
+                "time", Doubt::likely,
+                fmt::format("\"{}\" numbers the runs, by its name and its few changes", column.column->name));
         }
     }
 
@@ -196,46 +208,21 @@ class Suggesting {
                 !is_command(column))
                 free.push_back(&column);
         }
-        std::vector<const SeenColumn*> angles;
-        std::vector<const SeenColumn*> torques;
-        for (const SeenColumn* column : free)
-            (looks_like_angle(*column) ? angles : torques).push_back(column);
-        const SeenColumn* motor = nullptr;
-        const SeenColumn* load = nullptr;
-        double best = 0.5;
-        for (std::size_t a = 0; a < angles.size(); ++a) {
-            for (std::size_t b = a + 1; b < angles.size(); ++b) {
-                const double alike = std::abs(correlation(angles[a]->readings, angles[b]->readings));
-                if (alike <= best) continue;
-                best = alike;
-                motor = angles[a];
-                load = angles[b];
-            }
-        }
-        if (motor == nullptr && !angles.empty()) motor = angles.front();
-        if (motor == nullptr) return;
-        // The motor's torque has the wider friction loop over its angle.
-        const SeenColumn* motor_torque = nullptr;
-        const SeenColumn* load_torque = nullptr;
-        const auto loop = [&](const SeenColumn* torque) {
-            return std::abs(loop_work(torque->readings, motor->readings)) / torque->span;
-        };
-        std::stable_sort(torques.begin(), torques.end(), [&](auto* a, auto* b) { return loop(a) > loop(b); });
-        if (!torques.empty()) motor_torque = torques[0];
-        if (torques.size() > 1) load_torque = torques[1];
+        const ColumnsByMotion by_motion = columns_by_motion(free);
         const auto take = [&](const char* name, const SeenColumn* column, const std::string& reason) {
             if (column == nullptr || has(name)) return;
             used_.insert(column);
             add_channel(name, *column);
             guess(name, Doubt::doubtful, reason);
         };
-        take(channel::motor_angle, motor,
+        take(channel::motor_angle, by_motion.motor_angle,
              "it is smooth and moves with another column; motor and load may be exchanged");
-        take(channel::load_angle, load,
-             fmt::format("it is smooth and moves with \"{}\" (correlation {:.2f})", motor->column->name,
-                         best));
-        take(channel::motor_torque, motor_torque, "it has the widest loop over the motor's angle");
-        take(channel::load_torque, load_torque, "it has the next wide loop over the motor's angle");
+        if (by_motion.load_angle)
+            take(channel::load_angle, by_motion.load_angle,
+                 fmt::format("it is smooth and moves with \"{}\" (correlation {:.2f})",
+                             by_motion.motor_angle->column->name, by_motion.angles_alike));
+        take(channel::motor_torque, by_motion.motor_torque, "it has the widest loop over the motor's angle");
+        take(channel::load_torque, by_motion.load_torque, "it has the next wide loop over the motor's angle");
     }
 
     bool has(const std::string& name) const {
@@ -359,32 +346,7 @@ class Suggesting {
     Suggestion suggestion_;
 };
 
-const char* doubt_words(Doubt doubt) {
-    switch (doubt) {
-        case Doubt::stated:
-            return "Note";
-        case Doubt::likely:
-            return "Likely";
-        case Doubt::doubtful:
-            break;
-    }
-    return "DOUBTFUL";
-}
-
 }  // namespace
-
-std::string Suggestion::text() const {
-    std::vector<std::pair<std::string, std::string>> reasons = {
-        {"file",
-         "A suggestion by `capstan import --suggest`. Every guess has its reason; correct what is wrong, then run"},
-        {"file", "  capstan import LOG... --mapping THIS_FILE -o NAME"}};
-    for (const Guess& guess : guesses) {
-        std::string reason = guess.reason;
-        std::replace(reason.begin(), reason.end(), '\n', ' ');
-        reasons.emplace_back(guess.about, fmt::format("{}: {}", doubt_words(guess.doubt), reason));
-    }
-    return mapping_text(mapping, reasons);
-}
 
 Suggestion suggest_mapping(const std::vector<std::filesystem::path>& files, const SuggestOptions& options) {
     return Suggesting(files, options).suggested();

@@ -1,5 +1,6 @@
 // Makes a text file and a ROS 1 bag of a gigabyte (or as many megabytes as stated), reads each in a process
-// of its own, and prints how long that took and its peak memory: read_logs FOLDER [MEGABYTES]
+// of its own, imports each with the program where that is named, and prints how long that took and its peak
+// memory: read_logs FOLDER [MEGABYTES [CAPSTAN]]
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -110,38 +111,79 @@ void write_bag(const std::filesystem::path& path, std::size_t bytes) {
     }
 }
 
-void measure(const std::filesystem::path& path) {
+const char* const text_mapping = R"([channels]
+motor_angle = { column = "motor angle", unit = "rad" }
+motor_torque = { column = "motor torque", unit = "N m" }
+load_angle = { column = "load angle", unit = "rad" }
+load_torque = { column = "load torque", unit = "N m" }
+[recording]
+mode = "lumped_drive"
+)";
+const char* const bag_mapping = R"([channels]
+motor_angle = { table = "/joint_states", column = "position.shoulder", unit = "rad" }
+motor_torque = { table = "/joint_states", column = "effort.shoulder", unit = "N m" }
+load_angle = { table = "/joint_states", column = "position.elbow", unit = "rad" }
+load_torque = { table = "/joint_states", column = "effort.elbow", unit = "N m" }
+[recording]
+mode = "lumped_drive"
+)";
+
+/// Runs `work` in a process of its own and prints how long it took and the most memory that it had.
+template <typename Work>
+void measure(const std::string& what, const Work& work) {
+    std::cout << what << ": " << std::flush;
     const auto begin = std::chrono::steady_clock::now();
     const pid_t child = fork();
-    if (child == 0) {
-        const capstan::logs::Log log = capstan::logs::read_log(path);
-        const capstan::logs::LogTable& table = log.tables.at(0);
-        std::cout << log.format << ": " << std::filesystem::file_size(path) / 1000000 << " MB, " << table.rows
-                  << " rows of " << table.columns.size() << " columns" << std::flush;
-        _exit(log.remarks.empty() ? 0 : 1);
-    }
+    if (child == 0) _exit(work());
     int status = 0;
     rusage usage{};
     wait4(child, &status, 0, &usage);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    std::cout << ": " << seconds << " s, " << static_cast<double>(usage.ru_maxrss) / 1024.0 << " MiB"
+    const auto processor = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    std::cout << seconds << " s (" << processor(usage.ru_utime) + processor(usage.ru_stime)
+              << " s of a processor), " << static_cast<double>(usage.ru_maxrss) / 1024.0 << " MiB"
               << (status == 0 ? "" : ", FAILED") << std::endl;
+}
+
+void measure_log(const std::filesystem::path& log, const char* mapping, const std::string& program) {
+    const std::string size = std::to_string(std::filesystem::file_size(log) / 1000000) + " MB";
+    measure("reading " + size + " of " + log.extension().string(), [&] {
+        const capstan::logs::Log read = capstan::logs::read_log(log);
+        std::cout << read.tables.at(0).rows << " rows of " << read.tables[0].columns.size() << " columns, "
+                  << std::flush;
+        return read.remarks.empty() ? 0 : 1;
+    });
+    if (program.empty()) return;
+    const std::filesystem::path toml = log.parent_path() / "log.toml",
+                                recording = log.parent_path() / "recording";
+    std::ofstream(toml) << mapping;
+    measure("capstan import of it", [&] {
+        std::freopen("/dev/null", "w", stdout);
+        execl(program.c_str(), "capstan", "import", log.c_str(), "--mapping", toml.c_str(), "--progress",
+              "none", "-o", recording.c_str(), nullptr);
+        return 1;
+    });
+    for (const char* ending : {".csv", ".json"}) std::filesystem::remove(recording.string() + ending);
+    std::filesystem::remove(toml);
 }
 
 }  // namespace
 
 int main(int count, char** words) {
     if (count < 2) {
-        std::cerr << "read_logs FOLDER [MEGABYTES]\n";
+        std::cerr << "read_logs FOLDER [MEGABYTES [CAPSTAN]]\n";
         return 2;
     }
     const std::filesystem::path folder = words[1];
     const std::size_t bytes = (count > 2 ? std::strtoul(words[2], nullptr, 10) : 1000) * 1000000;
+    const std::string program = count > 3 ? words[3] : "";
     write_text(folder / "log.csv", bytes);
-    measure(folder / "log.csv");
-    write_bag(folder / "log.bag", bytes);
-    measure(folder / "log.bag");
+    measure_log(folder / "log.csv", text_mapping, program);
     std::filesystem::remove(folder / "log.csv");
+    write_bag(folder / "log.bag", bytes);
+    measure_log(folder / "log.bag", bag_mapping, program);
     std::filesystem::remove(folder / "log.bag");
     return 0;
 }

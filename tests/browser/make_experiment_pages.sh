@@ -30,6 +30,10 @@ cat >"$folder/recording.json" <<'SIDECAR'
 SIDECAR
 "$capstan" simulate "$folder/recording.csv" --html "$folder/recording.html" -o /dev/null
 
+# A log and its import.
+"$capstan" import --suggest "$configs/recordings/viscous-pair.csv" --kind pull_pull -o - >"$folder/import.toml" 2>/dev/null
+"$capstan" import "$configs/recordings/viscous-pair.csv" --mapping "$folder/import.toml" --try --progress none --html "$folder/import.html" >/dev/null
+
 # Why a bench disagrees with its model.
 rm -rf "$folder/trial"
 "$capstan" gap-trial --cases 1 --seed 4 --length short --severity strong --keep "$folder/trial" --generate-only \

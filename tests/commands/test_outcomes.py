@@ -123,7 +123,7 @@ class Outcomes(CapstanTest):
         self.assertIn("Cannot", done.stderr)
         self.limited("memory", set_to(resource.RLIMIT_AS, 60_000_000), *study, "--db", "as.db", expect=(1, 127))
         self.limited("open files", set_to(resource.RLIMIT_NOFILE, 4), *study, "--db", "nofile.db", expect=(1, 3))
-        for db in ("fsize.db", "as.db", "nofile.db"):  # what is there is whole
+        for db in ("fsize.db", "as.db", "nofile.db"):  # what is there is complete
             if (self.folder / db).exists() and (self.folder / db).stat().st_size:
                 self.assertIn("passed", self.run_capstan("doctor", "--db", db).stdout)
 

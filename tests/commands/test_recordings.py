@@ -102,6 +102,12 @@ class OneOwnLog(CapstanTest):
         self.assertIn('load_torque = { column = "Output torque", unit = "N m"', mapping)
         self.assertIn("DOUBTFUL: every number of the bench", mapping)
 
+    def test_the_list_of_columns_says_what_was_left_out_and_assumed(self):
+        self.write("dates.csv", "when;phase;x\n01.05.2024 10:00:00;go;1\n01.05.2024 10:00:01;stop;2\n")
+        listed = self.run_capstan("import", "--list", "dates.csv").stdout
+        self.assertIn("A column of text is left out: phase", listed)
+        self.assertIn("01.05.2024 10:00:00, taken as 2024-05-01 with the day first: a guess", listed)
+
     def test_from_the_log_to_the_verdict_of_the_converted_recording(self):
         self.run_capstan("import", "--suggest", "run1.csv", "run2.csv", "--kind", "pull_pull", "-o", "import.toml")
         mapping = (self.folder / "import.toml").read_text()
@@ -114,7 +120,8 @@ class OneOwnLog(CapstanTest):
         runs = bench[bench.index("[[runs]]"):].replace("T0 = 30.0", 'T0 = 20.0\noutput = "handle"')
         head = head.replace("sign = -1, clock_offset_s", "clock_offset_s")
         self.write("import.toml", f'{head}[recording]\nmode = "pull_pull"\nnominal = {{ {numbers}, R_profile = [{pieces}] }}\n\n{runs}')
-        report = json.loads(self.run_capstan("import", "run1.csv", "run2.csv", "-o", "mine", "--json").stdout)
+        report = json.loads(self.run_capstan("import", "run1.csv", "run2.csv", "-o", "mine", "--html", "mine.html", "--json").stdout)
+        self.assertIn("the channels of the recording", (self.folder / "mine.html").read_text())
         self.assertFalse([finding for finding in report["findings"] if finding["repaired"]])
         verdict = json.loads(self.run_capstan("diagnose", "mine.csv", "--json", "--progress", "none").stdout)
         converted = json.loads(self.run_capstan("diagnose", CONFIGS / "recordings" / "viscous-pair.csv", "--json", "--progress", "none").stdout)

@@ -37,14 +37,14 @@ class SameBits(CapstanTest):
         expected, _ = self.uninterrupted()
         for jobs in (1, 2, 7, 16):
             process = self.start_capstan("study", "run", *STUDY, "--db", f"jobs{jobs}.db", "--jobs", jobs, "--progress", "none")
-            threads = self.most_threads(process)
+            threads = self.max_threads(process)
             self.assertEqual(process.returncode, 0, process.stderr.read())
             self.assertEqual(threads, jobs)
             print(f"the same bits with {threads} threads on {os.cpu_count()} processors")
             self.assert_same_bits(expected, self.tables(f"jobs{jobs}.db"))
 
     @staticmethod
-    def most_threads(process):
+    def max_threads(process):
         """That the process had at any time until it ended."""
         most = 0
         while process.poll() is None:

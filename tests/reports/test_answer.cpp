@@ -65,6 +65,33 @@ TEST(Answer, TextShowsUnitsIntervalsAndTheHeadlineFirst) {
     EXPECT_TRUE(holds(text, "0.25 to 0.50"));
 }
 
+TEST(Answer, TextBreaksLongTextsToFitATerminalAndLosesNoWord) {
+    Answer answer;
+    answer.title = "Keys";
+    answer.headline = "One sentence.";
+    std::string words;
+    for (int k = 0; k < 60; ++k) words += " word" + std::to_string(k);
+    Data rows = Data::list();
+    rows.push_back({{"key", "a_key"}, {"meaning", words.substr(1)}, {"example", "12"}});
+    rows.push_back({{"key", "another_key"}, {"meaning", "short"}, {"example", "a few words more"}});
+    answer.sections = {
+        {"keys",
+         "Keys",
+         "",
+         {{"keys",
+           "",
+           {{"key", "key"}, {"meaning", "meaning", "", "wrap"}, {"example", "example", "", "wrap"}},
+           rows}},
+         ""}};
+    const std::string text = answer_text(answer);
+    for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+        end = text.find('\n', at);
+        EXPECT_LE(end - at, 100U) << text.substr(at, end - at);
+    }
+    for (int k = 0; k < 60; ++k) EXPECT_TRUE(holds(text, "word" + std::to_string(k))) << k;
+    EXPECT_TRUE(holds(text, "a few words more"));
+}
+
 TEST(Answer, CsvHasEveryValueOfEveryTableInFullPrecision) {
     const std::string csv = answer_csv(answer_titled("A, B"));
     EXPECT_TRUE(csv.starts_with("table,row,column,value,unit"));

@@ -12,6 +12,7 @@ from written_log import WrittenLogTest, read_log
 
 CAPSTAN = os.environ["CAPSTAN"]
 RECORDINGS = Path(os.environ["CAPSTAN_CONFIGS"]) / "recordings"
+ROS_TOPIC = r"^(/[A-Za-z_][A-Za-z0-9_]*)+$"  # by design.ros2.org/articles/topic_and_service_names.html, for "/topic.field" in a plot
 UNITS = {"motor_torque": "N m", "motor_angle": "rad", "load_torque": "N m", "load_angle": "rad"}
 
 
@@ -88,11 +89,13 @@ class SeriesFiles(WrittenLogTest):
         read = self.mcap(path)
         self.assertEqual(set(read["topics"]), set(own.tables))
         for name, topic in read["topics"].items():
-            self.assertEqual((topic["schema"], topic["encoding"]), ("std_msgs/msg/Float64", "cdr"))
+            self.assertEqual((topic["schema"], topic["definition"], topic["encoding"]), ("std_msgs/msg/Float64", "ros2msg", "cdr"))
+            self.assertRegex(name, ROS_TOPIC)
             self.assertEqual(topic["unit"], UNITS[name.split("/")[-1]])
             self.assertEqual(topic["value"], own.tables[name]["data"])
             self.assertEqual(topic["counted"], len(topic["value"]))
             self.assert_close(own.tables[name]["log_time"], [time / 1e9 for time in topic["time_ns"]], 15, name)
+        self.assertEqual(read["profile"], "ros2")
         self.assertEqual(read["messages"], sum(topic["counted"] for topic in read["topics"].values()))
         self.assertEqual((read["first_ns"], read["last_ns"]), (0, round(1e9 * max(max(columns["t"]) for columns in expected.values()))))
 
@@ -104,6 +107,7 @@ class SeriesFiles(WrittenLogTest):
         own = read_log(path)
         for name, topic in read["topics"].items():
             self.assertEqual(topic["unit"], "N")
+            self.assertRegex(name, ROS_TOPIC)
             self.assertEqual(topic["value"], own.tables[name]["data"])
 
     def test_estimated_tensions(self):
@@ -120,7 +124,7 @@ class SeriesFiles(WrittenLogTest):
                 if name == "t":
                     continue
                 channel = name.removesuffix("_N")
-                topic = mcap.tables[f"/{run}/{channel}"]["data"]
+                topic = mcap.tables[f"/{run}/{channel.replace('.', '_')}"]["data"]
                 self.assert_close(topic, values, 5 if channel.startswith("tension") else 3, channel)
                 self.assertEqual(mat.tables[variable][channel.replace(".", "_")], topic, channel)
                 seen += 1

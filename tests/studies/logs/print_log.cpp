@@ -13,7 +13,10 @@ int main(int count, char** words) {
         json line;
         try {
             const capstan::logs::Log log = capstan::logs::read_log(words[k]);
-            line = {{"format", log.format}, {"remarks", log.remarks}, {"tables", json::array()}};
+            line = {{"format", log.format},
+                    {"remarks", log.remarks},
+                    {"assumptions", log.assumptions},
+                    {"tables", json::array()}};
             for (const capstan::logs::LogTable& table : log.tables) {
                 json& printed = line["tables"].emplace_back(json{{"name", table.name}, {"rows", table.rows}});
                 printed["columns"] = json::array();

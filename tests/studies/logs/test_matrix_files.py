@@ -3,6 +3,7 @@ import importlib
 import math
 import struct
 import unittest
+import zlib
 
 from written_log import WrittenLogTest, read_log
 
@@ -63,6 +64,39 @@ class MatlabFiles(WrittenLogTest):
             self.assert_numbers(log.tables["runs(2)"], {"t": np.arange(20), "F": [2] * 20})
             self.assertIn("run.signals.label (text)", log.remarks)
             self.assertIn("cells (a cell array)", log.remarks)
+
+    def test_objects_are_named_and_what_to_save_instead(self):
+        """Neither scipy nor Octave writes a `timeseries`: its bytes are put together as MATLAB's format has them."""
+        def element(kind, data):
+            return struct.pack("<II", kind, len(data)) + data + bytes(-len(data) % 8)
+
+        def matrix(*parts):
+            body = b"".join(parts)
+            return struct.pack("<II", 14, len(body)) + body
+
+        def timeseries(name):
+            place = struct.pack("<6I", 0xdd000000, 2, 1, 1, 1, 1)
+            numbers = matrix(element(6, struct.pack("<II", 13, 0)), element(5, struct.pack("<ii", 6, 1)), element(1, b""), element(6, place))
+            return matrix(element(6, struct.pack("<II", 17, 0)), element(1, name), element(1, b"MCOS"), element(1, b"timeseries"), numbers)
+
+        def packed(variable):
+            content = zlib.compress(variable)
+            return struct.pack("<II", 15, len(content)) + content
+
+        path = self.folder / "log.mat"
+        for pack in (bytes, packed):
+            scipy_io.savemat(path, {"t": np.arange(5.0)[:, None]})
+            path.write_bytes(path.read_bytes() + pack(timeseries(b"torque")))
+            log = read_log(path)
+            self.assert_numbers(log.tables[""], {"t": range(5)})
+            self.assertIn("torque (an object of the class timeseries)", log.remarks)
+            self.assertIn("log.t = ts.Time", log.remarks)
+        # What replaces it is a table, and so is what Simulink calls a structure with time.
+        t = np.arange(5.0)[:, None]
+        scipy_io.savemat(path, {"log": {"Time": t, "Data": np.hstack([t, 2 * t])}, "out": {"time": t, "signals": {"values": 3 * t}}})
+        log = read_log(path)
+        self.assert_numbers(log.tables["log"], {"Time": range(5), "Data(:,1)": range(5), "Data(:,2)": range(0, 10, 2)})
+        self.assert_numbers(log.tables["out"], {"time": range(5), "signals.values": range(0, 15, 3)})
 
     def test_cuts_are_told(self):
         for version, compressed in (("4", False), ("5", False), ("5", True)):

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "capstan/logs/text_cells.h"
 #include "sample_log.h"
 
 namespace capstan::logs {
@@ -179,8 +180,67 @@ TEST(TextLog, ReadsIsoTimesAsSecondsSinceTheFirstAndSaysSo) {
         log_of("when,x\n2024-05-01T10:00:00.25Z,1\n2024-05-01 10:00:01.5,2\n2024-05-02T00:00:00+02:00,3\n");
     EXPECT_EQ(log.tables[0].columns[0].unit, "s");
     EXPECT_THAT(numbers_in(log.tables[0], "when"), ElementsAre(0.0, 1.25, 43199.75));
-    EXPECT_THAT(remarks_of(log),
-                HasSubstr("'when' is read as seconds since its first row, 2024-05-01T10:00:00.25Z"));
+    EXPECT_THAT(log.assumptions,
+                ElementsAre("'when' is read as seconds since its first row, 2024-05-01T10:00:00.25Z"));
+}
+
+struct DateCase {
+    const char* name;
+    std::string text;
+    std::vector<double> seconds;
+    std::string assumed;  ///< behind the first row
+};
+
+class DatesWithTheYearLast : public testing::TestWithParam<DateCase> {};
+
+TEST_P(DatesWithTheYearLast, AreAClockAndAGuessedOrderIsStated) {
+    const Log log = read_log(log_file(GetParam().name, GetParam().text));
+    EXPECT_THAT(numbers_in(log.tables[0], "when"), testing::ElementsAreArray(GetParam().seconds));
+    ASSERT_EQ(log.assumptions.size(), 1u);
+    EXPECT_THAT(log.assumptions[0], testing::EndsWith(GetParam().assumed));
+    EXPECT_THAT(log.remarks, IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Text, DatesWithTheYearLast,
+    testing::Values(
+        DateCase{
+            "one_day",
+            "when;x\n01.05.2024 12:00:03;1\n01.05.2024 12:00:03,5;2\n",
+            {0, 0.5},
+            ", 01.05.2024 12:00:03, taken as 2024-05-01 with the day first: a guess, on which no time depends, "
+            "as all rows have this date"},
+        DateCase{"only_one_reading",
+                 "when,x\n31.05.2024 23:59:59,1\n01.06.2024 00:00:00.25,2\n",
+                 {0, 1.25},
+                 ", 31.05.2024 23:59:59"},
+        DateCase{"slashes_of_america",
+                 "when,x\n5/1/2024 11:59:59 PM,1\n5/2/2024 12:00:00 AM,2\n",
+                 {0, 1},
+                 "taken as 2024-05-01 with the month first: the next date then follows it more closely"},
+        DateCase{"slashes_of_europe",
+                 "when,x\n01/05/2024 23:59:59,1\n02/05/2024 00:00:00,2\n",
+                 {0, 1},
+                 "taken as 2024-05-01 with the day first: the next date then follows it more closely"},
+        DateCase{"a_later_day_above_twelve",
+                 "when,x\n12/05/2024 23:59:59,1\n13/05/2024 00:00:00,2\n14/05/2024 00:00:00,3\n",
+                 {0, 1, 86401},
+                 "taken as 2024-05-12 with the day first: a later date has no other reading"},
+        DateCase{"not_back_in_time",
+                 "when,x\n01-02-2024 00:00:00,1\n02-01-2024 00:00:00,2\n",
+                 {0, 30 * 86400.0},
+                 "with the month first: the next date then follows it more closely"},
+        DateCase{"noon_and_midnight",
+                 "when,x\n1/1/2024 12:00:00 am,1\n1/1/2024 1:00:00 am,2\n1/1/2024 12:00:00 pm,3\n",
+                 {0, 3600, 43200},
+                 ", 1/1/2024 12:00:00 am"}),
+    [](const auto& the) { return std::string(the.param.name); });
+
+TEST(TextLog, TakesNoVersionOrAddressForADate) {
+    for (const char* cell : {"1.2.3", "10.0.0.1", "32.13.2024", "1.5.24", "01.05/2024", "01.05.2024 25:00:00",
+                             "13/13/2024", "1/5/2024 13:00:00 PM", "0/0/2024"})
+        EXPECT_FALSE(instant_of_cell(cell)) << cell;
+    EXPECT_FALSE(instant_of_cell("13.05.2024", DateOrder::month_first));
 }
 
 TEST(TextLog, LeavesColumnsOfTextOutAndNamesThem) {

@@ -70,9 +70,10 @@ class Workbooks(WrittenLogTest):
         self.assert_numbers(log.tables["Run 1"], {"time": [k / 1000 for k in range(ROWS)], "Force": force,
                                                   "when": [k / 4 for k in range(ROWS)], "on": [k % 2 == 0 for k in range(ROWS)]})
         self.assert_numbers(log.tables["Other & more"], {"column_1": range(20), "column_2": [k * k for k in range(20)]})
-        for words in ("Sheet 'Run 1': A column of text is left out: phase", "since its first row, 2024-05-01T10:00:00",
+        for words in ("Sheet 'Run 1': A column of text is left out: phase",
                       "Sheet 'Words': it is left out", "Sheet 'Empty': it is empty"):
             self.assertIn(words, log.remarks)
+        self.assertIn("Sheet 'Run 1': 'when' is read as seconds since its first row, 2024-05-01T10:00:00", log.assumptions)
 
     def test_cuts_are_refused(self):
         self.assert_cuts_are_told(self.write())

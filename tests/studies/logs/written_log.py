@@ -14,6 +14,7 @@ class Log:
     def __init__(self, line):
         self.refusal = line.get("refusal", "")
         self.remarks = "\n".join(line.get("remarks", []))
+        self.assumptions = "\n".join(line.get("assumptions", []))
         self.format = line.get("format")
         self.rows = {table["name"]: table["rows"] for table in line.get("tables", [])}
         self.tables = {table["name"]: {column["name"]: [math.nan if value is None else value for value in column["values"]]
