@@ -239,17 +239,22 @@ std::string next_experiment_sentence(const gap::NonIdentifiable& open) {
     if (open.group.size() < 2) return "";
     std::vector<std::string> group;
     for (const auto& effects : open.group) group.push_back(fmt::format("{}", fmt::join(effects, " with ")));
-    const std::string text = fmt::format("This recording cannot distinguish: {}.", fmt::join(group, "; "));
+    const std::string text = (open.is_unknown ? "No known effect explains the gap. Closest come: "
+                                              : "This recording cannot distinguish: ") +
+                             fmt::format("{}.", fmt::join(group, "; "));
     constexpr double helps = 0.8;
     if (open.experiments.empty() || open.experiments.front().discrimination_probability < helps)
         return text + " None of the experiments that were simulated would distinguish them.";
     const gap::ExperimentScore& best = open.experiments.front();
-    return text + fmt::format(" Record next: {}. It would name the right cause with probability {:.2f}.",
-                              best.description, best.discrimination_probability);
+    const std::string next = text + fmt::format(" Record next: {}. ", best.description);
+    if (open.is_unknown)
+        return next + "There their predictions differ most, so that it shows best in what way each is wrong.";
+    return next + fmt::format("It would name the right cause with probability {:.2f}.",
+                              best.discrimination_probability);
 }
 
 Data open_data(const gap::NonIdentifiable& open) {
-    Data data = {{"group", open.group}, {"experiments", Data::list()}};
+    Data data = {{"group", open.group}, {"unknown", open.is_unknown}, {"experiments", Data::list()}};
     for (const gap::ExperimentScore& each : open.experiments)
         data["experiments"].push_back({{"kind", each.kind},
                                        {"name", each.name},

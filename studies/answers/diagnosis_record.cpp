@@ -107,6 +107,24 @@ double present_probability(const gap::Diagnosis& diagnosis, const std::string& e
     return 0.0;
 }
 
+// Which numbers stand at the bound of their search; empty: none.
+std::string bounds_sentence(const gap::Diagnosis& diagnosis) {
+    std::vector<std::string> at_bounds;
+    for (const gap::FittedCause& cause : diagnosis.causes) {
+        for (const gap::FittedNumber& number : cause.numbers) {
+            if (number.is_at_bound)
+                at_bounds.push_back(fmt::format("{} of {} ({:.4g}{}{})", number.name, cause_words(cause),
+                                                number.value, number.unit.empty() ? "" : " ", number.unit));
+        }
+    }
+    for (const std::string& ratio : diagnosis.at_bounds) at_bounds.push_back(ratio + " of the bench");
+    for (const gap::FittedNumber& number : diagnosis.bench)
+        if (number.is_at_bound) at_bounds.push_back(number.name);
+    if (at_bounds.empty()) return "";
+    return fmt::format(" At the bound of the search, so that the true number may lie beyond it: {}.",
+                       fmt::join(at_bounds, ", "));
+}
+
 }  // namespace
 
 std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
@@ -118,8 +136,8 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     if (first.effect == "unknown")
         return fmt::format(
             "There is a gap that no known effect explains (probability {:.2f}). The numbers below are those of "
-            "the best known effect.",
-            first.present);
+            "the best known effect.{}",
+            first.present, bounds_sentence(diagnosis));
     std::vector<std::string> causes;
     for (const gap::FittedCause& cause : diagnosis.causes) causes.push_back(cause_words(cause));
     std::string text =
@@ -131,7 +149,7 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     if (unknown > likely)
         text +=
             fmt::format(" They leave a part that no known effect explains (probability {:.2f}).", unknown);
-    return text;
+    return text + bounds_sentence(diagnosis);
 }
 
 storage::DiagnosisRecord diagnosis_record(const Recording& recording, const gap::Diagnosis& diagnosis,

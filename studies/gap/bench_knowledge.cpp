@@ -11,9 +11,9 @@ namespace {
 
 // Wherever a search goes, the bench can still be built: a factor of twelve, or 2.5 deviations of a number of
 // which next to nothing is stated. Downwards a factor of fifty, because a pretension may be as good as none.
-double bounded_ratio(double logarithm, double prior_std) {
+double bounded_log(double logarithm, double prior_std) {
     const double wide = 2.5 * prior_std;
-    return std::exp(std::clamp(logarithm, -std::max(4.0, wide), std::max(2.5, wide)));
+    return std::clamp(logarithm, -std::max(4.0, wide), std::max(2.5, wide));
 }
 
 FloatingNumber ratio(const std::string& name, double prior_std, const std::string& effect,
@@ -164,13 +164,17 @@ void add_undescribed_parts(const NominalBench& nominal, double prior_std, BenchK
 double FloatingNumber::value(double coordinate) const {
     switch (kind) {
         case Kind::ratio:
-            return scale * bounded_ratio(coordinate, prior_std);
+            return scale * std::exp(bounded_log(coordinate, prior_std));
         case Kind::size:
             return scale * std::max(0.0, coordinate);
         case Kind::zero:
             return scale * coordinate;
     }
     return 0.0;
+}
+
+bool FloatingNumber::is_at_bound(double coordinate) const {
+    return kind == Kind::ratio && bounded_log(coordinate, prior_std) != coordinate;
 }
 
 bool BenchKnowledge::has_unknown_number() const {

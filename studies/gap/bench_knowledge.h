@@ -33,6 +33,8 @@ struct FloatingNumber {
     std::function<void(BenchNumbers&, double value)> apply;
 
     double value(double coordinate) const;
+    /// Whether the search ended at the end of its range: the true number may lie beyond it.
+    bool is_at_bound(double coordinate) const;
 };
 
 /// Logarithms of friction, stiffness and pretension over their nominal values.

@@ -274,6 +274,11 @@ double OpenNumber::value(double coordinate) const {
     return std::clamp(value, low, high);
 }
 
+bool OpenNumber::is_at_bound(double value) const {
+    if (kind == Kind::place || kind == Kind::step || low == high) return false;
+    return value >= high || (value <= low && low != absent);
+}
+
 double OpenNumber::prior_mean() const {
     return kind == Kind::place ? 0.5 : 0.0;
 }

@@ -55,6 +55,7 @@ class Diagnoser {
         report("comparing possible experiments", 0.97);
         diagnosis.non_identifiable = discriminating_experiments(recording_, search_.coarse_fitter(),
                                                                 non_identifiable(weighed), options_.threads);
+        diagnosis.non_identifiable.is_unknown = is_probably_unknown(weighed);
         diagnosis.independent_samples = fitter_.independent_samples();
         for (const ScoredFit& each : fits) {
             CandidateScore score{
@@ -124,7 +125,12 @@ class Diagnoser {
             const FloatingNumber& number = fit.bench->numbers[static_cast<std::size_t>(k)];
             diagnosis.bench.push_back({number.name, number.unit, number.value(fit.coordinates[k]),
                                        FittedInterval{number.value(fit.coordinates[k] - widths[k]),
-                                                      number.value(fit.coordinates[k] + widths[k])}});
+                                                      number.value(fit.coordinates[k] + widths[k])},
+                                       number.is_at_bound(fit.coordinates[k])});
+        }
+        for (Eigen::Index k = 0; k < nominal_coordinates; ++k) {
+            const FloatingNumber& number = fit.bench->numbers[static_cast<std::size_t>(k)];
+            if (number.is_at_bound(fit.coordinates[k])) diagnosis.at_bounds.push_back(number.name);
         }
         for (const CandidateCause* cause : fit.causes) {
             if (cause->effect == "none") continue;
@@ -132,8 +138,10 @@ class Diagnoser {
             for (const OpenNumber& number : cause->numbers) {
                 const double one = number.value(fit.coordinates[next] - widths[next]);
                 const double other = number.value(fit.coordinates[next] + widths[next]);
-                fitted.numbers.push_back({number.name, number.unit, number.value(fit.coordinates[next]),
-                                          FittedInterval{std::min(one, other), std::max(one, other)}});
+                const double value = number.value(fit.coordinates[next]);
+                fitted.numbers.push_back({number.name, number.unit, value,
+                                          FittedInterval{std::min(one, other), std::max(one, other)},
+                                          number.is_at_bound(value)});
                 ++next;
                 if (number.kind == OpenNumber::Kind::place) fitted.position_m = fitted.numbers.back().value;
             }

@@ -24,6 +24,7 @@ struct FittedNumber {
     std::string unit;
     double value = 0.0;
     std::optional<FittedInterval> interval{};  ///< none: the recording itself gave the number
+    bool is_at_bound = false;                  ///< of its search: the true number may lie beyond it
 };
 
 /// A cause that the verdict names, with its fitted numbers.
@@ -56,7 +57,8 @@ struct Diagnosis {
     /// Further numbers of the bench that floated: zeros of sensors, friction of bearings. None where a bench
     /// with measured numbers explains the recording.
     std::vector<FittedNumber> bench;
-    BenchNumbers corrected;  ///< the bench with all of that
+    std::vector<std::string> at_bounds;  ///< of friction, stiffness and pretension those at a search's bound
+    BenchNumbers corrected;              ///< the bench with all of that
     FittedInterval
         friction_interval;  ///< of the ratios; no narrower than their priors where nothing is learned
     FittedInterval stiffness_interval;

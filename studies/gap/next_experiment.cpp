@@ -76,12 +76,20 @@ Recording answered(Recording recording, const EffectsTwinOptions& options, const
 
 }  // namespace
 
+bool is_probably_unknown(std::span<const WeighedHypothesis> weighed) {
+    double unknown = 0.0;
+    for (const WeighedHypothesis& each : weighed) unknown += each.with_unknown ? each.probability : 0.0;
+    return unknown > 0.5;
+}
+
 std::vector<WeighedHypothesis> non_identifiable(std::span<const WeighedHypothesis> weighed) {
-    if (weighed.empty() || weighed.front().probability >= decided) return {};
+    const bool is_unknown = is_probably_unknown(weighed);
+    if (weighed.empty() || (weighed.front().probability >= decided && !is_unknown)) return {};
     std::vector<WeighedHypothesis> group;
     for (const WeighedHypothesis& each : weighed) {
-        if (!each.with_unknown && each.probability >= min_probability && group.size() < largest_group)
-            group.push_back(each);
+        const bool competes = is_unknown ? each.effects != std::vector<std::string>{"none"}
+                                         : each.probability >= min_probability;
+        if (!each.with_unknown && competes && group.size() < largest_group) group.push_back(each);
     }
     if (group.size() < 2) group.clear();
     return group;

@@ -37,11 +37,18 @@ struct ExperimentScore {
 struct NonIdentifiable {
     std::vector<std::vector<std::string>> group;  ///< effects of each explanation, most probable first
     std::vector<ExperimentScore> experiments;     ///< most decisive first; empty if none helps
+    /// None of the group is probable: a cause outside the list is. They are those that come closest.
+    bool is_unknown = false;
 };
 
 /// The explanations that compete with the leading one: each has a probability of at least 0.05, while the
-/// first has less than 0.95. At most three; empty if the recording decides.
+/// first has less than 0.95. Where a cause outside the list is more probable than not, those of the listed
+/// that come closest to it, because an experiment in which they differ shows in what way each is wrong. At
+/// most three; empty if the recording decides.
 std::vector<WeighedHypothesis> non_identifiable(std::span<const WeighedHypothesis> weighed);
+
+/// Whether a cause outside the list is more probable than not.
+bool is_probably_unknown(std::span<const WeighedHypothesis> weighed);
 
 /// Simulates every possible experiment with each explanation as it was fitted. A rival explanation may change
 /// all its numbers, within what the recording allows, to reproduce the outcome. The part of the outcome that

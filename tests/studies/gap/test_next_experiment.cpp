@@ -116,6 +116,19 @@ TEST(NonIdentifiable, LeavesOutExplanationsThatCannotBeSimulated) {
     EXPECT_EQ(group[1].effects.front(), "backlash");
 }
 
+TEST(NonIdentifiable, OfAnUnknownCauseAreTheKnownOnesThatComeClosest) {
+    const ScoredFit any;
+    const std::vector<WeighedHypothesis> weighed = {{{"unknown"}, {}, 0.98, 0.0, &any, true},
+                                                    {{"creep"}, {}, 0.01, -5.0, &any},
+                                                    {{"none"}, {}, 0.006, -5.5, &any},
+                                                    {{"backlash"}, {}, 0.004, -6.0, &any}};
+    ASSERT_TRUE(is_probably_unknown(weighed));
+    const auto group = non_identifiable(weighed);
+    ASSERT_EQ(group.size(), 2u);
+    EXPECT_EQ(group[0].effects.front(), "creep");
+    EXPECT_EQ(group[1].effects.front(), "backlash");
+}
+
 TEST(PossibleExperiments, StayWithinTheTorqueThatTheRecordingShows) {
     const Recording recording = ramps_of_a_bent_bench();
     const auto most = [](const Recording& any) {
