@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "capstan/estimation/rate_exponents.h"
+#include "capstan/effects/rate_exponents.h"
 #include "capstan/solver/cable_ensemble.h"
 
 namespace capstan {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "capstan/estimation/rate_exponents.h"
+#include "capstan/effects/rate_exponents.h"
 #include "capstan/estimation/tension_reading.h"
 #include "capstan/solver/quasi_static_step.h"
 

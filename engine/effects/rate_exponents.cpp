@@ -1,4 +1,4 @@
-#include "capstan/estimation/rate_exponents.h"
+#include "capstan/effects/rate_exponents.h"
 
 #include <algorithm>
 #include <cmath>
