@@ -33,6 +33,10 @@ std::vector<std::string> problems_of(const Cable& cable, const std::vector<Obser
     if (of_the_load > 1) problems.push_back("sensors: two measure the displacement of the load; give one");
     if (!(settings.noise_N > 0.0) || !std::isfinite(settings.noise_N))
         problems.push_back("noise_N: is " + in_digits(settings.noise_N) + ", but must be above 0");
+    if (settings.rate_friction.is_active() &&
+        !(settings.interval_s > 0.0 && std::isfinite(settings.interval_s)))
+        problems.push_back("interval_s: is " + in_digits(settings.interval_s) +
+                           ", but friction that depends on speed needs the time between samples");
     return problems;
 }
 
@@ -51,7 +55,9 @@ Observer::Observer(const Cable& cable, std::vector<ObserverSensor> sensors, cons
       estimator_(step_, start_,
                  {.members = settings.members,
                   .wander = {settings.motor_wander_m, settings.load_wander_m},
-                  .seed = settings.seed}),
+                  .seed = settings.seed,
+                  .rate_friction = settings.rate_friction,
+                  .interval_s = settings.interval_s}),
       sensors_(std::move(sensors)) {
     for (const ObserverSensor& sensor : sensors_) {
         if (!sensor.is_load_displacement)

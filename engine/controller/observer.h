@@ -21,6 +21,9 @@ struct ObserverSettings {
     double motor_wander_m = 0.0;  ///< the same of the motor's end
     int members = 32;             ///< see RecursiveSettings
     std::uint64_t seed = 1;
+    /// Friction that depends on the sliding speed (E41), known exactly; an update then moves the cables twice.
+    RateFriction rate_friction{};
+    double interval_s = 0.0;  ///< between samples, which come at a constant rate; needed with rate_friction
 };
 
 /// The recursive estimator (E36 to E38) as a control loop meets it: one sample in, the tension at every node

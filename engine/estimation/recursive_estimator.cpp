@@ -47,6 +47,11 @@ std::vector<std::string> problems_of(const QuasiStaticStep& model, const CableSt
                                " m; it must be a finite number, at least 0");
         }
     }
+    if (settings.rate_friction.is_active() &&
+        !(settings.interval_s > 0.0 && std::isfinite(settings.interval_s)))
+        problems.push_back(
+            "recursive estimator: friction that depends on speed needs the time between samples; "
+            "give interval_s above 0");
     const auto nodes = static_cast<std::size_t>(model.cable().nodes());
     if (start.tension_N.size() != nodes || start.displacement_m.size() != nodes) {
         problems.push_back("recursive estimator: the start has " + std::to_string(start.tension_N.size()) +
@@ -72,6 +77,15 @@ RecursiveEstimator::RecursiveEstimator(const QuasiStaticStep& model, const Cable
     deviation_N_.assign(start.tension_N.size(), 0.0);
     gain_ = deviation_N_;
     gain_m_per_N_ = deviation_N_;
+    if (!settings.rate_friction.is_active()) return;
+    const Cable& cable = model.cable();
+    sliding_ = Sliding{model,
+                       {settings.rate_friction, cable.relative_length(), cable.mean_segment_length_m(),
+                        settings.interval_s, 1},
+                       model.tables().sliding_exponent,
+                       model.tables().sliding_exponent,
+                       members_};
+    sliding_->model.set_sliding_exponents(sliding_->exponent);
 }
 
 RecursiveReport RecursiveEstimator::step(const KnownEnds& ends, std::span<const TensionReading> readings) {
@@ -96,11 +110,67 @@ RecursiveReport RecursiveEstimator::step(const KnownEnds& ends, std::span<const 
     return report;
 }
 
-// E36. An end without wander is where it is known to be, free of the rounding of summed increments.
 void RecursiveEstimator::move(const KnownEnds& ends, RecursiveReport& report) {
-    const StratifiedScores proximal(normal_scores_, uniforms(settings_.seed, steps_, 0));
-    const StratifiedScores distal(normal_scores_, uniforms(settings_.seed, steps_, 1));
+    if (sliding_)
+        move_sliding(*sliding_, ends, report);
+    else
+        move_with(model_, ends, report);
+}
+
+// E41, with one speed for all members.
+void RecursiveEstimator::move_sliding(Sliding& sliding, const KnownEnds& ends, RecursiveReport& report) {
+    const auto set_exponents = [&] {
+        const auto wrap_rad = sliding.model.cable().wrap_angle_rad();
+        for (std::size_t k = 0; k < wrap_rad.size(); ++k)
+            sliding.exponent[k] = sliding.rates.with_speed(k, sliding.exponent_without_speed[k], wrap_rad[k]);
+        sliding.model.set_sliding_exponents(sliding.exponent);
+    };
+    sliding.before = members_;
+    observe(sliding);
+    set_exponents();
+    move_with(sliding.model, ends, report);
+    observe(sliding);
+    if (sliding.rates.needs_second_trial()) {
+        sliding.rates.end_first_trial();
+        set_exponents();
+        members_ = sliding.before;
+        report = {};
+        move_with(sliding.model, ends, report);
+        observe(sliding);
+    }
+    sliding.rates.end_step();
+}
+
+// Means over the members that carry something.
+void RecursiveEstimator::observe(Sliding& sliding) const {
+    const auto taut = static_cast<double>(std::count_if(
+        members_.begin(), members_.end(), [](const auto& member) { return !is_slack(member); }));
+    for (std::size_t k = 0; k < sliding.rates.size(); ++k) {
+        double tension_N = 0.0;
+        double slid_m = 0.0;
+        for (std::size_t j = 0; j < members_.size(); ++j) {
+            if (is_slack(members_[j])) continue;
+            const CableState& now = members_[j];
+            const std::vector<double>& before_m = sliding.before[j].displacement_m;
+            tension_N += 0.5 * (now.tension_N[k] + now.tension_N[k + 1]);
+            slid_m +=
+                0.5 * (now.displacement_m[k] - before_m[k] + now.displacement_m[k + 1] - before_m[k + 1]);
+        }
+        sliding.rates.observe(k, taut > 0.0 ? tension_N / taut : 0.0, taut > 0.0 ? slid_m / taut : 0.0);
+    }
+}
+
+// E36. An end without wander is where it is known to be, free of the rounding of summed increments.
+void RecursiveEstimator::move_with(const QuasiStaticStep& model, const KnownEnds& ends,
+                                   RecursiveReport& report) {
     const EndWander& wander = settings_.wander;
+    const auto scores = [&](double wander_m, std::uint32_t which) {
+        using Uniforms = std::array<double, 2>;
+        return StratifiedScores(normal_scores_,
+                                wander_m > 0.0 ? uniforms(settings_.seed, steps_, which) : Uniforms{});
+    };
+    const StratifiedScores proximal = scores(wander.proximal_m, 0);
+    const StratifiedScores distal = scores(wander.distal_m, 1);
     const double proximal_known_m = ends.proximal_displacement_m - known_.proximal_displacement_m;
     const double distal_known_m = ends.distal_displacement_m - known_.distal_displacement_m;
     for (std::size_t j = 0; j < members_.size(); ++j) {
@@ -111,8 +181,8 @@ void RecursiveEstimator::move(const KnownEnds& ends, RecursiveReport& report) {
         const double distal_m = wander.distal_m > 0.0 ? member.displacement_m.back() + distal_known_m +
                                                             wander.distal_m * distal[j]
                                                       : ends.distal_displacement_m;
-        const StepReport step = model_.advance(
-            member, {EndCondition::position_m(proximal_m), EndCondition::position_m(distal_m)});
+        const StepReport step =
+            model.advance(member, {EndCondition::position_m(proximal_m), EndCondition::position_m(distal_m)});
         if (!step.verified) ++report.unverified;
         if (is_slack(member)) ++report.slack;
     }

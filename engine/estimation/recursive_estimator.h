@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "capstan/effects/rate_exponents.h"
 #include "capstan/estimation/tension_reading.h"
 #include "capstan/solver/quasi_static_step.h"
 
@@ -30,6 +32,9 @@ struct RecursiveSettings {
     int members = 32;
     EndWander wander;
     std::uint64_t seed = 1;
+    /// Known exactly. Where it is there, mu_s counts as mu_d, as on the bench.
+    RateFriction rate_friction{};
+    double interval_s = 0.0;  ///< between samples; needed with rate_friction
 };
 
 /// How a step went.
@@ -46,10 +51,14 @@ struct RecursiveReport {
 /// (E37, an ensemble Kalman filter without perturbed readings); displacements follow from tensions by E2.
 /// What the next step starts from is thus this step's posterior, never the truth. Random numbers are
 /// stratified over the members and addressed by (seed, step).
+///
+/// Friction that depends on speed (E41) is that of the members' mean motion, the same for all of them: an
+/// end's wander stands for what is not known of it, and is no speed at which anything slides.
 class RecursiveEstimator {
   public:
     /// Starts with all members at `start`. `model` must outlive the estimator. Throws InvalidInput with every
-    /// problem of the settings, or if `start` has another number of nodes than the model.
+    /// problem of the settings, if `start` has another number of nodes than the model, or where rate_friction
+    /// meets rules other than ElongationRule::mean_tension.
     RecursiveEstimator(const QuasiStaticStep& model, const CableState& start,
                        const RecursiveSettings& settings);
 
@@ -68,7 +77,19 @@ class RecursiveEstimator {
     Moments at(const SensorSpot& spot) const;
 
   private:
+    /// Friction that depends on speed, and what it is worked out with.
+    struct Sliding {
+        QuasiStaticStep model;  // with the exponents of a trial
+        RateExponents rates;    // segments
+        std::vector<double> exponent_without_speed;
+        std::vector<double> exponent;
+        std::vector<CableState> before;  // members
+    };
+
     void move(const KnownEnds& ends, RecursiveReport& report);
+    void move_with(const QuasiStaticStep& model, const KnownEnds& ends, RecursiveReport& report);
+    void move_sliding(Sliding& sliding, const KnownEnds& ends, RecursiveReport& report);
+    void observe(Sliding& sliding) const;
     void correct(const TensionReading& reading, RecursiveReport& report);
     void forbid_pushing();
     void take_moments();
@@ -85,6 +106,7 @@ class RecursiveEstimator {
     std::vector<double> gain_m_per_N_;  // nodes: displacement per tension, 0 at the proximal end
     std::vector<double> mean_N_;        // nodes
     std::vector<double> deviation_N_;   // nodes
+    std::optional<Sliding> sliding_;
 };
 
 }  // namespace capstan

@@ -1,8 +1,5 @@
 #include "capstan/solver/candidate.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "capstan/solver/sliding_run.h"
 
 namespace capstan {
@@ -33,25 +30,6 @@ void lay_slack(const PrefixTables& tables, const Candidate& candidate, CableStat
 Candidate mass_motion(const StepView& view, const EndConditions& ends, Direction direction) {
     const Candidate taut = taut_mass_motion(view, ends, direction);
     return taut.proximal.tension_N > 0.0 ? taut : slack(ends);
-}
-
-Candidate opposed_at(const StepView& view, const EndConditions& ends, Direction proximal_direction,
-                     int last_proximal_node, double fraction) {
-    const int p = last_proximal_node;
-    const SideTable& near = view.tables.proximal(sign(proximal_direction));
-    const SideTable& far = view.tables.distal(-sign(proximal_direction));
-    const double exponent =
-        view.tables.sliding_exponent[p] * sign(proximal_direction) * (2.0 * fraction - 1.0);
-    const double ratio = near.tension_ratio[p] * std::exp(exponent) / far.tension_ratio[p + 1];
-    const double elongation = near.front_compliance_m_per_N[p] + ratio * far.front_compliance_m_per_N[p + 1];
-    const EndValues proximal = proximal_values(ends, ratio, elongation);
-    if (!(proximal.tension_N > 0.0)) return slack(ends);
-    const EndValues distal{proximal.tension_N * ratio,
-                           proximal.displacement_m + proximal.tension_N * elongation};
-    return {{MotionKind::opposed, proximal_direction, opposite(proximal_direction), p + 1,
-             view.segments() - p, fraction},
-            proximal,
-            distal};
 }
 
 Candidate slack(const EndConditions& ends) {

@@ -65,11 +65,6 @@ inline Candidate taut_mass_motion(const StepView& view, const EndConditions& end
 /// The same, slack if it needs a tension of zero or less.
 Candidate mass_motion(const StepView& view, const EndConditions& ends, Direction direction);
 
-/// The proximal nodes up to and including `last_proximal_node` slide `proximal`, the others against them; the
-/// velocity is zero at `fraction` of the segment between, which carries exponent (2 fraction - 1) (E7).
-Candidate opposed_at(const StepView& view, const EndConditions& ends, Direction proximal,
-                     int last_proximal_node, double fraction);
-
 /// Tension of a node under a candidate in which it moves.
 inline double moving_tension_N(const StepView& view, const Candidate& candidate, int node) {
     const MotionPattern& pattern = candidate.pattern;

@@ -65,7 +65,14 @@ PrefixTables::PrefixTables(const Cable& cable, const ModelRules& rules)
     }
 }
 
-// Products in place of exponentials: within rounding of the tables made from a cable.
+void PrefixTables::set_sliding_exponents(std::span<const double> exponents) {
+    for (std::size_t s = 0; s < exponents.size(); ++s) {
+        sliding_exponent[s] = exponents[s];
+        sliding_ratio[s] = breakaway_ratio[s] = std::exp(exponents[s]);
+    }
+    fill_sides();
+}
+
 void PrefixTables::assign(double mean_compliance_m_per_N, const double* exponents, const double* ratios,
                           const double* breakaway_ratios, std::size_t stride) {
     const std::size_t segments = sliding_ratio.size();
@@ -76,6 +83,12 @@ void PrefixTables::assign(double mean_compliance_m_per_N, const double* exponent
         sliding_ratio[s] = ratios[s * stride];
         breakaway_ratio[s] = breakaway_ratios[s * stride];
     }
+    fill_sides();
+}
+
+// Products in place of exponentials: within rounding of the tables made from a cable.
+void PrefixTables::fill_sides() {
+    const std::size_t segments = sliding_ratio.size();
     const auto fill = [&](SideTable& table, bool grows, bool from_proximal) {
         double ratio = 1.0;
         double elongation = 0.0;

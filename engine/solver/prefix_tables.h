@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <new>
+#include <span>
 #include <vector>
 
 #include "capstan/cable/cable.h"
@@ -44,6 +45,9 @@ struct SideTable {
 struct PrefixTables {
     PrefixTables(const Cable& cable, const ModelRules& rules);
 
+    /// Other exponents, and mu_s as mu_d, under ElongationRule::mean_tension. Allocates nothing.
+    void set_sliding_exponents(std::span<const double> exponents);  // segments
+
     /// The same from segments that are already known, under ElongationRule::mean_tension; the cut stays.
     void assign(double mean_compliance_m_per_N, const double* sliding_exponent, const double* sliding_ratio,
                 const double* breakaway_ratio, std::size_t stride);
@@ -58,6 +62,8 @@ struct PrefixTables {
     std::vector<double> breakaway_ratio;          // segments: exp(mu_s times wrap angle)
 
   private:
+    void fill_sides();
+
     std::array<SideTable, 2> proximal_;  // backward, forward
     std::array<SideTable, 2> distal_;
 };

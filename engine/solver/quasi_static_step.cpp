@@ -1,5 +1,7 @@
 #include "capstan/solver/quasi_static_step.h"
 
+#include <string>
+
 #include "capstan/cable/invalid_input.h"
 #include "capstan/solver/pattern_search.h"
 #include "capstan/solver/sides.h"
@@ -27,9 +29,21 @@ namespace {
 QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
     : cable_(cable), rules_(rules), tables_(cable_, rules) {}
 
+void QuasiStaticStep::set_sliding_exponents(std::span<const double> exponents) {
+    if (rules_.elongation != ElongationRule::mean_tension)
+        throw InvalidInput(
+            {"a step with other friction exponents needs ElongationRule::mean_tension; take "
+             "ModelRules::consistent()"});
+    if (exponents.size() != tables_.sliding_exponent.size())
+        throw InvalidInput({"a step on " + std::to_string(tables_.sliding_exponent.size()) +
+                            " segments was given " + std::to_string(exponents.size()) +
+                            " friction exponents; give one for each segment"});
+    tables_.set_sliding_exponents(exponents);
+}
+
 // Nearly every step takes the first candidate pattern: two sides that do not meet or that meet in one
-// segment, else mass motion. That way is laid out in one piece and writes as soon as it knows; any other
-// begins anew with the search.
+// segment, else mass motion, or a zero-velocity point where the ends are driven against each other. That way
+// is laid out in one piece and writes as soon as it knows; any other begins anew with the search.
 [[gnu::flatten]] StepReport QuasiStaticStep::advance(CableState& state, const EndConditions& ends) const {
     if (!solvable(ends)) refuse(ends);
     const StepView view{tables_, rules_, state};
@@ -44,10 +58,13 @@ QuasiStaticStep::QuasiStaticStep(const Cable& cable, const ModelRules& rules)
     } else if (sides.meet_in_one_segment(view)) {
         likely = partial_motion(sides.proximal, sides.distal);
     } else {
-        if (sides.driven_against_each_other()) return take_what_verifies(view, ends, state);
-        likely = taut_mass_motion(view, ends, sides.common_direction());
+        if (sides.driven_against_each_other()) {
+            likely = opposed_motion(view, ends, sides.proximal.direction, patterns_tried);
+        } else {
+            likely = taut_mass_motion(view, ends, sides.common_direction());
+            ++patterns_tried;
+        }
         if (!(likely.proximal.tension_N > 0.0)) return take_what_verifies(view, ends, state);
-        ++patterns_tried;
     }
     if (!is_finite(likely) || !resting_nodes_hold(view, likely) ||
         !write_if_both_move(proximal_run(view, likely), distal_run(view, likely), view, state)) {

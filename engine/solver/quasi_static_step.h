@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "capstan/cable/cable_state.h"
 #include "capstan/solver/end_condition.h"
 #include "capstan/solver/model_rules.h"
@@ -35,6 +37,11 @@ class QuasiStaticStep {
     /// finite number, if a spring pushes back the wrong way, or if both ends prescribe a tension (the
     /// displacement would be undetermined); `state` is then unchanged.
     StepReport advance(CableState& state, const EndConditions& ends) const;
+
+    /// Takes other friction exponents (segments: mu_d times wrap angle), and mu_s as mu_d, for the steps that
+    /// follow: friction that depends on speed (E41). Allocates nothing. Throws InvalidInput under rules other
+    /// than ElongationRule::mean_tension, or if there are not as many as segments.
+    void set_sliding_exponents(std::span<const double> exponents);
 
     const Cable& cable() const { return cable_; }
     const ModelRules& rules() const { return rules_; }

@@ -1,8 +1,10 @@
-"""Documents of the repository that are pages of the book: an idea is written once."""
+"""Documents of the repository that are pages of the book: an idea is written once, and its blocks are run."""
 
 import os
 import re
 from pathlib import PurePosixPath
+
+import blocks
 
 PAGES = {
     "engine/README.md": "theory/equations.md",
@@ -16,6 +18,8 @@ PAGES = {
     "CONTRIBUTING.md": "how-to/extend.md",
     "CHANGELOG.md": "reference/changes.md",
 }
+# python.documentation and matlab.example run their blocks.
+RUN_BY_OTHER_TESTS = ("studies/python/README.md", "studies/matlab/README.md")
 SOURCE = re.compile(r"^<!-- source: (\S+) -->$", re.M)
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 # Titles as the book has them.
@@ -40,6 +44,8 @@ def write(book, source):
         text = LINK.sub(lambda found, at=document, to=page: _link(found, at, to), text)
         if document == "engine/README.md":
             text = re.sub(r"^\| E(\d+) \|", r"| [E\1](e\1) |", text, flags=re.M)
+        if document not in RUN_BY_OTHER_TESTS:
+            text = blocks.executed(page, text, book.runs / page.replace("/", "-"), book.surroundings)
         book.write(page, text)
 
 

@@ -198,8 +198,8 @@ const Option estimate_model_option{
     .name = "model",
     .value = "FILE",
     .meaning =
-        "Take friction, stiffness, pretension, bends and zeros, with their intervals, from a model that "
-        "`capstan diagnose --save` wrote."};
+        "Take friction (also viscous and Stribeck), stiffness, pretension, bends and zeros, with their intervals, "
+        "from a model that `capstan diagnose --save` wrote."};
 
 const Option cut_option{.name = "segments",
                         .kind = OptionKind::integer,

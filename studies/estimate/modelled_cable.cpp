@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "capstan/bench_model/model_prediction.h"
 #include "capstan/cable/invalid_input.h"
@@ -25,14 +27,28 @@ double deviation_factor(const FittedNumber& ratio) {
     return std::exp(std::log(ratio.interval->high / ratio.interval->low) / (2.0 * two_sided_95));
 }
 
+// The same of an effect's number, which may be 0.
+double deviation_factor(const BenchModel& model, const char* effect, const char* number) {
+    for (const bench_model::ModelEffect& each : model.effects) {
+        if (each.name != effect) continue;
+        for (const FittedNumber& fitted : each.numbers) {
+            if (fitted.name != number || !fitted.interval || !(fitted.value > 0.0)) continue;
+            return 1.0 + (fitted.interval->high - fitted.interval->low) / (2.0 * two_sided_95 * fitted.value);
+        }
+    }
+    return 1.0;
+}
+
 std::vector<ShiftedCable> uncertain_numbers(const BenchModel& model) {
-    const std::vector<ShiftedCable> all = {{.friction_ratio = deviation_factor(model.friction_ratio)},
-                                           {.stiffness_ratio = deviation_factor(model.stiffness_ratio)},
-                                           {.pretension_ratio = deviation_factor(model.pretension_ratio)}};
+    const std::vector<ShiftedCable> all = {
+        {.friction_ratio = deviation_factor(model.friction_ratio)},
+        {.stiffness_ratio = deviation_factor(model.stiffness_ratio)},
+        {.pretension_ratio = deviation_factor(model.pretension_ratio)},
+        {.viscous_ratio = deviation_factor(model, "viscous_friction", "drag")},
+        {.stribeck_ratio = deviation_factor(model, "stribeck", "extra_friction")}};
     std::vector<ShiftedCable> uncertain;
     for (const ShiftedCable& each : all)
-        if (each.friction_ratio * each.stiffness_ratio * each.pretension_ratio > 1.0)
-            uncertain.push_back(each);
+        if (each.is_shifted()) uncertain.push_back(each);
     return uncertain;
 }
 
@@ -73,26 +89,42 @@ bool has_bend(const LocalBend& bend, const std::string& cable) {
            (bend.cables == BentCables::both || (bend.cables == BentCables::only_a) == (cable == "A"));
 }
 
-std::vector<std::string> unused_parts(const BenchModel& model, double sample_rate_Hz) {
+constexpr std::array<std::string_view, 4> used_effects = {"viscous_friction", "stribeck", "local_bend",
+                                                          "pretension_drift"};
+
+std::string following_words(const bench_model::ModelFollowing& following, const std::string& change) {
+    const std::string zero = "zero_of_";
+    const std::string what = change.starts_with(zero) ? "zero of " + channel_words(change.substr(zero.size()))
+                             : change == "pretension_log" ? "pretension"
+                                                          : "friction";
+    return fmt::format("{} that follows {}", what, following.condition);
+}
+
+}  // namespace
+
+std::vector<std::string> parts_not_used(const BenchModel& model, const UsedParts& used) {
     std::vector<std::string> unused;
     const auto add = [&](const std::string& words) {
         if (std::find(unused.begin(), unused.end(), words) == unused.end()) unused.push_back(words);
     };
     for (const bench_model::ModelEffect& effect : model.effects)
-        if (effect.name != "local_bend" && effect.name != "pretension_drift") add(cause_title(effect.name));
+        if (std::find(used.effects.begin(), used.effects.end(), effect.name) == used.effects.end())
+            add(cause_title(effect.name));
     for (const bench_model::ModelSensor& sensor : model.sensors) {
         for (const FittedNumber& fault : sensor.faults) {
-            if (fault.name == "gain" || fault.name == "offset") continue;
+            if (used.zeros_and_gains && (fault.name == "gain" || fault.name == "offset")) continue;
             // Within a sample no estimate of a sample changes.
-            if (fault.name == "time_misalignment" && std::abs(fault.value) * sample_rate_Hz < 1.0) continue;
+            if (fault.name == "time_misalignment" && std::abs(fault.value) * used.sample_rate_Hz < 1.0)
+                continue;
             const std::string cause = find_cause(fault.name) != nullptr ? fault.name : "sensor_" + fault.name;
             add(fmt::format("{} ({})", cause_title(cause), channel_words(sensor.channel)));
         }
     }
+    if (used.conditions) return unused;
+    for (const bench_model::ModelFollowing& following : model.follows)
+        for (const FittedNumber& change : following.changes) add(following_words(following, change.name));
     return unused;
 }
-
-}  // namespace
 
 std::vector<CurvaturePiece> with_bend(const std::vector<CurvaturePiece>& path, double from_m, double to_m,
                                       double extra_angle_rad) {
@@ -125,7 +157,10 @@ ModelledCables modelled_cables(const Recording& recording, const BenchModel& mod
     const BenchNumbers numbers = numbers_for(model, corrected);
     const LocalBend& bend = numbers.effects.of<LocalBend>();
     ModelledCables modelled{sensed_cables(corrected, segments),
-                            unused_parts(model, recording.sample_rate_Hz)};
+                            parts_not_used(model, {.effects = used_effects,
+                                                   .zeros_and_gains = true,
+                                                   .conditions = true,
+                                                   .sample_rate_Hz = recording.sample_rate_Hz})};
     for (SensedCable& cable : modelled.cables) {
         if (has_bend(bend, cable.name))
             cable.specification.curvature = with_bend(cable.specification.curvature, bend.stretch().from_m,
@@ -133,6 +168,7 @@ ModelledCables modelled_cables(const Recording& recording, const BenchModel& mod
         for (std::size_t run = 0; run < cable.runs.size(); ++run)
             cable.runs[run].friction_ratio = numbers.in_run(corrected.runs[run]).friction_ratio;
         cable.uncertain = uncertain_numbers(model);
+        cable.rate_friction = {numbers.effects.of<ViscousFriction>(), numbers.effects.of<Stribeck>()};
     }
     return modelled;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "capstan/cable/cable_state.h"
 #include "capstan/cable/invalid_input.h"
@@ -118,6 +119,12 @@ SensedRun sensed_run(const Recording& recording, const RecordedRun& run, CableNa
 
 }  // namespace
 
+bool ShiftedCable::is_shifted() const {
+    const double ratios[] = {friction_ratio, stiffness_ratio, pretension_ratio, viscous_ratio,
+                             stribeck_ratio};
+    return std::any_of(std::begin(ratios), std::end(ratios), [](double ratio) { return ratio != 1.0; });
+}
+
 CableSpecification SensedCable::specification_in(const SensedRun& run) const {
     CableSpecification in_run = specification;
     in_run.pretension_N = run.pretension_N;
@@ -137,6 +144,7 @@ std::vector<SensedCable> sensed_cables(const Recording& as_recorded, int segment
         if (sources.empty()) continue;
         SensedCable cable;
         cable.name = name == CableName::a ? "A" : "B";
+        cable.interval_s = 1.0 / recording.sample_rate_Hz;
         cable.specification = cable_specification(bench.curvature,
                                                   {.dynamic_friction = bench.dynamic_friction,
                                                    .static_friction = bench.static_friction,

@@ -30,6 +30,10 @@ struct ShiftedCable {
     double friction_ratio = 1.0;
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;
+    double viscous_ratio = 1.0;   ///< on the drag of E20
+    double stribeck_ratio = 1.0;  ///< on the extra friction of E21
+
+    bool is_shifted() const;
 };
 
 /// One cable of a recorded bench: the motion of its ends and the readings of its tension.
@@ -40,6 +44,8 @@ struct SensedCable {
     std::vector<SensedRun> runs;
     /// One for each uncertain number; none: the numbers are taken for exact.
     std::vector<ShiftedCable> uncertain{};
+    RateFriction rate_friction{};
+    double interval_s = 0.0;  ///< between samples
 
     /// The cable in one of its runs.
     CableSpecification specification_in(const SensedRun& run) const;

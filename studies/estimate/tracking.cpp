@@ -49,13 +49,19 @@ class ShiftedModels {
             specification.pretension_N *= shift.pretension_ratio;
             models_.emplace_back(Cable(specification), ModelRules::consistent());
             rests_.push_back(pretensioned(models_.back().cable()));
+            RateFriction& rate = rate_friction_.emplace_back(cable.rate_friction);
+            rate.viscous.drag_N_s_per_m2 *= shift.viscous_ratio;
+            rate.stribeck.extra_friction *= shift.stribeck_ratio;
         }
     }
 
-    std::vector<RecursiveEstimator> estimators(const RecursiveSettings& settings) const {
+    std::vector<RecursiveEstimator> estimators(RecursiveSettings settings) const {
         std::vector<RecursiveEstimator> all;
         all.reserve(models_.size());
-        for (std::size_t k = 0; k < models_.size(); ++k) all.emplace_back(models_[k], rests_[k], settings);
+        for (std::size_t k = 0; k < models_.size(); ++k) {
+            settings.rate_friction = rate_friction_[k];
+            all.emplace_back(models_[k], rests_[k], settings);
+        }
         return all;
     }
 
@@ -70,6 +76,7 @@ class ShiftedModels {
   private:
     std::vector<QuasiStaticStep> models_;
     std::vector<CableState> rests_;
+    std::vector<RateFriction> rate_friction_;
 };
 
 }  // namespace
@@ -105,6 +112,8 @@ TrackingSummary track(const SensedCable& cable, const ChannelSet& used, const Mo
     settings.members = options.members;
     settings.seed = options.seed;
     settings.wander = {trust.wander_m, trust.wander_m};
+    settings.rate_friction = cable.rate_friction;
+    settings.interval_s = cable.interval_s;
     for (std::size_t r = 0; r < cable.runs.size(); ++r) {
         const SensedRun& run = cable.runs[r];
         const QuasiStaticStep model(Cable(cable.specification_in(run)), ModelRules::consistent());

@@ -9,6 +9,7 @@
 #include "capstan/bench_model/model_file.h"
 #include "capstan/bench_model/model_prediction.h"
 #include "capstan/cable/conduit.h"
+#include "capstan/estimate/modelled_cable.h"
 #include "capstan/reports/page_frame.h"
 #include "long_call.h"
 
@@ -47,6 +48,21 @@ py::tuple cable_numbers(const BenchModel& model) {
     return py::make_tuple(at_m, bends, bench.axial_stiffness_N * model.stiffness_ratio.value,
                           bench.dynamic_friction * model.friction_ratio.value,
                           bench.static_friction * model.friction_ratio.value, model.pretension_ratio.value);
+}
+
+// Drag, extra friction, its speed and its memory (E20, E21).
+py::tuple rate_friction(const BenchModel& model) {
+    const BenchEffects effects = model.numbers().effects;
+    const auto& stribeck = effects.of<Stribeck>();
+    return py::make_tuple(effects.of<ViscousFriction>().drag_N_s_per_m2, stribeck.extra_friction,
+                          stribeck.speed_m_per_s, stribeck.memory_s);
+}
+
+// What an observer of cable_numbers() leaves out; without an interval also rate_friction().
+std::vector<std::string> not_used_by_observer(const BenchModel& model, double interval_s) {
+    static constexpr std::string_view by_speed[] = {"viscous_friction", "stribeck"};
+    if (!(interval_s > 0.0)) return estimate::parts_not_used(model, {});
+    return estimate::parts_not_used(model, {.effects = by_speed, .sample_rate_Hz = 1.0 / interval_s});
 }
 
 std::shared_ptr<PythonPrediction> predict(const BenchModel& model,
@@ -100,6 +116,8 @@ void bind_models(py::module_& module) {
         .def("save", [](const BenchModel& model,
                         const std::filesystem::path& file) { bench_model::write_model(file, model); })
         .def("cable_numbers", &cable_numbers)
+        .def("rate_friction", &rate_friction)
+        .def("not_used_by_observer", &not_used_by_observer)
         .def("predict", &predict);
 }
 

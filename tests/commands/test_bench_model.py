@@ -110,14 +110,14 @@ class BenchModel(CapstanTest):
         # A model with twice the friction predicts worse, and the estimator takes it at its word.
         line = next(line for line in text.splitlines() if line.startswith("friction_ratio = "))
         self.write("model.toml", text.replace(line, "friction_ratio = 2.0") +
-                   "\n[effect.viscous_friction]\ndrag_N_s_per_m2 = 0.001\n")
+                   "\n[effect.viscous_friction]\ndrag_N_s_per_m2 = 0.001\n\n[effect.bending_stiffness]\ndrag_N_per_m = 0.001\n")
         told = json.loads(self.run_capstan("estimate", SINGLE, "--leave-out", "tension_3", "--model", "model.toml",
                                            "--json").stdout)
         self.assertEqual(told["model"]["recording"], "single-cable")
-        self.assertEqual(told["model"]["not_used"], ["viscous friction"])
+        self.assertEqual(told["model"]["not_used"], ["bending stiffness"])  # it uses viscous friction
         self.assertGreater(told["channels"][0]["model_alone_rms_N"], 2 * without["channels"][0]["model_alone_rms_N"])
         stated = self.run_capstan("estimate", SINGLE, "--model", "model.toml", "-o", "tensions.csv").stderr
-        self.assertIn("The estimator cannot use one part of the model: viscous friction.", stated)
+        self.assertIn("The estimator cannot use one part of the model: bending stiffness.", stated)
         self.assertIn("--model is for recordings", self.run_capstan("estimate", CONFIGS / "paper.toml", "--model",
                                                                     "model.toml", expect=2).stderr)
 

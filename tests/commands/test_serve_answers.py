@@ -7,6 +7,7 @@ import unittest
 import tension_recording
 from capstan_program import CONFIGS, PROGRAM
 from capstan_service import ServiceTest
+from test_worlds import ARM, CONSTRAINTS
 
 QUICK = (CONFIGS / "quick.toml").read_text()
 
@@ -28,9 +29,14 @@ class ServeAnswers(ServiceTest):
             ("place", {"config_toml": QUICK, "noise": "5 %"}, ("--noise", "5 %")),
             ("sensitivity", {"config_toml": QUICK, "sensors": 1}, ("--sensors", 1)),
             ("estimate", {"config_toml": QUICK}, ()),
+            ("place", {"config_toml": ARM}, ()),
+            ("place", {"config_toml": ARM + CONSTRAINTS}, ()),
+            ("sensitivity", {"config_toml": ARM + CONSTRAINTS}, ()),
         ):
             job = self.post("/api/answers", {"command": command, **body}, expect=202)[0]
-            self.assertEqual((job["kind"], job["title"]), (command, "quick"))
+            toml = body.get("config_toml", QUICK)
+            self.assertEqual((job["kind"], job["title"]), (command, "quick" if toml == QUICK else "arm"))
+            self.write("shell.toml", toml)
             expected = self.run_capstan(command, "shell.toml", *words, "--json", "--progress", "none").stdout
             self.assertEqual(self.answer_of(job), expected, command)
         self.assertEqual(self.get("/api/studies"), [])  # nothing is stored in the database

@@ -50,6 +50,13 @@ price = 2.0
 families = "all"
 counts = [1, 2]
 """
+CONSTRAINTS = """
+[placement]
+search = "all"
+max_sensors = 2
+forbidden_m = [0.0, 0.3]
+required_m = [0.8]
+"""
 
 
 class Worlds(CapstanTest):
@@ -58,6 +65,13 @@ class Worlds(CapstanTest):
         self.write("arm.toml", ARM)
 
     def test_every_way_to_ask_gives_the_same_sensors_and_the_same_bits(self):
+        for constraints in ("", CONSTRAINTS):
+            with self.subTest(constraints=constraints):
+                self.write("arm.toml", ARM + constraints)
+                self.ask_in_every_way(constraints)
+
+    def ask_in_every_way(self, constraints):
+        (self.folder / "arm.db").unlink(missing_ok=True)
         run = json.loads(self.run_capstan("study", "run", "arm.toml", "--db", "arm.db", "--json").stdout)
         recommended = json.loads(self.run_capstan("recommend", "--db", "arm.db", "--json").stdout)
         self.assertEqual(run, recommended)
@@ -67,6 +81,13 @@ class Worlds(CapstanTest):
         varied = json.loads(self.run_capstan("sensitivity", "arm.toml", "--json").stdout)
         self.assertEqual(varied["set"], run["recommendations"][0]["set"])
         self.assertEqual(varied["error_N"], run["recommendations"][0]["expected_error_N"])
+        self.write("fewer.toml", (ARM + constraints).replace("repetitions = 24", "repetitions = 20"))
+        (self.folder / "fewer.db").unlink(missing_ok=True)
+        self.run_capstan("study", "run", "fewer.toml", "--db", "fewer.db")
+        self.run_capstan("study", "extend", "--repetitions", 24, "--db", "fewer.db")
+        extended = json.loads(self.run_capstan("recommend", "--db", "fewer.db", "--json").stdout)
+        self.assertEqual(extended["recommendations"], run["recommendations"])
+        self.assertEqual(extended["prices"], run["prices"])
 
     def test_sensitivity_varies_each_stated_number(self):
         self.write("noisy.toml", ARM + "\n[sensitivity]\nvalues = 3\nnoise_ratio = [0.1, 1000]\nfriction_ratio = [1, 1]\n")
@@ -127,7 +148,7 @@ class Worlds(CapstanTest):
         self.assertIn("Without any sensor it is", words)
 
     def test_constraints_are_obeyed_and_named_where_they_clash(self):
-        self.write("near.toml", ARM + '\n[placement]\nsearch = "all"\nmax_sensors = 2\nforbidden_m = [0.0, 0.3]\nrequired_m = [0.8]\n')
+        self.write("near.toml", ARM + CONSTRAINTS)
         answer = json.loads(self.run_capstan("place", "near.toml", "--json").stdout)
         for price in answer["prices"]:
             places = [sensor["place_m"] for sensor in price["sensors"] if sensor["kind"] == "tension"]

@@ -141,6 +141,30 @@ class Answers(unittest.TestCase):
         mean_N, low_N, high_N = observer.update(time_s=0.0, readings=[0.0, 30.0, 0.0])
         self.assertEqual(mean_N.shape, (13,))
 
+    def test_an_observer_of_a_model_has_its_friction_and_says_what_it_leaves_out(self) -> None:
+        def observer(interval_s: float | None) -> cp.Observer:
+            return self.found.model.observer(
+                sensors=[("displacement", "load")], noise_N=0.2, pretension_N=30.0, load_wander_m=0.0, interval_s=interval_s
+            )
+
+        plain, by_speed = observer(None), observer(0.01)
+        self.assertIn("viscous friction", plain.not_used)
+        self.assertNotIn("viscous friction", by_speed.not_used)
+        self.assertIn("not_used", repr(plain))
+        # A load that moves away fast, its drag on the way: less tension reaches the motor than in a plain cable.
+        ends_N = []
+        for each in (plain, by_speed):
+            for sample in range(5):
+                mean_N = each.update(0.01 * sample, [-0.001 * sample, 0.0012 * sample])[0]
+            ends_N.append(mean_N[-1] - mean_N[0])
+        self.assertGreater(ends_N[1], ends_N[0] + 0.01)
+
+    def test_an_observer_whose_friction_depends_on_speed_needs_an_interval(self) -> None:
+        friction = cp.RateFriction(drag_N_s_per_m2=5.0, extra_friction=0.05)
+        with self.assertRaises(cp.Error) as refused:
+            cp.Observer(small_cable(), sensors=[("tension", 0.0)], noise_N=0.1, rate_friction=friction)
+        self.assertIn("interval_s", str(refused.exception))
+
 
 class Observers(unittest.TestCase):
     def test_a_sensor_corrects_the_tension_where_it_is(self) -> None:

@@ -13,7 +13,7 @@ from capstan.cable import Bend, Blocked, Cable, Moved, Path, Spring, Weight
 from capstan.diagnosis import Cause, Closed, Diagnosis, Experiment, FittedNumber, Interval, diagnose
 from capstan.errors import Error
 from capstan.model import Model, Prediction, read_model
-from capstan.observer import Observer
+from capstan.observer import Observer, RateFriction
 from capstan.recording import Recording, Run, read_recording
 from capstan.study import Study, place
 
@@ -35,6 +35,7 @@ __all__ = [
     "Observer",
     "Path",
     "Prediction",
+    "RateFriction",
     "Recording",
     "Run",
     "Spring",

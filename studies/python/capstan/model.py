@@ -10,7 +10,7 @@ import numpy.typing as npt
 from capstan import _core
 from capstan.answer import Answer
 from capstan.cable import Bend, Cable
-from capstan.observer import Observer, Sensor
+from capstan.observer import Observer, RateFriction, Sensor
 from capstan.recording import FileName, Recording
 
 
@@ -76,11 +76,17 @@ class Model:
         noise_N: float,
         pretension_N: float,
         segments: int = 12,
+        interval_s: float | None = None,
         **settings: Any,
     ) -> Observer:
-        """An observer of `cable(...)`; `settings` are those of `Observer`."""
+        """An observer of `cable(...)`; `settings` are those of `Observer`. With `interval_s`, the time between samples, it
+        also has the model's viscous and Stribeck friction. Its `not_used` names what of the model it leaves out, such as
+        other effects, and zeros of sensors, which the caller can take off the readings."""
         cable = self.cable(pretension_N=pretension_N, segments=segments)
-        return Observer(cable, sensors=sensors, noise_N=noise_N, **settings)
+        friction = RateFriction(*self._model.rate_friction()) if interval_s is not None else RateFriction()
+        observer = Observer(cable, sensors=sensors, noise_N=noise_N, rate_friction=friction, interval_s=interval_s, **settings)
+        observer.not_used = tuple(self._model.not_used_by_observer(interval_s or 0.0))
+        return observer
 
     def __repr__(self) -> str:
         length_m, bends, axial_stiffness_N, friction, _, _ = self._model.cable_numbers()

@@ -1,13 +1,31 @@
 """The tension along a cable, estimated while it moves."""
 
 from collections.abc import Sequence
+from dataclasses import astuple, dataclass
 from typing import Union
 
 from capstan import _core
 from capstan.cable import Cable
+from capstan.errors import Error
 
 Sensor = Union[tuple[str, float], tuple[str, str]]
 """("tension", place in m from the motor), or ("displacement", "load")."""
+
+
+@dataclass(frozen=True)
+class RateFriction:
+    """Friction that depends on the sliding speed v (E20, E21): a drag of `drag_N_s_per_m2` v on each metre of cable, and a
+    friction coefficient that is higher by `extra_friction` exp(-(v / `speed_m_per_s`)^2), v low-passed with `memory_s`.
+
+    >>> import capstan as cp
+    >>> cp.RateFriction(drag_N_s_per_m2=2.0).extra_friction
+    0.0
+    """
+
+    drag_N_s_per_m2: float = 0.0
+    extra_friction: float = 0.0
+    speed_m_per_s: float = 0.05
+    memory_s: float = 0.04
 
 
 class Observer(_core.Observer):
@@ -22,6 +40,10 @@ class Observer(_core.Observer):
     `update(time_s, readings)` takes how much cable the motor has reeled in since the start [m; positive pulls], then
     one reading of each sensor: tensions in N, the load's displacement in m, positive away from the motor. It gives
     three arrays over the nodes [N]: the mean, and the limits of the 95% band.
+
+    With `rate_friction` the friction also depends on the speed (E41); that needs `interval_s`, the time between samples,
+    and an update then takes about twice as long. `not_used` says in words what of a model an observer leaves out, where
+    `Model.observer` made it.
 
     >>> import capstan as cp
     >>> cable = cp.Cable(length_m=1.2, bends=[cp.Bend(180, 0.1, 0.3)], axial_stiffness_N=9e3, friction=0.1,
@@ -44,9 +66,16 @@ class Observer(_core.Observer):
         motor_wander_m: float = 0.0,
         members: int = 32,
         seed: int = 1,
+        rate_friction: RateFriction = RateFriction(),
+        interval_s: float | None = None,
     ) -> None:
         self.sensors = tuple(sensors)
-        super().__init__(cable._core, self.sensors, noise_N, load_wander_m, motor_wander_m, members, seed)
+        self.not_used: tuple[str, ...] = ()
+        if not isinstance(rate_friction, RateFriction):
+            raise Error([f"rate_friction: is {str(rate_friction)[:80]}, but must be a RateFriction"])
+        friction = astuple(rate_friction)
+        super().__init__(cable._core, self.sensors, noise_N, load_wander_m, motor_wander_m, members, seed, friction, interval_s)
 
     def __repr__(self) -> str:
-        return f"Observer(sensors={list(self.sensors)})"
+        left_out = f", not_used={list(self.not_used)}" if self.not_used else ""
+        return f"Observer(sensors={list(self.sensors)}{left_out})"

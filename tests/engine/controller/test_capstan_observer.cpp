@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capstan/cable/conduit.h"
+#include "capstan/cable/invalid_input.h"
 #include "capstan/controller/capstan_observer.h"
 #include "capstan/controller/observer.h"
 #include "solver/allocation_count.h"
@@ -138,6 +139,45 @@ TEST_F(CObserver, ARefusedSampleChangesNothing) {
     EXPECT_EQ(capstan_observer_update(observer, 0.001, good.data(), mean_N.data(), nullptr, nullptr),
               CAPSTAN_OK);
     EXPECT_NEAR(mean_N[0], 20.0, 5.0);
+}
+
+// The drag acts against the motion, so that a cable that is reeled in carries less tension away from the
+// motor.
+TEST(Observer, WithFrictionThatDependsOnSpeedFollowsItAndAllocatesNothing) {
+    const Cable cable({.curvature = pieces_of({{M_PI, 0.1, 0.3}}, 1.2),
+                       .segments = 12,
+                       .axial_stiffness_N = 9e3,
+                       .dynamic_friction = 0.12,
+                       .static_friction = 0.12,
+                       .pretension_N = 20.0});
+    const std::vector<ObserverSensor> sensors = {{false, 0.0}, {true, 0.0}};
+    Observer plain(cable, sensors, {.noise_N = 5.0});
+    ObserverSettings settings{.noise_N = 5.0};
+    settings.rate_friction.viscous.drag_N_s_per_m2 = 40.0;
+    EXPECT_THROW(Observer(cable, sensors, settings), InvalidInput);  // without the time between samples
+    settings.interval_s = 0.001;
+    Observer dragged(cable, sensors, settings);
+    const long before = test::allocations();
+    for (int sample = 1; sample <= 2000; ++sample) {
+        const double reel_m = 0.004 * std::sin(0.02 * sample);
+        const double readings[] = {reel_m, 20.0 + 5e3 * reel_m, -0.3 * reel_m};
+        plain.update(0.001 * sample, readings);
+        dragged.update(0.001 * sample, readings);
+    }
+    EXPECT_EQ(test::allocations(), before);
+    std::vector<double> plain_N(39), dragged_N(39);
+    const auto write = [](const Observer& observer, std::span<double> all_N) {
+        observer.write_estimate(all_N.subspan(0, 13), all_N.subspan(13, 13), all_N.subspan(26, 13));
+    };
+    for (int sample = 2001; sample <= 2030; ++sample) {
+        const double reel_m = 0.08 * 0.001 * (sample - 2000);
+        const double readings[] = {reel_m, 20.0, 0.0};
+        plain.update(0.001 * sample, readings);
+        dragged.update(0.001 * sample, readings);
+    }
+    write(plain, plain_N);
+    write(dragged, dragged_N);
+    EXPECT_GT(dragged_N[0] - dragged_N[12], plain_N[0] - plain_N[12] + 0.5);
 }
 
 }  // namespace
