@@ -248,7 +248,7 @@ std::string next_experiment_sentence(const gap::NonIdentifiable& open) {
     const gap::ExperimentScore& best = open.experiments.front();
     const std::string next = text + fmt::format(" Record next: {}. ", best.description);
     if (open.is_unknown)
-        return next + "There their predictions differ most, so that it shows best in what way each is wrong.";
+        return next + "Their predictions differ most there, which shows best how each of them is wrong.";
     return next + fmt::format("It would name the right cause with probability {:.2f}.",
                               best.discrimination_probability);
 }
@@ -274,7 +274,8 @@ reports::AnswerSection next_section(const gap::NonIdentifiable& open, const Data
         .heading = "What to record next",
         .prose = next_experiment_sentence(open),
         .tables = {{"experiments",
-                    "Probability that the right cause would be named",
+                    open.is_unknown ? "Probability that the two most similar would be told apart"
+                                    : "Probability that the right cause would be named",
                     {{"description", "experiment"}, {"discrimination_probability", "probability", "", ".2f"}},
                     first}},
         .note =
