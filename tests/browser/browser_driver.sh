@@ -8,11 +8,17 @@ for tool in node npm "$chromium"; do
     fi
 done
 
-# npm works on a copy, and only when the lock file has changed: the source folder stays as it is.
+# npm works on a copy, and only when the lock file has changed: the source folder stays as it is. Scripts that run at the
+# same time take turns.
 mkdir -p "$work"
-if ! cmp -s "$here/package-lock.json" "$work/installed-lock.json"; then
-    cp "$here/package.json" "$here/package-lock.json" "$here/.npmrc" "$work/"
-    npm --prefix "$work" ci --ignore-scripts --loglevel=error
-    cp "$here/package-lock.json" "$work/installed-lock.json"
-fi
-cp "$here/checks.mjs" "$work/"
+(
+    flock 9
+    if ! cmp -s "$here/package-lock.json" "$work/installed-lock.json"; then
+        cp "$here/package.json" "$here/package-lock.json" "$here/.npmrc" "$work/"
+        npm --prefix "$work" ci --ignore-scripts --loglevel=error
+        cp "$here/package-lock.json" "$work/installed-lock.json"
+    fi
+    for script in "$here"/*.mjs; do
+        cmp -s "$script" "$work/${script##*/}" || cp "$script" "$work/"
+    done
+) 9>"$work/driver.lock"

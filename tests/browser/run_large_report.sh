@@ -8,7 +8,6 @@ capstan=$2
 config=$3
 . "$here/browser_driver.sh"
 
-cp "$here/large_report.mjs" "$work/"
 rm -f "$work"/large.db*
 "$capstan" study run "$config" --db "$work/large.db" --progress none >/dev/null
 "$capstan" report --db "$work/large.db" -o "$work/large.html" 2>/dev/null

@@ -6,5 +6,4 @@ work=$1
 shift
 . "$here/browser_driver.sh"
 
-cp "$here/report_page.mjs" "$work/"
 CHROMIUM=$chromium exec node "$work/report_page.mjs" "$work/screenshots" "$@"

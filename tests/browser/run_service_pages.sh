@@ -8,7 +8,6 @@ capstan=$2
 configs=$3
 . "$here/browser_driver.sh"
 
-cp "$here"/service_*.mjs "$work/"
 rm -rf "$work/served"
 mkdir -p "$work/served"
 "$capstan" gap-trial --cases 1 --seed 4 --length short --severity strong --keep "$work/served/trial" --generate-only \

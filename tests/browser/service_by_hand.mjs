@@ -77,7 +77,7 @@ async function byKeyboard(page) {
 
 async function shared(page, open) {
   const count = await answered(page);
-  await page.selectOption("#hand-regime", "duty_cycle").catch(() => undefined);  // of a study with one regime there is none
+  if (await page.$("#hand-regime option[value=duty_cycle]")) await page.selectOption("#hand-regime", "duty_cycle");
   await page.selectOption("#hand-method", "mean_r");
   await answeredAfter(page, count);
   const link = await page.$eval("#hand-link", (each) => each.value);
