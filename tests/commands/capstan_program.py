@@ -1,6 +1,7 @@
 """Running the program under test in a folder of its own."""
 
 import contextlib
+import marshal
 import os
 import pathlib
 import sqlite3
@@ -54,6 +55,8 @@ class CapstanTest(unittest.TestCase):
         """Names the first difference instead of printing two databases."""
         self.assertEqual(sorted(expected), sorted(actual))
         for table, rows in expected.items():
+            if marshal.dumps(rows, 2) == marshal.dumps(actual[table], 2):  # all at once, and exactly
+                continue
             self.assertEqual(len(rows), len(actual[table]), table)
             for row, other in zip(rows, actual[table]):
                 self.assertEqual(repr(row), repr(other), table)

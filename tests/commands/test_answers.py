@@ -6,6 +6,7 @@ import json
 import unittest
 
 from capstan_program import CONFIGS, CapstanTest
+from small_study import short_worlds
 
 
 class Configurations(CapstanTest):
@@ -18,6 +19,8 @@ class Configurations(CapstanTest):
                 if check["studies"] > 1:  # too long for here; test_shards.py runs a shard of it
                     continue
                 db = config.stem + ".db"
+                if "worlds" in check:
+                    config = self.write(config.name, short_worlds(config.stem))
                 self.run_capstan("study", "run", config, "--db", db, "--repetitions", 20)
                 tables = self.tables(db)
                 if tables["world_candidate"]:

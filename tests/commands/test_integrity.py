@@ -12,10 +12,11 @@ import subprocess
 import unittest
 
 from capstan_program import CONFIGS, PROGRAM, CapstanTest
+from small_study import short_worlds
 
 STUDY = (CONFIGS / "quick.toml", "--repetitions", "20")
 INSTANTS = (CONFIGS / "noise-instants.toml", "--repetitions", "20")
-WORLDS = (CONFIGS / "wrist-exosuit.toml", "--repetitions", "20")
+WORLDS = ("worlds.toml", "--repetitions", "20")
 
 
 def widths():
@@ -25,6 +26,10 @@ def widths():
 
 
 class IntegrityTest(CapstanTest):
+    def setUp(self):
+        super().setUp()
+        self.write("worlds.toml", short_worlds())
+
     def change(self, db, sql, *values):
         with contextlib.closing(sqlite3.connect(self.folder / db)) as connection:
             connection.execute(sql, values)

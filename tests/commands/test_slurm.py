@@ -9,10 +9,11 @@ import unittest
 
 from capstan_program import CONFIGS, CapstanTest
 from slurm_cluster import SlurmCluster, why_not
+from small_study import short_worlds
 
 STUDY = (CONFIGS / "noise-instants.toml", "--repetitions", "2000")  # some seconds a shard
 QUICK = (CONFIGS / "noise-instants.toml", "--repetitions", "20")
-WORLDS = (CONFIGS / "wrist-exosuit.toml", "--repetitions", "20")
+WORLDS = ("worlds.toml", "--repetitions", "20")
 
 
 class WithoutSlurm(CapstanTest):
@@ -27,6 +28,7 @@ class WithoutSlurm(CapstanTest):
 
     def test_dry_run_writes_scripts_that_a_shell_can_run(self):
         """As the tasks of an array would, one after the other."""
+        self.write("worlds.toml", short_worlds())
         for study, name in ((QUICK, "it's 100% d"), (WORLDS, "worlds")):
             with self.subTest(name):
                 self.run_scripts(study, name)

@@ -8,6 +8,7 @@ import time
 import unittest
 
 from capstan_program import CONFIGS, CapstanTest
+from small_study import short_worlds
 
 STUDY = (CONFIGS / "noise-instants.toml", "--repetitions", "400")
 SHARDS = 8
@@ -154,7 +155,7 @@ class Workers(FolderTest):
 
 class Worlds(FolderTest):
     def test_three_workers_share_the_worlds(self):
-        study = (CONFIGS / "wrist-exosuit.toml", "--repetitions", "20")
+        study = (self.write("worlds.toml", short_worlds()), "--repetitions", "20")
         self.run_capstan("study", "submit", *study, "--scheduler", "snakemake", "--shards", 5, "--directory", "study")
         self.end_of(*[self.worker() for _ in range(3)])
         self.run_capstan("study", "run", *study, "--db", "complete.db")

@@ -11,6 +11,8 @@ import numpy as np
 import capstan as cp
 from surroundings import CONFIGS, RECORDINGS, shell
 
+LOG = RECORDINGS / "viscous-pair.csv"
+
 
 class SameBits(unittest.TestCase):
     def setUp(self) -> None:
@@ -40,9 +42,11 @@ class SameBits(unittest.TestCase):
             self.assertEqual(study.recommend(study_id).json(), printed)
 
     def test_a_study_over_worlds(self) -> None:
-        text = (CONFIGS / "wrist-exosuit.toml").read_text()
+        text = (CONFIGS / "wrist-exosuit.toml").read_text().replace("samples = 300", "samples = 40").replace("stop_s = 2.0", "stop_s = 0.3")
+        config = self.folder / "short.toml"
+        config.write_text(text)
         study = cp.Study(text).run(db=self.folder / "python.db", repetitions=20)
-        words = ("study", "run", CONFIGS / "wrist-exosuit.toml", "--repetitions", 20, "--progress", "none", "--json")
+        words = ("study", "run", config, "--repetitions", 20, "--progress", "none", "--json")
         self.assertEqual(study.recommend().json(), shell(*words, "--db", self.folder / "shell.db"))
 
     def test_a_search_of_all_layouts(self) -> None:
@@ -51,35 +55,30 @@ class SameBits(unittest.TestCase):
         self.assertEqual(answer.json(), shell(*words, "--json"))
         self.assertEqual(answer.text(), shell(*words))
 
-    def test_a_diagnosis_of_all_runs_and_of_some(self) -> None:
-        log = RECORDINGS / "viscous-pair.csv"
-        self.assertEqual(cp.diagnose(log).json(), shell("diagnose", log, "--json", "--progress", "none"))
-        held_out = cp.diagnose(cp.read_recording(log), fit_runs=[1], hold_runs=[2])
-        self.assertEqual(held_out.json(), shell("diagnose", log, "--fit", 1, "--hold", 2, "--json", "--progress", "none"))
-        shell("diagnose", log, "--fit", 1, "--hold", 2, "--corrected", self.folder / "model.toml", "--progress", "none")
-        self.assertEqual(held_out.corrected_model(), (self.folder / "model.toml").read_text())
-
-    def test_a_model_and_what_it_predicts(self) -> None:
-        log = RECORDINGS / "viscous-pair.csv"
-        recording = cp.read_recording(log)
-        model = cp.diagnose(recording, fit_runs=[1]).model
-        shell("diagnose", log, "--fit", 1, "--save", self.folder / "shell.toml", "--progress", "none")
-        self.assertEqual(model.text(), (self.folder / "shell.toml").read_text())
-        model.save(self.folder / "python.toml")
-        for judge in (model, cp.read_model(self.folder / "python.toml")):
-            judged = judge.predict(recording, runs=[2])
-            words = ("simulate", log, "--model", self.folder / "shell.toml", "--runs", 2)
-            self.assertEqual(judged.json(), shell(*words, "--json"))
-
-    def test_an_advice_about_what_a_diagnosis_found(self) -> None:
-        found = cp.diagnose(RECORDINGS / "viscous-pair.csv")
-        found.store(self.folder / "found.db", log=RECORDINGS / "viscous-pair.csv")
+    def test_a_diagnosis_of_all_runs_and_an_advice_about_what_it_found(self) -> None:
+        found = cp.diagnose(LOG)
+        self.assertEqual(found.json(), shell("diagnose", LOG, "--json", "--progress", "none"))
+        found.store(self.folder / "found.db", log=LOG)
         config = self.folder / "short.toml"
         text = (CONFIGS / "elbow-exosuit.toml").read_text()
         config.write_text(text.replace("samples = 300", "samples = 40").replace("segments = 22", "segments = 8"))
         answer = cp.place(config, world=found, repetitions=20)
         words = ("place", config, "--from-diagnosis", 1, "--repetitions", 20)
         self.assertEqual(answer.json(), shell(*words, "--db", self.folder / "found.db", "--progress", "none", "--json"))
+
+    def test_a_diagnosis_of_some_runs_its_model_and_what_it_predicts(self) -> None:
+        recording = cp.read_recording(LOG)
+        held_out = cp.diagnose(recording, fit_runs=[1], hold_runs=[2])
+        files = ("--corrected", self.folder / "corrected.toml", "--save", self.folder / "shell.toml")
+        printed = shell("diagnose", LOG, "--fit", 1, "--hold", 2, "--json", *files, "--progress", "none")
+        self.assertEqual(held_out.json(), printed)
+        self.assertEqual(held_out.corrected_model(), (self.folder / "corrected.toml").read_text())
+        self.assertEqual(held_out.model.text(), (self.folder / "shell.toml").read_text())
+        held_out.model.save(self.folder / "python.toml")
+        for judge in (held_out.model, cp.read_model(self.folder / "python.toml")):
+            judged = judge.predict(recording, runs=[2])
+            words = ("simulate", LOG, "--model", self.folder / "shell.toml", "--runs", 2)
+            self.assertEqual(judged.json(), shell(*words, "--json"))
 
     def test_an_import(self) -> None:
         log = self.folder / "log.csv"

@@ -224,30 +224,36 @@ TEST(FurtherSensor, NeverRaisesTheSquaredErrorOnTwentyRandomCables) {
 }
 
 // The particle filter's error is the floor; the ensemble filter comes near it.
-TEST(FurtherSensor, LeavesTheEnsembleFilterNearAParticleFilter) {
-    for (const unsigned number : {1U, 2U, 3U}) {
-        StudyPlan plan = random_plan(200 + number);
-        plan.transmission.cable.segments = 4 + 2 * static_cast<int>(number % 2);
-        plan.motion.samples = 50;
-        plan.uncertainty.members = 128;
-        constexpr int worlds = 8;
-        ErrorTable table(plan, {});
-        const int one = 1;
-        const int most = static_cast<int>(table.candidates().size()) - 1;
-        const std::vector<int> some = {one, most};
-        table.fill(Condition::as_stated, some, 0, worlds, "test");
-        for (const int candidate : some) {
-            const auto& set = table.candidates()[static_cast<std::size_t>(candidate)];
-            std::vector<double> ensemble_N2;
-            for (int w = 0; w < worlds; ++w)
-                ensemble_N2.push_back(table.at(Condition::as_stated, candidate, w).mean_square_N2);
-            const Rise over = rise_of(particle_squares_N2(plan, set.sensors, worlds), ensemble_N2);
-            std::printf("%s, %s: particle filter %.5f N^2, ensemble filter %+.5f +- %.5f\n",
-                        plan.name.c_str(), words_of(set, table.offers()).c_str(), over.before_N2,
-                        over.mean_N2, over.standard_error_N2);
-            EXPECT_LT(over.mean_N2, 3.0 * over.standard_error_N2 + 0.2 * over.before_N2);
-        }
+void expect_near_a_particle_filter(unsigned number) {
+    StudyPlan plan = random_plan(200 + number);
+    plan.transmission.cable.segments = 4 + 2 * static_cast<int>(number % 2);
+    plan.motion.samples = 50;
+    plan.uncertainty.members = 128;
+    constexpr int worlds = 8;
+    ErrorTable table(plan, {});
+    const int one = 1;
+    const int most = static_cast<int>(table.candidates().size()) - 1;
+    const std::vector<int> some = {one, most};
+    table.fill(Condition::as_stated, some, 0, worlds, "test");
+    for (const int candidate : some) {
+        const auto& set = table.candidates()[static_cast<std::size_t>(candidate)];
+        std::vector<double> ensemble_N2;
+        for (int w = 0; w < worlds; ++w)
+            ensemble_N2.push_back(table.at(Condition::as_stated, candidate, w).mean_square_N2);
+        const Rise over = rise_of(particle_squares_N2(plan, set.sensors, worlds), ensemble_N2);
+        std::printf("%s, %s: particle filter %.5f N^2, ensemble filter %+.5f +- %.5f\n", plan.name.c_str(),
+                    words_of(set, table.offers()).c_str(), over.before_N2, over.mean_N2,
+                    over.standard_error_N2);
+        EXPECT_LT(over.mean_N2, 3.0 * over.standard_error_N2 + 0.2 * over.before_N2);
     }
+}
+
+TEST(FurtherSensor, LeavesTheEnsembleFilterNearAParticleFilter) {
+    expect_near_a_particle_filter(2);  // few segments: the state of each matters most
+}
+
+TEST(SlowFurtherSensor, LeavesTheEnsembleFilterNearAParticleFilterOnMoreCables) {
+    for (const unsigned number : {1U, 3U}) expect_near_a_particle_filter(number);
 }
 
 }  // namespace
