@@ -81,6 +81,10 @@ std::vector<int> from_one(std::vector<int> nodes);
 std::string counted(std::size_t count, const std::string& thing);
 /// A fusion method's title; its name where the catalogue does not know it.
 std::string title_of_method(const std::string& name);
+/// The nodes of a set, from 1, and the label of a noise level, that a recommendation of the study names.
+/// Throws storage::Error where the study has none with that index.
+const std::vector<int>& nodes_of(const storage::StudyDescription& study, int set_index);
+const std::string& noise_label(const storage::StudyDescription& study, int noise_index);
 /// An estimate with its 95% interval.
 reports::Data estimate_data(const IntervalEstimate& estimate);
 

@@ -26,22 +26,6 @@ std::vector<std::string> labels_of(const StudyDescription& study, int set_index)
     return labels;
 }
 
-const std::vector<int>& nodes_of(const StudyDescription& study, int set_index) {
-    if (set_index < 0 || static_cast<std::size_t>(set_index) >= study.sensor_sets.size())
-        throw storage::Error(
-            "A recommendation names a sensor set that the study does not have. The file is damaged; `capstan "
-            "doctor` examines it.");
-    return study.sensor_sets[static_cast<std::size_t>(set_index)].nodes;
-}
-
-const std::string& noise_label(const StudyDescription& study, int noise_index) {
-    if (noise_index < 0 || static_cast<std::size_t>(noise_index) >= study.noise_levels.size())
-        throw storage::Error(
-            "A recommendation names a noise level that the study does not have. The file is damaged; `capstan "
-            "doctor` examines it.");
-    return study.noise_levels[static_cast<std::size_t>(noise_index)].label;
-}
-
 std::vector<double> places_of(const StudyDescription& study, const std::vector<int>& nodes) {
     std::vector<double> places_m;
     for (const int node : nodes) {
@@ -196,38 +180,23 @@ std::string no_sensor_words(const std::optional<double>& none_N, const Recommend
     return fmt::format(" Without any sensor the error is {:.3f} N.", *none_N);
 }
 
-// ---- the advice under another truth
-
-const RecommendationRecord* same_question(const Conclusions& conclusions, const RecommendationRecord& asked) {
-    for (const RecommendationRecord& each : conclusions.recommendations) {
-        if (each.scope == asked.scope && each.regime == asked.regime && each.noise_index == asked.noise_index)
-            return &each;
-    }
-    return nullptr;
-}
-
-// Mean over a regime's instants of the error of a choice. Both studies have one plan, so that the indices
-// agree.
-double error_N(storage::Database& database, std::int64_t study_id, const RecommendationRecord& choice) {
-    storage::Statement statement(
-        database,
-        "SELECT avg(c.mean_abs_error_N) FROM cell c JOIN scenario s USING (scenario_id) "
-        "JOIN sensor_set ss USING (sensor_set_id) JOIN noise_level n USING (noise_level_id) "
-        "WHERE s.study_id = ?1 AND s.regime = ?2 AND n.noise_index = ?3 AND ss.set_index = ?4 AND c.method = ?5");
-    statement.bind_all(study_id, std::string_view(choice.regime), choice.noise_index, choice.set_index,
-                       std::string_view(choice.method));
-    statement.step();
-    return statement.get<double>(0);
-}
-
-bool is_as_good(const RecommendationRecord& best, const RecommendationRecord& given) {
-    return (best.set_index == given.set_index && best.method == given.method) ||
-           std::any_of(best.alternatives.begin(), best.alternatives.end(), [&](const auto& each) {
-               return each.set_index == given.set_index && each.method == given.method;
-           });
-}
-
 }  // namespace
+
+const std::vector<int>& nodes_of(const StudyDescription& study, int set_index) {
+    if (set_index < 0 || static_cast<std::size_t>(set_index) >= study.sensor_sets.size())
+        throw storage::Error(
+            "A recommendation names a sensor set that the study does not have. The file is damaged; `capstan "
+            "doctor` examines it.");
+    return study.sensor_sets[static_cast<std::size_t>(set_index)].nodes;
+}
+
+const std::string& noise_label(const StudyDescription& study, int noise_index) {
+    if (noise_index < 0 || static_cast<std::size_t>(noise_index) >= study.noise_levels.size())
+        throw storage::Error(
+            "A recommendation names a noise level that the study does not have. The file is damaged; `capstan "
+            "doctor` examines it.");
+    return study.noise_levels[static_cast<std::size_t>(noise_index)].label;
+}
 
 void require_complete(storage::Database& database, std::int64_t study_id,
                       const StudyDescription& description) {
@@ -291,65 +260,6 @@ reports::Answer recommendation_answer(const Conclusions& conclusions, const Stud
                                             alternatives_words(conclusions.study, each)});
     if (!conclusions.paper_comparison.empty())
         answer.sections.push_back(comparison_section(answer.values["paper_comparison"]));
-    return answer;
-}
-
-reports::Answer truth_answer(storage::Database& database, std::int64_t model_id, std::int64_t truth_id) {
-    const Conclusions model = read_conclusions(database, model_id);
-    const Conclusions truth = read_conclusions(database, truth_id);
-    Data rows = Data::list();
-    int changes = 0;
-    for (const RecommendationRecord& given : model.recommendations) {
-        const RecommendationRecord* best = given.scope == "regime" ? same_question(truth, given) : nullptr;
-        if (best == nullptr) continue;
-        const bool stays = is_as_good(*best, given);
-        changes += stays ? 0 : 1;
-        rows.push_back({{"noise", noise_label(model.study, given.noise_index)},
-                        {"regime", given.regime},
-                        {"advice_stays", stays},
-                        {"model",
-                         {{"nodes", nodes_of(model.study, given.set_index)},
-                          {"method", title_of_method(given.method)},
-                          {"expected_error_N", searched_error_N(given)},
-                          {"true_error_N", error_N(database, truth_id, given)}}},
-                        {"truth",
-                         {{"nodes", nodes_of(truth.study, best->set_index)},
-                          {"method", title_of_method(best->method)},
-                          {"true_error_N", searched_error_N(*best)},
-                          {"error_on_independent_draws_N", best->error_N},
-                          {"interval_95_N", Data::list({best->interval_low_N, best->interval_high_N})}}}});
-    }
-    reports::Answer answer{.id = "truth",
-                           .kind = "Advice where the true cable is not the model",
-                           .title = model.study.study.name};
-    answer.headline =
-        changes == 0
-            ? "the advice stays; no choice with as many sensors is significantly better with the true cable."
-            : fmt::format("the advice changes in {} of {} cases.", changes, rows.items().size());
-    answer.values = rows;
-    answer.sections = {
-        {.id = "advice",
-         .heading = "Advice of the model and of the true cable",
-         .tables = {{"advice",
-                     "",
-                     {{"regime", "regime"},
-                      {"noise", "noise"},
-                      {"model.nodes", "advice"},
-                      {"model.method", "method"},
-                      {"model.expected_error_N", "expected", "N", ".3f"},
-                      {"model.true_error_N", "true error", "N", ".3f"},
-                      {"advice_stays", "stays"},
-                      {"truth.nodes", "best"},
-                      {"truth.method", "method"},
-                      {"truth.error_on_independent_draws_N", "error", "N", ".3f"},
-                      {"truth.interval_95_N", "95% interval", "N", ".3f"}},
-                     rows}},
-         .note =
-             "Expected: the error that the model promises. True error: of the same sensors and method with the "
-             "true cable. The advice stays where it is the best choice with the true cable, or has as many sensors and "
-             "is not significantly worse (paired t test at the 5% level, Bonferroni-corrected over all choices with "
-             "as many sensors). The last columns: the best choice with the true cable, its error on "
-             "independent draws."}};
     return answer;
 }
 

@@ -5,130 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <sstream>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/import/mapping_table.h"
 #include "capstan/platform/files.h"
-#include "capstan/platform/nearest_name.h"
 #include "capstan/recording/json_object.h"
 
 namespace capstan::imports {
 
 namespace {
-
-/// A table of the mapping; notes what is wrong in it with file and line.
-class MappingTable {
-  public:
-    MappingTable(const toml::table& table, std::string path, const std::string& file, ProblemList& problems)
-        : table_(&table), path_(std::move(path)), file_(&file), problems_(&problems) {}
-
-    void knows(std::initializer_list<const char*> names) const {
-        const std::vector<std::string> known(names.begin(), names.end());
-        for (const auto& [key, node] : *table_) {
-            if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-            problem(node, std::string(key.str()), "is not a key here" + suggestion(key.str(), known));
-        }
-    }
-
-    std::optional<std::string> text(const char* key) const {
-        const toml::node* node = table_->get(key);
-        if (node == nullptr) return std::nullopt;
-        if (const auto value = node->value<std::string>()) return *value;
-        problem(*node, key, "should be a text in quotes");
-        return std::nullopt;
-    }
-
-    std::optional<double> number(const char* key) const {
-        const toml::node* node = table_->get(key);
-        if (node == nullptr) return std::nullopt;
-        const auto value = node->is_number() ? node->value<double>() : std::nullopt;
-        if (value && std::isfinite(*value)) return *value;
-        problem(*node, key, "should be a number");
-        return std::nullopt;
-    }
-
-    std::optional<double> positive(const char* key) const {
-        const std::optional<double> value = number(key);
-        if (value && *value <= 0.0) problem(*table_->get(key), key, "must be above 0");
-        return value;
-    }
-
-    std::optional<bool> boolean(const char* key) const {
-        const toml::node* node = table_->get(key);
-        if (node == nullptr) return std::nullopt;
-        if (const auto value = node->value<bool>(); value && node->is_boolean()) return *value;
-        problem(*node, key, "should be true or false");
-        return std::nullopt;
-    }
-
-    std::vector<std::string> texts(const char* key) const {
-        const toml::node* node = table_->get(key);
-        if (node == nullptr) return {};
-        std::vector<std::string> values;
-        if (const toml::array* list = node->as_array()) {
-            for (const toml::node& element : *list) {
-                const auto value = element.value<std::string>();
-                if (!value) problem(element, key, "should hold texts in quotes");
-                values.push_back(value.value_or(""));
-            }
-        } else {
-            problem(*node, key, "should be a list of texts, [\"a.csv\", \"b.csv\"]");
-        }
-        return values;
-    }
-
-    void problem(const toml::node& node, const std::string& key, const std::string& what) const {
-        problems_->add(fmt::format("{}:{}", *file_, node.source().begin.line), path_ + key + ": " + what);
-    }
-    void problem(const std::string& key, const std::string& what) const { problem(*table_, key, what); }
-    const toml::table& toml() const { return *table_; }
-    std::string path_of(const std::string& key) const { return path_ + key + "."; }
-    MappingTable inside(const toml::table& table, const std::string& path) const {
-        return {table, path, *file_, *problems_};
-    }
-
-  private:
-    const toml::table* table_;
-    std::string path_;  ///< "channels.motor_angle."
-    const std::string* file_;
-    ProblemList* problems_;
-};
-
-// The keys of a table as the file has them; toml++ sorts them.
-std::vector<std::string> keys_in_order(const toml::table& table) {
-    std::vector<std::pair<std::pair<unsigned, unsigned>, std::string>> order;
-    for (const auto& [key, node] : table)
-        order.push_back({{key.source().begin.line, key.source().begin.column}, std::string(key.str())});
-    std::sort(order.begin(), order.end());
-    std::vector<std::string> keys;
-    for (auto& [at, key] : order) keys.push_back(std::move(key));
-    return keys;
-}
-
-nlohmann::ordered_json json_of(const toml::node& node) {
-    if (const toml::table* table = node.as_table()) {
-        nlohmann::ordered_json object = nlohmann::ordered_json::object();
-        for (const std::string& key : keys_in_order(*table)) object[key] = json_of(*table->get(key));
-        return object;
-    }
-    if (const toml::array* list = node.as_array()) {
-        nlohmann::ordered_json array = nlohmann::ordered_json::array();
-        for (const toml::node& element : *list) array.push_back(json_of(element));
-        return array;
-    }
-    if (node.is_boolean()) return *node.value<bool>();
-    if (node.is_integer()) return *node.value<std::int64_t>();
-    if (node.is_floating_point()) return *node.value<double>();
-    if (node.is_string()) return *node.value<std::string>();
-    std::ostringstream date;
-    node.visit([&](const auto& value) {
-        if constexpr (toml::is_date_time<decltype(value)> || toml::is_date<decltype(value)> ||
-                      toml::is_time<decltype(value)>)
-            date << value.get();
-    });
-    return date.str();
-}
 
 std::string column_text(const MappingTable& table) {
     const toml::node* node = table.toml().get("column");
@@ -297,7 +182,7 @@ void read_channels(const MappingTable& channels, Mapping& mapping) {
     for (const std::string& name : keys_in_order(channels.toml())) {
         const toml::node& node = *channels.toml().get(name);
         if (name == "run" || name == "t") {
-            channels.problem(node, name, "is no channel; times are in [time], runs in [[runs]]");
+            channels.problem(node, name, "is not a channel; times are in [time], runs in [[runs]]");
         } else if (const toml::table* table = node.as_table()) {
             mapping.channels.push_back(channel_of(name, channels.inside(*table, channels.path_of(name))));
         } else {
