@@ -155,7 +155,7 @@ bool is_bend(const Curvatures& all, double reach_m, const Part& part) {
 std::vector<Part> parts_of(const Curvatures& all, double reach_m, double tolerance_rad) {
     const Eigen::VectorXd at_m = summed(all.length_m);
     // Smoothing leaves a little turning beside a bend, of about the tolerance.
-    const double least_rad = 2.0 * tolerance_rad;
+    const double min_turn_rad = 2.0 * tolerance_rad;
     const Eigen::VectorXd turned_rad = summed(turning_rad(all, all.found));
     std::vector<Eigen::Index> ends;
     split(at_m, turned_rad, tolerance_rad, 0, at_m.size() - 1, ends);
@@ -165,7 +165,7 @@ std::vector<Part> parts_of(const Curvatures& all, double reach_m, double toleran
     Eigen::Index first = 0;
     for (const Eigen::Index end : ends) {
         Part part{first, end, false};
-        part.is_bend = turned_rad[end] - turned_rad[first] > least_rad && is_bend(all, reach_m, part);
+        part.is_bend = turned_rad[end] - turned_rad[first] > min_turn_rad && is_bend(all, reach_m, part);
         const bool joins_before = !parts.empty() && part.is_bend == parts.back().is_bend &&
                                   (!part.is_bend || is_short(part) || is_short(parts.back()));
         if (joins_before) {

@@ -21,7 +21,7 @@ struct capstan_observer {
 
 namespace {
 
-// Beyond it a step could ask for a tension that is no finite number.
+// Beyond it a step could ask for a tension that is not finite.
 constexpr double largest_reading = 1e9;
 
 capstan::Cable made(const capstan_cable& given) {

@@ -53,7 +53,7 @@ struct RecursiveReport {
 /// stratified over the members and addressed by (seed, step).
 ///
 /// Friction that depends on speed (E41) is that of the members' mean motion, the same for all of them: an
-/// end's wander stands for what is not known of it, and is no speed at which anything slides.
+/// end's wander stands for what is not known of it, and is not a speed at which anything slides.
 class RecursiveEstimator {
   public:
     /// Starts with all members at `start`. `model` must outlive the estimator. Throws InvalidInput with every

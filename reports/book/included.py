@@ -55,7 +55,7 @@ def with_sources(text, source):
 
 
 def _link(found, document, page):
-    """To the page of a document; to a file that is no page, its name."""
+    """To the page of a document; to a file that is not a page, its name."""
     words, target = found.groups()
     if "://" in target or target.startswith("#"):
         return found.group(0)

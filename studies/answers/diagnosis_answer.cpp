@@ -274,7 +274,7 @@ reports::AnswerSection next_section(const gap::NonIdentifiable& open, const Data
         .heading = "What to record next",
         .prose = next_experiment_sentence(open),
         .tables = {{"experiments",
-                    open.is_unknown ? "Probability that the two most similar would be told apart"
+                    open.is_unknown ? "Probability that the two most similar would be distinguished"
                                     : "Probability that the right cause would be named",
                     {{"description", "experiment"}, {"discrimination_probability", "probability", "", ".2f"}},
                     first}},

@@ -58,7 +58,7 @@ struct CauseGroup {
     Fraction false_names;  ///< cases in which something is named that is not there
 };
 
-/// Several causes by name. `unknown` is no name: it is counted apart.
+/// Several causes by name. `unknown` is not a name: it is counted apart.
 struct CausesScore {
     std::vector<CauseGroup> groups;  ///< the first is of all cases
     Fraction unknown;                ///< cases with causes of the catalogue in which `unknown` is named

@@ -25,7 +25,7 @@ constexpr NominalFreedom wrong_by_20_percent{std::log(1.2), true};
 struct RunCondition {
     const char* name;
     double step;
-    int most_steps;  ///< to both sides
+    int max_steps;  ///< to both sides
 };
 constexpr RunCondition run_conditions[] = {
     {"roll_deg", 45.0, 2}, {"wrist_deg", 15.0, 4}, {"bend_deg", 30.0, 3}, {"temperature_offset_K", 5.0, 3}};
@@ -35,7 +35,7 @@ std::string set_condition(std::vector<TrialRun>& runs, TrialStream& draws) {
     const RunCondition& condition =
         run_conditions[draws.integer_below(static_cast<int>(std::size(run_conditions)))];
     std::vector<int> steps;
-    for (int step = -condition.most_steps; step <= condition.most_steps; ++step) steps.push_back(step);
+    for (int step = -condition.max_steps; step <= condition.max_steps; ++step) steps.push_back(step);
     for (TrialRun& run : runs) {
         const auto chosen = steps.begin() + draws.integer_below(static_cast<int>(steps.size()));
         run.conditions[condition.name] = *chosen * condition.step;

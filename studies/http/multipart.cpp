@@ -64,7 +64,7 @@ std::optional<std::vector<FormPart>> parse_form(std::string_view content_type, s
     std::vector<FormPart> parts;
     while (!body.starts_with("--")) {
         if (!body.starts_with(line_end) || parts.size() == max_form_parts) return std::nullopt;
-        // A part without headers is no part of a form, so its head ends with a blank line.
+        // A part without headers is not a part of a form, so its head ends with a blank line.
         const std::size_t blank = body.substr(0, longest_part_head).find("\r\n\r\n");
         if (blank == std::string_view::npos) return std::nullopt;
         const std::string_view head =

@@ -35,7 +35,7 @@ struct ColumnList {
     std::vector<ListedColumn> columns;
 };
 
-/// The tables and columns of logs. Throws InvalidInput where a file is no log.
+/// The tables and columns of logs. Throws InvalidInput where a file is not a log.
 ColumnList list_columns(
     const std::vector<std::filesystem::path>& files,
     const std::function<void(const std::string& activity, double fraction)>& on_progress = {});

@@ -20,7 +20,7 @@ bool is_usual_period(double period_s);
 /// The unit in which a period has a usual length, the longest of s, ms, us, ns; empty: none of them.
 std::string_view usual_time_unit(double period);
 
-/// "ms" for 1e-3; empty for what is no unit.
+/// "ms" for 1e-3; empty for what is not a unit.
 std::string_view time_unit_name(double seconds);
 
 }  // namespace capstan::imports

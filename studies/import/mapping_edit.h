@@ -23,7 +23,7 @@ struct MappingEdit {
 };
 
 /// The text of a mapping with the change made. Its comments stay with the key that they stand at. A mapping
-/// without channels may be edited. Throws InvalidInput where the text is no mapping.
+/// without channels may be edited. Throws InvalidInput where the text is not a mapping.
 std::string edited_mapping(const std::string& toml, const std::string& file, const MappingEdit& edit);
 
 }  // namespace capstan::imports

@@ -133,7 +133,7 @@ void set_times(StretchPlan& plan, const LogRun& run, const Mapping& mapping, Pie
     std::string why = !one_clock ? "its channels have different clocks"
                       : jitter > largest_jitter
                           ? fmt::format("its sample times vary by {:.0f}% of the period", 100.0 * jitter)
-                      : !integer_ratio ? "its rate is no multiple of the one asked for"
+                      : !integer_ratio ? "its rate is not a multiple of the one asked for"
                                        : "readings are missing in it";
     notes.add(FindingKind::jitter, true, "", 0, jitter,
               fmt::format("resampled at {:g} Hz by straight lines, as {}", common.grid_Hz, why));

@@ -42,7 +42,7 @@ constexpr OtherFormat other_formats[] = {
      "is packed with xz; unpack it with 'xz -d'"},
     {"BZh", "is packed with bzip2; unpack it with 'bzip2 -d'"},
     {"\x04\x22\x4d\x18", "is packed with lz4; unpack it with 'lz4 -d'"},
-    {"\x1f\x8b", "is packed with gzip, and what is in it is no text; unpack it with 'gzip -d'"},
+    {"\x1f\x8b", "is packed with gzip, and what is in it is not text; unpack it with 'gzip -d'"},
     {"\xd0\xcf\x11\xe0", "is a workbook of an old Excel (.xls); save the sheet as CSV"},
     {"PAR1", "is a Parquet file; write it as CSV or HDF5, for example with pandas"},
     {"TDSm", "is a TDMS file of LabVIEW; export it as CSV"},

@@ -48,7 +48,7 @@ std::string_view next_part(ByteCursor& cursor) {
     return content;
 }
 
-// Empty where the variable is no object. `bytes`: behind the head of its matrix.
+// Empty where the variable is not an object. `bytes`: behind the head of its matrix.
 std::string object_in(std::string_view bytes) {
     ByteCursor cursor(bytes);
     ByteCursor flags(next_part(cursor));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-// A reading that is infinite is no reading.
+// A reading that is infinite is not a reading.
 double finite_or_missing(double number) {
     return std::isfinite(number) ? number : not_a_number;
 }

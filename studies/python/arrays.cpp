@@ -34,7 +34,8 @@ bool is_masked(const py::handle& given) {
 
 py::array_t<double> real_array(const py::handle& given, const std::string& name) {
     const py::array array = py::array::ensure(given);  // clears Python's error
-    if (!array) refuse_argument(name, fmt::format("is a {} that is no array of numbers", type_name(given)));
+    if (!array)
+        refuse_argument(name, fmt::format("is a {} that is not an array of numbers", type_name(given)));
     if (!is_real(array.dtype()))
         refuse_argument(name, fmt::format("holds {} ({}), but must hold real numbers that fit 64 bits",
                                           std::string(py::str(array.dtype())), type_name(given)));

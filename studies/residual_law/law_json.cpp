@@ -84,7 +84,7 @@ ResidualLaw law_from_json(const std::string& written) {
         law.band = text.at("band");
         return law;
     } catch (const json::exception& error) {
-        throw InvalidInput({std::string("this is no law of residuals: ") + error.what()});
+        throw InvalidInput({std::string("this is not a law of residuals: ") + error.what()});
     }
 }
 

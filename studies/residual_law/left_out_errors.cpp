@@ -8,7 +8,7 @@ namespace capstan::residual_law {
 namespace {
 
 // Columns that say the same share a weight instead of cancelling each other.
-constexpr double least_ridge = 1e-6;
+constexpr double min_ridge = 1e-6;
 constexpr double no_column_square = 1e-12;
 
 }  // namespace
@@ -47,7 +47,7 @@ Eigen::VectorXd fitted_weights(const NormalEquations& data, const ChosenColumns&
     Eigen::MatrixXd normal = data.columns(chosen.columns, chosen.columns);
     for (std::size_t k = 0; k < chosen.ridge.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(k);
-        normal(at, at) += (chosen.ridge[k] + least_ridge) * normal(at, at) + no_column_square;
+        normal(at, at) += (chosen.ridge[k] + min_ridge) * normal(at, at) + no_column_square;
     }
     return normal.ldlt().solve(data.target(chosen.columns));
 }

@@ -64,7 +64,7 @@ ResidualLaw fit_residual_law(std::span<const ResidualRun> runs, const ResidualNa
 std::string law_sentence(const ResidualLaw& law, const ResidualNames& names);
 
 std::string law_json(const ResidualLaw& law);
-/// Throws InvalidInput where the text is no such law.
+/// Throws InvalidInput where the text is not such a law.
 ResidualLaw law_from_json(const std::string& text);
 
 }  // namespace capstan::residual_law

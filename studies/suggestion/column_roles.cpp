@@ -36,7 +36,7 @@ Words words_of(const std::string& name) {
     return words;
 }
 
-// "crank_trq_mNm" without its unit, which is no word.
+// "crank_trq_mNm" without its unit, which is not a word.
 Words words_of_column(const SeenColumn& column) {
     const std::string& name = column.column->name;
     const bool ends_with_unit =

@@ -21,7 +21,7 @@ struct SeenColumn {
     bool rising = false;  ///< from row to row: a time or a counter
 };
 
-/// Every column of the logs that is no constant.
+/// Every column of the logs that is not constant.
 std::vector<SeenColumn> seen_columns(const std::vector<const logs::Log*>& logs);
 
 /// How well a column's name and unit fit a channel: 0 not at all, 1 as well as anything.

@@ -123,15 +123,15 @@ class GreedySearch {
     std::optional<int> neighbour(const std::vector<int>& sensors, int sensor, double side) const {
         const SensorOffer& from = offers_[static_cast<std::size_t>(sensor)];
         std::optional<int> nearest;
-        double least_m = std::numeric_limits<double>::infinity();
+        double nearest_m = std::numeric_limits<double>::infinity();
         for (const int other : usable_) {
             const SensorOffer& to = offers_[static_cast<std::size_t>(other)];
             const double away_m = side * (to.place_m - from.place_m);
             if (to.kind != from.kind || to.cable != from.cable || to.price != from.price || away_m <= 0.0 ||
-                away_m >= least_m || std::binary_search(sensors.begin(), sensors.end(), other))
+                away_m >= nearest_m || std::binary_search(sensors.begin(), sensors.end(), other))
                 continue;
             nearest = other;
-            least_m = away_m;
+            nearest_m = away_m;
         }
         return nearest;
     }

@@ -17,7 +17,7 @@ namespace {
 using namespace capstan;
 
 template <class Work>
-double least_s(int times, const Work& work) {
+double shortest_s(int times, const Work& work) {
     double least = 1e9;
     for (int k = 0; k < times; ++k) {
         const auto start = std::chrono::steady_clock::now();
@@ -40,7 +40,7 @@ double batch_s() {
     CableDraws draws;
     for (int draw = 0; draw < 128; ++draw) draws.friction.push_back(0.05 + 0.001 * draw);
     const std::size_t size = 128 * 1000 * 41;
-    return least_s(15, [&] {
+    return shortest_s(15, [&] {
         const auto tension_N = std::make_unique_for_overwrite<double[]>(size);
         const auto displacement_m = std::make_unique_for_overwrite<double[]>(size);
         simulate_paths(cable, motion, draws, 1, {{tension_N.get(), size}, {displacement_m.get(), size}});
@@ -57,16 +57,16 @@ double update_s() {
                                ModelRules::consistent());
     const CableState start = pretensioned(step.cable());
     constexpr int updates = 2000;
-    return least_s(15,
-                   [&] {
-                       RecursiveEstimator estimator(step, start, {.wander = {.distal_m = 1e-4}});
-                       for (int k = 0; k < updates; ++k) {
-                           const TensionReading reading{
-                               {0, 0.0}, 20.0 + 5.0 * std::sin(0.01 * k), {.additive_N = 0.2}};
-                           estimator.step({start.displacement_m.front() - 0.002 * std::sin(0.01 * k), 0.0},
-                                          {&reading, 1});
-                       }
-                   }) /
+    return shortest_s(15,
+                      [&] {
+                          RecursiveEstimator estimator(step, start, {.wander = {.distal_m = 1e-4}});
+                          for (int k = 0; k < updates; ++k) {
+                              const TensionReading reading{
+                                  {0, 0.0}, 20.0 + 5.0 * std::sin(0.01 * k), {.additive_N = 0.2}};
+                              estimator.step({start.displacement_m.front() - 0.002 * std::sin(0.01 * k), 0.0},
+                                             {&reading, 1});
+                          }
+                      }) /
            updates;
 }
 

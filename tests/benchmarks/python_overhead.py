@@ -17,7 +17,7 @@ import capstan as cp
 ROUNDS = 5
 
 
-def least_s(times, work):
+def shortest_s(times, work):
     best = math.inf
     for _ in range(times):
         start = time.perf_counter()
@@ -42,7 +42,7 @@ def update_s():
         for time_s, readings in samples:
             update(time_s, readings)
 
-    return least_s(15, work) / len(samples)
+    return shortest_s(15, work) / len(samples)
 
 
 def both_threads_s(work):
@@ -53,7 +53,7 @@ def both_threads_s(work):
         for thread in threads:
             thread.join()
 
-    return least_s(3, pair)
+    return shortest_s(3, pair)
 
 
 def interrupted_s(call):
@@ -82,12 +82,12 @@ def main(build):
     pairs = []
     for _ in range(ROUNDS):  # side by side, so that what else runs on the machine meets both
         cpp = [float(s) for s in subprocess.run([f"{build}/tests/benchmarks/cable_calls"], capture_output=True, text=True, check=True).stdout.split()]
-        pairs.append((cpp, [least_s(15, work), update_s()]))
+        pairs.append((cpp, [shortest_s(15, work), update_s()]))
     cpp, python = (tuple(min(pair[side][k] for pair in pairs) for k in (0, 1)) for side in (0, 1))
     print(f"batch of 128 draws x 1000 times x 41 nodes, one thread: C++ {1e3 * cpp[0]:.1f} ms, Python {1e3 * python[0]:.1f} ms, {100 * (python[0] / cpp[0] - 1):+.1f}%")
     print(f"observer update, 12 segments, 32 members: C++ {1e6 * cpp[1]:.2f} us, Python {1e6 * python[1]:.2f} us, {1e6 * (python[1] - cpp[1]):+.2f} us")
     many = lambda: [work() for _ in range(20)]  # a second: threads that begin may share a processor for a moment
-    one, two = least_s(3, many), both_threads_s(many)
+    one, two = shortest_s(3, many), both_threads_s(many)
     print(f"two threads in Python: {2 * one / two:.2f} times one ({os.cpu_count()} processors)")
     for name, call in (
         ("diagnose", lambda: cp.diagnose("configs/recordings/viscous-pair.csv")),

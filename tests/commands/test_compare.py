@@ -38,7 +38,7 @@ class Compare(CapstanTest):
             self.assertLessEqual(float(row["interval_low_N"]), float(row["difference_N"]))
 
     def test_across_databases(self):
-        """The numbers are those of one database; the studies are told apart by their files."""
+        """The numbers are those of one database; the studies are distinguished by their files."""
         expected = json.loads(self.compare("--format", "json"))
         for file, config in (("a.db", CONFIGS / "quick.toml"), ("b.db", "noisier.toml")):
             self.run_capstan("study", "run", config, "--db", file, "--progress", "none")

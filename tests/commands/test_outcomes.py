@@ -32,8 +32,8 @@ class Outcomes(CapstanTest):
         print("\n" + "\n".join("{:<22} {:<14} {:>5}  {}".format(*map(str, row)) for row in [("what", "command", "code", "last words")] + rows))
 
     def undisturbed(self, study=STUDY):
-        self.run_capstan("study", "run", self.write("study.toml", study), "--db", "whole.db", "--progress", "none")
-        return self.tables("whole.db")
+        self.run_capstan("study", "run", self.write("study.toml", study), "--db", "complete.db", "--progress", "none")
+        return self.tables("complete.db")
 
     def begin_study(self, db):
         process = self.start_capstan("study", "run", "study.toml", "--db", db, "--progress", "json")

@@ -1,6 +1,6 @@
 // For the targets of readers whose library runs in a process of its own. What the library does to itself
-// there reaches nobody: the file is refused. So it is no finding that libhdf5 reads beyond its memory, and a
-// request for more than half a gigabyte fails for it, as the program's own limit makes one of 4 GB fail. A
+// there reaches nobody: the file is refused. So it is not a finding that libhdf5 reads beyond its memory, and
+// a request for more than half a gigabyte fails for it, as the program's own limit makes one of 4 GB fail. A
 // fault of our code remains one, in either process.
 #include <sys/mman.h>
 #include <unistd.h>

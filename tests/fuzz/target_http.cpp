@@ -1,4 +1,4 @@
-// Bytes of strangers to the HTTP server alone: whatever comes, the answer is one answer of HTTP, the handlers
+// Untrusted bytes to the HTTP server alone: whatever comes, the answer is one answer of HTTP, the handlers
 // see only what is well-formed, and the server goes on. The first byte says whether the rest is a complete
 // request, a form, or a path.
 #include <thread>

@@ -82,7 +82,7 @@ TEST(CausesScore, SomethingThatIsNotThereIsAFalseName) {
     EXPECT_EQ(score.groups.front().false_names.hits, 1);
     EXPECT_EQ(score.false_varies.hits, 1);
     EXPECT_EQ(score.false_varies.of, 2);
-    // `unknown` is no name.
+    // `unknown` is not a name.
     const CausesScore unknown = score_of(rig({{"creep", 6.0}}), said({{"unknown", 0.9}, {"creep", 0.1}}));
     EXPECT_EQ(unknown.groups.front().false_names.hits, 0);
     EXPECT_EQ(unknown.unknown.hits, 1);

@@ -120,7 +120,7 @@ TEST(ResidualLaw, CallsAConstantAConstantAndNoDrift) {
 }
 
 TEST(ResidualLaw, IsNotRefusedByARunWhoseLoadNoOtherRunComesNear) {
-    // Without the first run a friction and its growth with the load cannot be told apart, so that its
+    // Without the first run a friction and its growth with the load cannot be distinguished, so that its
     // prediction is an extrapolation. A run in between is met by the law of all three.
     const auto session_with = [](const std::vector<double>& loads_Nm, int seed) {
         std::vector<ResidualRun> runs = residuals({.runs = static_cast<int>(loads_Nm.size()), .seed = seed},
