@@ -34,7 +34,7 @@ struct WeightedFeature {
 };
 
 /// The structure of what a corrected model leaves: a sparse law in a few terms, a ridge regression on the
-/// motion's history, both, or nothing. A plain value; law_json() writes it to a file.
+/// motion's history, both, or nothing. A plain value.
 struct ResidualLaw {
     FeatureScales scales;
     std::vector<WeightedFeature> weights;  ///< all that a prediction needs; empty: nothing holds
@@ -62,9 +62,5 @@ ResidualLaw fit_residual_law(std::span<const ResidualRun> runs, const ResidualNa
 
 /// One sentence: "What is left in the motor torque is 8.1 mN m: ..."; empty if nothing holds.
 std::string law_sentence(const ResidualLaw& law, const ResidualNames& names);
-
-std::string law_json(const ResidualLaw& law);
-/// Throws InvalidInput where the text is not such a law.
-ResidualLaw law_from_json(const std::string& text);
 
 }  // namespace capstan::residual_law

@@ -93,14 +93,16 @@ async function saved(page, action) {
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
-// Every figure can be taken along: as SVG, as PNG, and its rows as CSV.
+// Every figure can be taken along: as SVG, its rows as CSV, and as PNG, which is made of the SVG and tried once a page.
 async function saveEveryFigure(page, name) {
-  for (const { id } of await drawnFigures(page)) {
+  for (const [index, { id }] of (await drawnFigures(page)).entries()) {
     const button = (words) => page.locator(`#${id} .save button`, { hasText: words });
     const svg = await saved(page, () => button("SVG").click());
     check(svg.name === id + ".svg" && /^<svg[^>]* xmlns=/.test(svg.bytes) && /<path/.test(svg.bytes), `${name}: ${id} can be saved as SVG`);
-    const png = await saved(page, () => button("PNG").click());
-    check(png.name === id + ".png" && png.bytes.readUInt32BE(0) === 0x89504e47 && png.bytes.readUInt32BE(16) > 400, `${name}: ${id} can be saved as PNG`);
+    if (index === 0) {
+      const png = await saved(page, () => button("PNG").click());
+      check(png.name === id + ".png" && png.bytes.readUInt32BE(0) === 0x89504e47 && png.bytes.readUInt32BE(16) > 400, `${name}: ${id} can be saved as PNG`);
+    }
     const tables = await button("CSV").count();
     check(tables > 0, `${name}: ${id} has data to save`);
     for (let k = 0; k < tables; ++k) {

@@ -1,6 +1,5 @@
 """What the tests of the Python module share."""
 
-import json
 import os
 import subprocess
 from pathlib import Path
@@ -33,10 +32,3 @@ def small_cable(**changed: Any) -> cp.Cable:
         "segments": 12,
     }
     return cp.Cable(**{**numbers, **changed})
-
-
-def without_numbers_of_studies(text: str) -> Any:
-    """A JSON answer without the number that its study has in the database."""
-    values = json.loads(text)
-    values.pop("study_id", None)
-    return values

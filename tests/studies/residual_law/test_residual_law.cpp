@@ -5,7 +5,6 @@
 #include <numbers>
 #include <random>
 
-#include "capstan/cable/invalid_input.h"
 #include "capstan/residual_law/residual_law.h"
 
 namespace capstan::residual_law {
@@ -203,16 +202,6 @@ TEST(ResidualLaw, IsNothingWithoutSamples) {
     brief.sample_period_s = 0.01;
     brief.first_scored = 2;
     EXPECT_FALSE(fit_residual_law(std::vector{brief}, {}).holds());
-}
-
-TEST(ResidualLaw, PredictsTheSameBitsFromAFile) {
-    const std::vector<ResidualRun> runs = residuals({}, friction_that_grows_with_load);
-    const ResidualLaw law = fit_residual_law(runs, {});
-    const ResidualLaw read = law_from_json(law_json(law));
-    EXPECT_EQ(read.predict(runs.front()), law.predict(runs.front()));
-    EXPECT_EQ(law_json(read), law_json(law));
-    EXPECT_THROW(law_from_json("{}"), InvalidInput);
-    EXPECT_THROW(law_from_json("not a law"), InvalidInput);
 }
 
 }  // namespace
