@@ -25,6 +25,12 @@ constexpr CommandTime times[] = {
     {"study plan",
      "The --seconds of its pilot, and the true motion of every study of the sweep: 20 s for configs/atlas.toml. Shows "
      "progress and the time left."},
+    {"study submit",
+     "Less than 2 s for some hundred shards; 20 s for 100,000, in about 100 calls of the scheduler."},
+    {"study status", "Less than 2 s for some hundred shards, in proportion to their number."},
+    {"study work", "Until no shard is left, so as long as the study or batch. Shows progress."},
+    {"batch",
+     "Less than 2 s for some hundred inputs; the work itself is the scheduler's or `capstan study work`'s."},
     {"place",
      "10 s for 11 nodes and 1000 repetitions; twice as long for each further node, and in proportion to the "
      "repetitions; a configuration with [uncertainty] takes minutes. Shows progress and the time left."},

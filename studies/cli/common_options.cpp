@@ -150,6 +150,13 @@ std::vector<std::string> split_at_commas(const std::string& listed) {
     return parts;
 }
 
+std::vector<std::string> split_at_blanks(const std::string& text) {
+    std::vector<std::string> words;
+    std::istringstream stream(text);
+    for (std::string word; stream >> word;) words.push_back(word);
+    return words;
+}
+
 std::vector<int> run_numbers(const std::string& listed) {
     std::vector<int> numbers;
     std::istringstream words(listed);
