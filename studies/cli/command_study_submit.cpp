@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "capstan/cli/commands.h"
@@ -11,7 +12,10 @@
 #include "capstan/cluster/submission.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
+#include "capstan/placement/study_cost.h"
 #include "capstan/platform/files.h"
+#include "capstan/platform/peak_memory.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/worlds/world_shard.h"
 
 namespace capstan::cli {
@@ -94,6 +98,31 @@ void require_scheduler(const cluster::Scheduler& scheduler) {
                     scheduler.submit_program, scheduler.status_program, scheduler.title));
 }
 
+// Several times what a pilot on this machine measured: other nodes are slower, and a shard that ends at its
+// limit has to be submitted again.
+void request_as_measured(const Invocation& invocation, const std::vector<StudyPlan>& plans,
+                         StudyDirectory& directory) {
+    constexpr double times = 4.0;
+    constexpr int min_minutes = 10;
+    constexpr int min_megabytes = 500;
+    const double pilot_s = invocation.number("pilot");
+    if (pilot_s == 0.0) return;
+    ShownWork work(invocation, "pilot of " + directory.name);
+    const StudyCost cost = predict_cost(plans, {pilot_s});
+    work.end();
+    const int owned = (cost.parts + directory.shards - 1) / directory.shards;  // by the largest shard
+    const double mean_shard_s = cost.processor_s_with(plans, directory.shards) / directory.shards;
+    const double shard_s =
+        mean_shard_s * owned * directory.shards / cost.parts / directory.processors_per_shard;
+    directory.minutes_per_shard = std::max(min_minutes, static_cast<int>(std::ceil(times * shard_s / 60.0)));
+    directory.megabytes_per_shard =
+        std::max(min_megabytes, static_cast<int>(times * static_cast<double>(peak_memory_bytes()) / 1e6));
+    say(fmt::format(
+        "The pilot predicts {} for the largest shard; asked of {}: {} min and {} MB for each.",
+        shard_s < 90.0 ? fmt::format("{:.2g} s", shard_s) : fmt::format("{:.0f} min", shard_s / 60.0),
+        directory.scheduler, directory.minutes_per_shard, directory.megabytes_per_shard));
+}
+
 ExitCode run_study_submit(const Invocation& invocation) {
     const config::ReadConfig config = read_config_of(invocation);
     Request request = request_of(invocation, config.plan.name);
@@ -115,6 +144,8 @@ ExitCode run_study_submit(const Invocation& invocation) {
             directory.name, directory.merged_file().string()));
         return ExitCode::success;
     }
+    if (request.scheduler != nullptr && !config.plan.uncertainty.is_stated)
+        request_as_measured(invocation, plans, directory);
     cluster::write_folder(request, config::config_text(config.plan, config::Comments::none));
     write_standard_output(dry_run ? cluster::planned_request(request) : cluster::submit_request(request));
     return ExitCode::success;
@@ -173,8 +204,9 @@ Command study_submit_command() {
             "more when its own is done, so that one node does not delay the result. Running the command again "
             "submits only the shards that are neither done nor in the queue. Without a queue, ssh starts a worker "
             "on each host, and for GNU parallel and Snakemake the folder gets a script or a workflow. All machines "
-            "must see the folder and this program under the same path. Partition, account and time limit are "
-            "options of the scheduler: for Slurm set SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.",
+            "must see the folder and this program under the same path. A short pilot gives the time "
+            "and memory that are asked for each shard. Partition and account are options of the scheduler: for Slurm set "
+            "SBATCH_PARTITION, SBATCH_ACCOUNT; SBATCH_TIMELIMIT replaces the measured time.",
         .arguments = {config_argument},
         .options = and_where_it_runs({
             {.name = "slurm", .kind = OptionKind::flag, .meaning = "The same as --scheduler slurm."},
@@ -189,8 +221,18 @@ Command study_submit_command() {
              .value = "DIR",
              .meaning = "The study's folder: scripts, shards, logs, and the result study.db.",
              .default_value = "capstan-study"},
+            {.name = "pilot",
+             .kind = OptionKind::number,
+             .value = "SECONDS",
+             .meaning =
+                 "Processor time of the pilot whose measurement becomes the time and memory that are asked of the "
+                 "scheduler, four times each; 0 asks for none. A study over worlds asks for none.",
+             .default_value = "1",
+             .low = 0,
+             .high = 1e5},
             seed_option,
             repetitions_option,
+            progress_option,
         }),
         .examples = {"capstan study submit --slurm configs/atlas.toml --shards 100 --directory atlas",
                      "SBATCH_PARTITION=long capstan study submit --slurm my.toml",

@@ -26,7 +26,8 @@ constexpr CommandTime times[] = {
      "The --seconds of its pilot, and the true motion of every study of the sweep: 20 s for configs/atlas.toml. Shows "
      "progress and the time left."},
     {"study submit",
-     "Less than 2 s for some hundred shards; 20 s for 100,000, in about 100 calls of the scheduler."},
+     "The pilot takes a second, or longer where `study plan` does; the rest less than 2 s for some hundred shards, 20 s "
+     "for 100,000. Shows progress of the pilot and the time left."},
     {"study status", "Less than 2 s for some hundred shards, in proportion to their number."},
     {"study work", "Until no shard is left, so as long as the study or batch. Shows progress."},
     {"batch",

@@ -41,6 +41,8 @@ struct StudyDirectory {
     std::string scheduler = "slurm";  ///< as --scheduler takes it
     std::string simd;                 ///< vector instructions of all shards; empty: those of each machine
     std::optional<Batch> batch;       ///< nothing: it is a study
+    int minutes_per_shard = 0;        ///< of wall time, asked of the scheduler; 0: its own default
+    int megabytes_per_shard = 0;      ///< the same of memory
 
     std::filesystem::path config_file() const { return path / "config.toml"; }
     std::filesystem::path submission_file() const { return path / "submission.json"; }

@@ -80,6 +80,7 @@ class World {
   public:
     explicit World(std::uint64_t seed) : draws_(seed) {}
     Schedule run();
+    ClusterRun run_cluster(const Cluster& cluster);
 
     Draws& draws() { return draws_; }
     double now_s() const { return now_s_; }
@@ -156,7 +157,8 @@ class World {
   private:
     friend struct Process;
     void draw_kind();
-    void start(std::optional<int> own, double in_s);
+    void start(std::optional<int> own, double in_s) { start(own, in_s, draws_.one_in(3) ? slowest_ : 1.0); }
+    Process& start(std::optional<int> own, double in_s, double speed);
     void resume(Process& process);
     void beat_hearts(double until_s);
     void corrupt();
@@ -348,8 +350,7 @@ void World::process_main(Process& process) {
     swapcontext(&process.context, &main_);
 }
 
-void World::start(std::optional<int> own, double in_s) {
-    const double speed = draws_.one_in(3) ? slowest_ : 1.0;
+Process& World::start(std::optional<int> own, double in_s, double speed) {
     processes_.push_back(std::make_unique<Process>(*this, next_id_++, own, speed));
     Process& process = *processes_.back();
     process.wakes_s = now_s_ + in_s;
@@ -364,6 +365,7 @@ void World::start(std::optional<int> own, double in_s) {
     const auto address = reinterpret_cast<std::uintptr_t>(&process);
     makecontext(&process.context, reinterpret_cast<void (*)()>(&World::enter), 2,
                 static_cast<unsigned>(address >> 32), static_cast<unsigned>(address));
+    return process;
 }
 
 void World::resume(Process& process) {
@@ -508,7 +510,75 @@ Schedule World::run() {
     return schedule_;
 }
 
+// Time goes on by the next process; whoever waits for the others at the end is not needed for the result.
+ClusterRun World::run_cluster(const Cluster& cluster) {
+    units_ = cluster.units;
+    ClusterRun run;
+    for (int unit = 1; unit <= units_; ++unit) {
+        unit_s_.push_back(cluster.unit_s * draws_.between(0.5, 1.5));
+        run.ideal_s += unit_s_.back();
+    }
+    struct Node {
+        double speed = 1.0;
+        double dies_at_s = 1e300;
+        Process* task = nullptr;
+    };
+    std::vector<Node> nodes(static_cast<std::size_t>(cluster.nodes));
+    nodes.front().speed = cluster.slow_factor;
+    if (cluster.node_dies_at_s > 0.0) nodes.back().dies_at_s = cluster.node_dies_at_s;
+    double power = 0.0;
+    for (const Node& node : nodes)
+        if (node.dies_at_s > 1e200) power += 1.0 / node.speed;
+    run.ideal_s /= power;
+    std::vector<int> queue;
+    for (int unit = units_; unit >= 1; --unit) queue.push_back(unit);
+    while (files_.count(merged_results) == 0 && now_s_ < 1e7) {
+        Node* next = nullptr;
+        for (Node& node : nodes) {
+            if (node.task != nullptr && node.task->has_ended) node.task = nullptr;
+            if (node.dies_at_s <= now_s_) {
+                if (node.task != nullptr) {
+                    queue.push_back(*node.task->own);
+                    node.task->is_dead = true;
+                    resume(*node.task);
+                    node.task = nullptr;
+                }
+                continue;
+            }
+            if (node.task == nullptr && !queue.empty()) {
+                node.task = &start(queue.back(), 0.1, node.speed);
+                queue.pop_back();
+            }
+            if (node.task != nullptr && (next == nullptr || node.task->wakes_s < next->task->wakes_s))
+                next = &node;
+        }
+        if (next == nullptr) break;
+        now_s_ = std::max(now_s_, next->task->wakes_s);
+        beat_hearts(now_s_);
+        resume(*next->task);
+        if (next->task->has_ended) stacks_.push_back(std::move(next->task->stack));
+        std::erase_if(processes_, [&](const auto& each) {
+            return each->has_ended && std::none_of(nodes.begin(), nodes.end(),
+                                                   [&](const Node& node) { return node.task == each.get(); });
+        });
+    }
+    run.wall_s = now_s_;
+    for (const auto& process : processes_) {
+        if (process->has_ended) continue;
+        process->is_dead = true;
+        resume(*process);
+    }
+    has_faults_ = true;  // a late unit is begun twice
+    judge();
+    run.problem = schedule_.problem;
+    return run;
+}
+
 }  // namespace
+
+ClusterRun simulate_cluster(const Cluster& cluster, std::uint64_t seed) {
+    return World(seed).run_cluster(cluster);
+}
 
 Schedule simulate(std::uint64_t seed) {
     return World(seed).run();

@@ -25,4 +25,20 @@ struct Schedule {
 /// any more, and someone starts workers while the result is not there: then it must come.
 Schedule simulate(std::uint64_t seed);
 
+/// A study in many shards on the nodes of a scheduler, each of which runs one task after the other; nothing
+/// else fails.
+struct Cluster {
+    int units = 2500;
+    int nodes = 4;
+    double unit_s = 60.0;         ///< in the mean; from half of it to half as much again
+    double slow_factor = 10.0;    ///< one node is so much slower
+    double node_dies_at_s = 0.0;  ///< another one, whose task the scheduler starts again; 0: none
+};
+struct ClusterRun {
+    std::string problem{};
+    double wall_s = 0.0;   ///< until the merged result is there
+    double ideal_s = 0.0;  ///< all the work, divided by what the nodes that live can do
+};
+ClusterRun simulate_cluster(const Cluster& cluster, std::uint64_t seed);
+
 }  // namespace capstan::units
