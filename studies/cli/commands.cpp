@@ -51,7 +51,9 @@ constexpr CommandTime times[] = {
      "left."},
     {"gap-trial",
      "Half a minute to minutes for each case; --generate-only takes seconds. Shows progress and the time left."},
-    {"report", "Less than 2 s; as PDF and with --figures 3 to 15 s, which the browser takes."},
+    {"report",
+     "Less than 2 s; as PDF and with --figures about half a second for each figure, which the browser takes. Shows "
+     "progress and the time left."},
     {"import", "About a second for 10 MB of log. Shows progress."},
     {"export", "About a second for a million rows."},
     {"serve", "Until it is stopped."},
@@ -60,7 +62,7 @@ constexpr CommandTime times[] = {
     {"paper solver", "100 times --seconds, 10 s by default. Shows progress and the time left."},
     {"paper estimation",
      "Some ten times as long as the study itself, about a minute. Shows progress and the time left."},
-    {"doctor", "About a second per gigabyte of the database."},
+    {"doctor", "About half a minute for a gigabyte of the database. Shows progress and the time left."},
 };
 
 }  // namespace
