@@ -165,6 +165,12 @@ double CauseFitter::misfit(const CauseFit& fit) const {
     return fit.residuals.head(static_cast<Eigen::Index>(data_rows_)).squaredNorm() / determined_rows_;
 }
 
+std::vector<double> CauseFitter::channel_misfits(const CauseFit& fit) const {
+    std::vector<double> misfits;
+    for (const auto& [channel, mean_square] : mean_squares(fit.residuals)) misfits.push_back(mean_square);
+    return misfits;
+}
+
 double CauseFitter::nominal_penalty(const CauseFit& fit) const {
     return 0.5 * prior_residuals(fit.hypothesis(), fit.coordinates).head(fit.bench->size()).squaredNorm() /
            (prior_weight_ * prior_weight_);

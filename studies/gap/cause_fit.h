@@ -112,6 +112,8 @@ class CauseFitter {
     double shape_penalty(const CauseFit& fit) const;
     /// Mean square of the residuals of the data.
     double misfit(const CauseFit& fit) const;
+    /// The same of each predicted channel.
+    std::vector<double> channel_misfits(const CauseFit& fit) const;
     /// Half widths of 95% intervals of the coordinates of a fit, the widest of three: the sandwich over
     /// blocks of a second of all channels, what the independent samples and the priors leave open, and the
     /// jackknife over `without_a_run`, if there are at least three.

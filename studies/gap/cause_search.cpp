@@ -306,9 +306,12 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
             model.left_without_cause = std::min(model.left_without_cause, scored.misfit);
         scored.max_visibility = std::sqrt(std::max(0.0, model.left_without_cause - scored.misfit));
     }
-    scored.beside = is_undescribed(*scored.fit.bench)
-                        ? model.discrepancy.with_own_scales(scored.fit.residuals)
-                        : model.discrepancy.of(scored.fit.residuals);
+    if (is_undescribed(*scored.fit.bench)) {
+        scored.beside = model.discrepancy.with_own_scales(scored.fit.residuals);
+    } else {
+        scored.beside = model.discrepancy.of(scored.fit.residuals);
+        scored.channel_misfits = model.fitter.channel_misfits(scored.fit);
+    }
     scored.evidence = evidence_.of(scored);
     return scored;
 }

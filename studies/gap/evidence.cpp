@@ -36,6 +36,8 @@ constexpr double floor_error = 0.25;
 constexpr double law_error = 0.1;
 // A discrepancy that is a cause of its own is visible.
 constexpr double min_unknown_size = 1.0;
+// The standard deviation of noise and floor together is known to a tenth: of ln variance twice that.
+constexpr double scale_error = 0.2;
 // A cause's law in the catalogue is an idealisation, good to about a tenth of what the cause does. A further
 // cause that is fainter than that only corrects the law of the clearest one.
 constexpr double faint = law_error;
@@ -68,6 +70,39 @@ double clearest_law(const ScoredFit& fit) {
     return clearest_law(fit, fit.fit.causes.size());
 }
 
+// What a channel may leave where the laws are good to law_error of what their causes do.
+double tenable_mean_square(const ScoredFit& fit) {
+    return 1.0 + std::pow(law_error * clearest_law(fit), 2);
+}
+
+// Less than noise and floor is no sign of anything: the floor is an upper value (E56).
+double scale_penalty(const ScoredFit& fit) {
+    double penalty = 0.0;
+    for (const double mean_square : fit.channel_misfits) {
+        const double excess = std::max(0.0, std::log(mean_square / tenable_mean_square(fit)));
+        penalty += 0.5 * std::pow(excess / scale_error, 2);
+    }
+    return penalty;
+}
+
+// The part of a gap that a cause outside the list explains beside the named ones. `without_cause`: the mean
+// square residual where nothing is named.
+double unknown_part(const ScoredFit& fit, double without_cause) {
+    constexpr double both = 0.5;
+    const double left = std::max(0.0, fit.misfit - 1.0);
+    const double closed = std::max(0.0, without_cause - fit.misfit);
+    return left + closed > 0.0 ? left / (left + closed) : both;
+}
+
+// Gives `unknown` this part of all shares, unless it stands alone.
+void share_by_part(std::map<std::string, double>& shares, double part) {
+    shares.erase("unknown");
+    double named = 0.0;
+    for (const auto& [effect, share] : shares) named += share;
+    for (auto& [effect, share] : shares) share *= (1.0 - part) / named;
+    shares["unknown"] = shares.empty() ? 1.0 : part;
+}
+
 // The condition that the effect follows in an explanation; empty: none.
 std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
     for (const CandidateCause* cause : hypothesis.fit->fit.causes) {
@@ -92,14 +127,27 @@ double Evidence::of(double misfit, std::size_t open_numbers) const {
 
 double Evidence::of(const ScoredFit& fit) const {
     const double law = std::hypot(floor_error, law_error * clearest_law(fit));
-    return priors(fit) +
+    return priors(fit) - scale_penalty(fit) +
            marginal(fit, [&](double size) { return std::exp(-0.5 * size * size / (law * law)); });
 }
 
 double Evidence::with_unknown(const ScoredFit& fit) const {
     const bool named = fit.fit.causes.front()->effect != "none";
-    return priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior) +
-           marginal(fit, [](double size) { return size >= min_unknown_size ? 1.0 : 0.0; });
+    const double prior = priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior);
+    const double function = marginal(fit, [](double size) { return size >= min_unknown_size ? 1.0 : 0.0; });
+    if (fit.channel_misfits.empty()) return prior + function;
+    const double no_function = of_no_function(fit);
+    const double most = std::max(function, no_function);
+    return prior + most + std::log(0.5 * (std::exp(function - most) + std::exp(no_function - most)));
+}
+
+// What comes once, wanders or interferes is no function of the motion. Its size is one more fitted number,
+// and it is as visible as any cause.
+double Evidence::of_no_function(const ScoredFit& fit) const {
+    const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());
+    const double size = std::sqrt(std::max(0.0, most - tenable_mean_square(fit)));
+    return of(fit.misfit, open_numbers(fit.fit) + 1) -
+           invisible_penalty * std::max(0.0, 1.0 - size / min_unknown_size);
 }
 
 // The logarithm of the likelihood's mean over the sizes of the discrepancy.
@@ -161,7 +209,12 @@ std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fit
         take({effects, each.of_the_bench(), 0.0, each.evidence, &each, false});
         std::erase(effects, "none");
         effects.push_back("unknown");
-        take({effects, each.of_the_bench(), 0.0, with_unknown(each), &each, true});
+        const auto nothing = std::find_if(fits.begin(), fits.end(), [&](const ScoredFit& other) {
+            return other.fit.bench == each.fit.bench && other.fit.causes.front()->effect == "none";
+        });
+        const double without_cause = nothing == fits.end() ? each.misfit : nothing->misfit;
+        take({effects, each.of_the_bench(), 0.0, with_unknown(each), &each, true,
+              unknown_part(each, without_cause)});
     }
     std::stable_sort(weighed.begin(), weighed.end(),
                      [](const WeighedHypothesis& a, const WeighedHypothesis& b) {
@@ -186,6 +239,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         for (const std::string& effect : each.effects) shares[effect] = 1.0;
         if (!each.of_the_bench.empty()) shares.erase("none");
         for (const std::string& effect : each.of_the_bench) shares.emplace(effect, bench_fraction);
+        if (each.with_unknown) share_by_part(shares, each.unknown_part);
         double sum = 0.0;
         for (const auto& [effect, share] : shares) sum += share;
         for (const auto& [effect, share] : shares) {
@@ -217,7 +271,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
 
 bool worth_a_further_cause(const ScoredFit& fit) {
     constexpr double close_to_noise = 1.1;
-    return fit.misfit > std::max(close_to_noise, 1.0 + std::pow(law_error * clearest_law(fit), 2));
+    return fit.misfit > std::max(close_to_noise, tenable_mean_square(fit));
 }
 
 std::size_t open_numbers(const CauseFit& fit) {

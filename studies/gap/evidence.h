@@ -29,6 +29,9 @@ struct ScoredFit {
     /// Beside numbers that float widely a cause is no more visible than what is left without any, by rms.
     double max_visibility = std::numeric_limits<double>::infinity();
     Marginals beside{};  ///< what the fit leaves beside a discrepancy of each size
+    /// Mean square residual of each predicted channel, in units of noise and floor. Empty where the scale of
+    /// a channel's error is not known (E54).
+    std::vector<double> channel_misfits{};
     /// Of the bench's floating numbers those that are visibly far from what was stated.
     std::vector<std::size_t> far_numbers{};
 
@@ -45,6 +48,8 @@ struct WeighedHypothesis {
     double evidence = 0.0;
     const ScoredFit* fit = nullptr;
     bool with_unknown = false;
+    /// Of what the hypothesis explains, the part that the named causes do not; 0 without an unknown cause.
+    double unknown_part = 0.0;
 };
 
 /// Compares explanations of a recording by the residuals that they leave.
@@ -54,10 +59,11 @@ struct WeighedHypothesis {
 /// 461-464): the log-likelihood of the mean square residual over the independent samples, minus a penalty for
 /// each fitted number. Residuals are correlated in time, so only independent samples count. They are noise
 /// plus a discrepancy (Discrepancy), whose size is integrated over: small beside named causes, whose laws are
-/// good to a tenth; of any visible size for a cause outside the list. Three terms go beyond the criterion:
-/// the distance of the bench's and of a cause's own numbers from their usual values, in units of their
-/// uncertainty, and the prior probability of each kind of hypothesis. The constants stand in evidence.cpp,
-/// each with its reason.
+/// good to a tenth; of any visible size for a cause outside the list, which may also be no function of the
+/// motion at all. Four terms go beyond the criterion: the distance of the bench's and of a cause's own
+/// numbers from their usual values, in units of their uncertainty; the prior probability of each kind of
+/// hypothesis; and that of the scale of each channel's residuals, which is known where noise and floor are
+/// (E56). The constants stand in evidence.cpp, each with its reason.
 class Evidence {
   public:
     /// `independent_samples`: the number of instants with independent residuals.
@@ -72,7 +78,7 @@ class Evidence {
     std::vector<WeighedHypothesis> weigh(const std::vector<ScoredFit>& fits) const;
 
     /// The effects of all hypotheses, most probable first. Causes that act together share the probability of
-    /// their hypothesis. Probabilities sum to 1.
+    /// their hypothesis, an unknown one by the part that it explains. Probabilities sum to 1.
     static std::vector<RankedEffect> rank(const std::vector<CandidateCause>& causes,
                                           const std::vector<WeighedHypothesis>& weighed);
 
@@ -83,6 +89,7 @@ class Evidence {
     double of(double misfit, std::size_t open_numbers) const;
     double priors(const ScoredFit& fit) const;
     double marginal(const ScoredFit& fit, const std::function<double(double size)>& weight) const;
+    double of_no_function(const ScoredFit& fit) const;
 
     double samples_;
 };

@@ -115,6 +115,64 @@ TEST(Evidence, ACauseThatLeavesStructureIsNamedBesideTheUnknown) {
     EXPECT_NEAR(ranked[0].probability, ranked[1].probability, 0.01);
 }
 
+// The first of `channels` channels leaves `most`, the others only noise.
+ScoredFit with_channels(const Evidence& evidence, ScoredFit fit, std::size_t channels, double most) {
+    fit.channel_misfits.assign(channels, 1.0);
+    fit.channel_misfits.front() = most;
+    fit.evidence = evidence.of(fit);
+    return fit;
+}
+
+TEST(Evidence, WhatOneChannelLeavesWithoutFollowingTheMotionIsUnknown) {
+    const Known known;
+    // Seven channels, of which one leaves five times its variance: 1.57 on average.
+    const double mean_square = (6.0 + 5.0) / 7.0;
+    const ScoredFit nothing =
+        with_channels(evidence, fitted(evidence, {&known.none}, mean_square, {0.0}), 7, 5.0);
+    const ScoredFit drag =
+        with_channels(evidence, fitted(evidence, {&known.drag}, 0.99 * mean_square, {2.5}), 7, 4.9);
+    const auto ranked = ranked_by(evidence, {known.none, known.drag}, {nothing, drag});
+    EXPECT_EQ(ranked.front().effect, "unknown");
+    EXPECT_GT(ranked.front().probability, 0.9);
+}
+
+TEST(Evidence, ScatterOfTheNoisesScaleIsNoUnknownCause) {
+    const Known known;
+    for (const double mean_square : {0.6, 1.0, 1.2}) {
+        const ScoredFit nothing =
+            with_channels(evidence, fitted(evidence, {&known.none}, mean_square, {0.0}), 1, mean_square);
+        const auto ranked = ranked_by(evidence, {known.none, known.drag}, {nothing});
+        EXPECT_EQ(ranked.front().effect, "none") << mean_square;
+        EXPECT_LT(probability(ranked, "unknown"), 0.03) << mean_square;
+    }
+}
+
+TEST(Evidence, ALawMayBeWrongByATenthOfWhatItsCauseDoes) {
+    const Known known;
+    // A cause of twenty times the noise may leave a channel's variance at five times the noise's.
+    const auto unknown_is_present = [&](double visibility) {
+        const ScoredFit nothing =
+            with_channels(evidence, fitted(evidence, {&known.none}, 200.0, {0.0}), 1, 200.0);
+        const ScoredFit drag =
+            with_channels(evidence, fitted(evidence, {&known.drag}, 5.0, {visibility}), 1, 5.0);
+        for (const RankedEffect& each : ranked_by(evidence, {known.none, known.drag}, {nothing, drag})) {
+            if (each.effect == "unknown") return each.present;
+        }
+        return 0.0;
+    };
+    EXPECT_LT(unknown_is_present(20.0), 0.03);
+    EXPECT_GT(unknown_is_present(3.0), 0.97);
+}
+
+TEST(Evidence, AnUnknownCauseHasTheShareOfTheGapThatTheNamedOneLeaves) {
+    const Known known;
+    const ScoredFit nothing = with_channels(evidence, fitted(evidence, {&known.none}, 9.0, {0.0}), 1, 9.0);
+    const ScoredFit drag = with_channels(evidence, fitted(evidence, {&known.drag}, 7.0, {2.5}), 1, 7.0);
+    const auto ranked = ranked_by(evidence, {known.none, known.drag}, {nothing, drag});
+    EXPECT_EQ(ranked.front().effect, "unknown");
+    EXPECT_NEAR(ranked[0].probability / (ranked[0].probability + ranked[1].probability), 6.0 / 8.0, 0.02);
+}
+
 TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
     const Known known;
     const ScoredFit single = fitted(evidence, {&known.drag}, 2.0, {6.0});
