@@ -102,6 +102,11 @@ void use_simd_of(const Invocation& invocation, const std::vector<storage::Comput
 }
 
 config::ReadConfig read_config_of(const Invocation& invocation) {
+    if (names_a_recording(invocation.argument("CONFIG")))
+        throw UsageError(
+            fmt::format("{} is a recording, but `capstan {}` takes the configuration of a study (TOML); "
+                        "`capstan diagnose` and `capstan estimate` take recordings",
+                        invocation.argument("CONFIG"), invocation.command().name));
     config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     StudyPlan& plan = config.plan;
     if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
