@@ -239,7 +239,7 @@ std::string next_experiment_sentence(const gap::NonIdentifiable& open) {
     if (open.group.size() < 2) return "";
     std::vector<std::string> group;
     for (const auto& effects : open.group) group.push_back(fmt::format("{}", fmt::join(effects, " with ")));
-    const std::string text = (open.is_unknown ? "No known effect explains the gap. Closest come: "
+    const std::string text = (open.is_unknown ? "Known effects do not explain the whole gap. Closest come: "
                                               : "This recording cannot distinguish: ") +
                              fmt::format("{}.", fmt::join(group, "; "));
     constexpr double helps = 0.8;
@@ -280,7 +280,9 @@ reports::AnswerSection next_section(const gap::NonIdentifiable& open, const Data
                     first}},
         .note =
             "Each experiment is simulated with every explanation as it was fitted; the other explanations may "
-            "change all their numbers to match it. A guess would be right with probability 0.5."};
+            "change all their numbers to match it. " +
+            std::string(open.is_unknown ? "0.5 means that no prediction differs."
+                                        : "A guess would be right with probability 0.5.")};
 }
 
 }  // namespace

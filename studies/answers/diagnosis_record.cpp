@@ -133,11 +133,19 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     if (first.effect == "none")
         return fmt::format("There is no gap beyond noise and the floor of the model (probability {:.2f}).",
                            first.probability);
-    if (first.effect == "unknown")
+    if (first.effect == "unknown") {
+        std::vector<std::string> beside;
+        for (const gap::FittedCause& cause : diagnosis.causes) {
+            const double present = present_probability(diagnosis, cause.effect);
+            if (present > likely) beside.push_back(fmt::format("{} ({:.2f})", cause_words(cause), present));
+        }
+        const std::string part =
+            beside.empty() ? "" : fmt::format(" A part of it is probably {}.", fmt::join(beside, " and "));
         return fmt::format(
-            "There is a gap that no known effect explains (probability {:.2f}). The numbers below are those of "
-            "the best known effect.{}",
-            first.present, bounds_sentence(diagnosis));
+            "There is a gap that no known effect explains{} (probability {:.2f}).{} The numbers below are "
+            "those of the best known effect.{}",
+            beside.empty() ? "" : " completely", first.present, part, bounds_sentence(diagnosis));
+    }
     std::vector<std::string> causes;
     for (const gap::FittedCause& cause : diagnosis.causes) causes.push_back(cause_words(cause));
     std::string text =

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "capstan/gap/block_bootstrap.h"
 #include "capstan/platform/parallel_for.h"
-#include "capstan/platform/statistics.h"
 
 namespace capstan::gap {
 
@@ -22,10 +20,6 @@ constexpr double fine_step = 0.01;
 constexpr double rough_step = 0.1;
 // A search ends where a further step promises to change the evidence by less than this.
 constexpr double min_gain = 0.02;
-
-double prior_std(const std::vector<FloatingNumber>& numbers, Eigen::Index number) {
-    return numbers[static_cast<std::size_t>(number)].prior_std;
-}
 
 }  // namespace
 
@@ -114,115 +108,13 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
     return all;
 }
 
-Visibility CauseFitter::visibility(const CauseFit& fit) const {
-    std::vector<Hypothesis> hypotheses = {fit.hypothesis()};
-    for (const CandidateCause* cause : fit.causes) {
-        Hypothesis without =
-            only_causes(fit.hypothesis(), [&](const CandidateCause& other) { return &other != cause; });
-        for (Eigen::Index number = 0; number < nominal_coordinates; ++number) {
-            if (cause->nominal_std(number) > prior_std(fit.bench->numbers, number))
-                without.coordinates[number] = 0.0;
-        }
-        hypotheses.push_back(without);
-    }
-    const Eigen::Index numbers = fit.bench->size() > nominal_coordinates ? fit.bench->size() : 0;
-    for (Eigen::Index number = 0; number < numbers; ++number) {
-        hypotheses.push_back(fit.hypothesis());
-        hypotheses.back().coordinates[number] = 0.0;
-    }
-    const Eigen::MatrixXd residuals = data_residuals(hypotheses);
-    Visibility visibility;
-    for (Eigen::Index column = 1; column < residuals.cols(); ++column) {
-        const bool of_cause = visibility.of_causes.size() < fit.causes.size();
-        (of_cause ? visibility.of_causes : visibility.of_the_bench)
-            .push_back(clearest_change(residuals.col(column) - residuals.col(0)));
-    }
-    return visibility;
-}
-
-std::map<std::size_t, double> CauseFitter::mean_squares(const Eigen::VectorXd& residuals) const {
-    std::map<std::size_t, double> squares;
-    std::map<std::size_t, double> rows;
-    for (const ResidualSeries& series : series_) {
-        squares[series.channel] +=
-            residuals
-                .segment(static_cast<Eigen::Index>(series.first_row), static_cast<Eigen::Index>(series.rows))
-                .squaredNorm();
-        rows[series.channel] += static_cast<double>(series.determined_rows());
-    }
-    for (auto& [channel, mean_square] : squares) mean_square /= std::max(1.0, rows[channel]);
-    return squares;
-}
-
-double CauseFitter::clearest_change(const Eigen::VectorXd& change) const {
-    double clearest = 0.0;
-    for (const auto& [channel, mean_square] : mean_squares(change))
-        clearest = std::max(clearest, std::sqrt(mean_square));
-    return clearest;
-}
-
-double CauseFitter::misfit(const CauseFit& fit) const {
-    return fit.residuals.head(static_cast<Eigen::Index>(data_rows_)).squaredNorm() / determined_rows_;
-}
-
-std::vector<double> CauseFitter::channel_misfits(const CauseFit& fit) const {
-    std::vector<double> misfits;
-    for (const auto& [channel, mean_square] : mean_squares(fit.residuals)) misfits.push_back(mean_square);
-    return misfits;
-}
-
-double CauseFitter::nominal_penalty(const CauseFit& fit) const {
-    return 0.5 * prior_residuals(fit.hypothesis(), fit.coordinates).head(fit.bench->size()).squaredNorm() /
-           (prior_weight_ * prior_weight_);
-}
-
-double CauseFitter::shape_penalty(const CauseFit& fit) const {
-    const Eigen::VectorXd priors = prior_residuals(fit.hypothesis(), fit.coordinates);
-    return 0.5 * priors.tail(priors.size() - fit.bench->size()).squaredNorm() /
-           (prior_weight_ * prior_weight_);
-}
-
-Eigen::VectorXd CauseFitter::half_widths(const CauseFit& fit,
-                                         const std::vector<Eigen::VectorXd>& without_a_run) const {
-    Eigen::VectorXd here = fit.residuals;
-    apply(fit.weights, here);
-    const Eigen::MatrixXd jacobian = jacobian_at(
-        [&](const Eigen::MatrixXd& coordinates) {
-            Eigen::MatrixXd all = residuals(fit.hypothesis(), coordinates);
-            apply(fit.weights, all);
-            return all;
-        },
-        fit.coordinates, here);
-    // Channels of one instant are correlated, so a block has the rows of all of them.
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<Eigen::Index>> blocks;  // run, second: rows
-    for (const ResidualSeries& series : series_) {
-        for (std::size_t row = 0; row < series.rows; ++row) {
-            const auto sample = (static_cast<std::size_t>(series.first_sample) + row) *
-                                static_cast<std::size_t>(twin_.stride());
-            const auto second = sample / static_cast<std::size_t>(bootstrap_block_samples(recording_));
-            blocks[{series.run, second}].push_back(static_cast<Eigen::Index>(series.first_row + row));
-        }
-    }
-    std::vector<Eigen::Index> order;
-    std::vector<Eigen::Index> ends;
-    for (const auto& [block, rows] : blocks) {
-        order.insert(order.end(), rows.begin(), rows.end());
-        ends.push_back(static_cast<Eigen::Index>(order.size()));
-    }
-    for (auto row = static_cast<Eigen::Index>(data_rows_); row < jacobian.rows(); ++row) order.push_back(row);
-    const Sandwich sandwich = sandwich_of(jacobian(order, Eigen::all), here(order), ends);
-    const Eigen::VectorXd independent = prior_weight_ * prior_weight_ * sandwich.inverse.diagonal();
-    const Eigen::VectorXd deviations = sandwich.covariance.diagonal().cwiseMax(independent).cwiseSqrt();
-    return (two_sided_95 * deviations).cwiseMax(jackknife_half_widths(without_a_run, deviations.size()));
-}
-
 Eigen::VectorXd CauseFitter::prior_residuals(const Hypothesis& hypothesis,
                                              const Eigen::VectorXd& coordinates) const {
     Eigen::VectorXd priors(coordinates.size());
     Eigen::Index row = 0;
     for (; row < hypothesis.bench->size(); ++row) {
         // Each nominal number gets the widest prior of all causes.
-        double spread = prior_std(hypothesis.bench->numbers, row);
+        double spread = hypothesis.bench->numbers[static_cast<std::size_t>(row)].prior_std;
         for (const CandidateCause* cause : hypothesis.causes)
             spread = std::max(spread, cause->nominal_std(row));
         priors[row] = prior_weight_ * coordinates[row] / spread;

@@ -44,7 +44,7 @@ class Diagnoser {
             if (nothing->misfit < tenable_misfit) {
                 nothing->evidence = leading.evidence + Evidence::overstated;
             } else {
-                leading.evidence -= unproven_penalty;
+                leading.charge_unproven(unproven_penalty);
             }
             sort_by_evidence(fits);
             diagnosis = {};

@@ -63,7 +63,7 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
             };
             if (each.fit.bench == fewer.fit.bench && each.fit.causes.size() > fewer.fit.causes.size() &&
                 std::all_of(fewer.fit.causes.begin(), fewer.fit.causes.end(), is_in))
-                each.evidence = std::min(each.evidence, fewer.evidence - unearned_penalty);
+                each.charge_unproven(std::max(0.0, each.evidence - (fewer.evidence - unearned_penalty)));
         }
         fits.push_back(std::move(fewer));
         sort_by_evidence(fits);

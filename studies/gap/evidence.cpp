@@ -170,7 +170,7 @@ double Evidence::marginal(const ScoredFit& fit, const std::function<double(doubl
 }
 
 double Evidence::priors(const ScoredFit& fit) const {
-    double evidence = -fit.nominal_penalty - fit.shape_penalty;
+    double evidence = -fit.nominal_penalty - fit.shape_penalty - fit.unproven_penalty;
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         const CandidateCause& cause = *fit.fit.causes[k];
         if (cause.effect == "none") {

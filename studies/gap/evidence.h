@@ -24,6 +24,7 @@ struct ScoredFit {
     double misfit = 0.0;  ///< mean square residual, in units of noise and floor
     double nominal_penalty = 0.0;
     double shape_penalty = 0.0;
+    double unproven_penalty = 0.0;   ///< for causes that close nothing in held-out data
     std::vector<double> visibility;  ///< of each cause: its rms change of the clearest channel, in units of
                                      ///< noise and floor
     /// Beside numbers that float widely a cause is no more visible than what is left without any, by rms.
@@ -38,6 +39,12 @@ struct ScoredFit {
     /// The effects that they stand for.
     std::vector<std::string> of_the_bench() const;
     double evidence = 0.0;  ///< logarithm, up to a constant
+
+    /// Lowers the evidence of its causes, also beside an unknown one.
+    void charge_unproven(double penalty) {
+        unproven_penalty += penalty;
+        evidence -= penalty;
+    }
 };
 
 /// An explanation and how probable it is; its best fit where several variants were tried.
