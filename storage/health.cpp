@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 
+#include "capstan/platform/work_meter.h"
 #include "capstan/storage/integrity/verification.h"
 #include "capstan/storage/schema.h"
 #include "capstan/storage/statement.h"
@@ -17,17 +18,24 @@ int number_from(Database& database, const char* sql) {
     return statement.get<int>(0);
 }
 
+// Of the time, measured on a study of 6 MB.
+constexpr double pages_share = 0.25;
+constexpr double references_share = 0.10;
+constexpr double hashes_share = 1.0 - pages_share - references_share;
+
 std::vector<std::string> problems_in(Database& database) {
     std::vector<std::string> problems;
     Statement pages(database, "PRAGMA integrity_check(20)");
     while (pages.step("check the pages")) {
         if (pages.get<std::string>(0) != "ok") problems.push_back(pages.get<std::string>(0));
     }
+    note_work(pages_share);
     Statement references(database, "PRAGMA foreign_key_check");
     while (references.step("check the references") && problems.size() < 20) {
         problems.push_back("a row of table " + references.get<std::string>(0) + " refers to nothing in " +
                            references.get<std::string>(2));
     }
+    note_work(references_share);
     if (number_from(database,
                     "SELECT count(*) FROM study t WHERE status = 'complete' AND EXISTS "
                     "(SELECT 1 FROM work_unit w WHERE w.study_id = t.study_id AND done = 0)") > 0)
@@ -132,8 +140,9 @@ Health examine(Database& database) {
     Health health;
     health.problems = schema_problems(database);
     if (!health.problems.empty()) return health;
+    expect_work(pages_share + references_share + hashes_share);
     health.problems = problems_in(database);
-    HashCheck hashes = check_hashes(database);
+    HashCheck hashes = check_hashes(database, hashes_share);
     health.hashed_parts = hashes.hashed;
     health.unhashed = std::move(hashes.unhashed);
     health.problems.insert(health.problems.end(), hashes.problems.begin(), hashes.problems.end());

@@ -45,7 +45,9 @@
   // `capstan report --figures` opens the page with #figures=WIDTH and reads what this leaves in it.
   async function leaveFigureFiles(width_px) {
     const files = [];
-    for (const figure of document.querySelectorAll("figure[data-figure]")) {
+    const figures = document.querySelectorAll("figure[data-figure]");
+    for (const figure of figures) {
+      window.capstanPage.tell(figures.length);
       if (rowsOf(figure, about(figure).tables[0]).length === 0) continue;
       const view = await viewOnPaper(() => specOf(figure, 0, width_px));
       files.push({ name: figure.id, svg: await view.toSVG(), png: (await view.toCanvas(4)).toDataURL("image/png") });

@@ -222,7 +222,15 @@
     return best;
   }
 
+  // For the program that has this page printed or its figures saved, which reads the console.
+  let told = 0;
+  function tell(all) {
+    if (/^#(paper|figures=)/.test(location.hash)) console.info("capstan: " + ++told + " of " + all + " drawn");
+  }
+  const figures_to_print = () => 2 * document.querySelectorAll("figure[data-figure]").length;  // on the screen, then on paper
+
   async function draw(figure) {
+    tell(figures_to_print());
     const spec = specOf(figure, 0);
     const empty = spec.datasets[about(figure).tables[0]].length === 0;
     figure.classList.toggle("empty", empty);
@@ -257,6 +265,7 @@
     ++drawing;
     document.documentElement.dataset.paper = "";
     for (const figure of document.querySelectorAll("figure[data-figure]")) {
+      tell(figures_to_print());
       if (figure.closest("[hidden]")) continue;
       const spec = specOf(figure, 0);
       if (spec.datasets[about(figure).tables[0]].length === 0) continue;
@@ -308,6 +317,7 @@
   });
   // For the other scripts of the page: figure_data.js, which begins, and those of the service.
   window.capstanPage = {
+    tell,
     tables: () => tables,
     titles: () => study.regime_titles,
     tableOf: (name) => study.tables[name],

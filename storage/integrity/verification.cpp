@@ -1,8 +1,10 @@
 #include "capstan/storage/integrity/verification.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
+#include "capstan/platform/work_meter.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/integrity/hashed_rows.h"
 #include "capstan/storage/integrity/world_hash.h"
@@ -76,6 +78,7 @@ class StudyCheck {
     void compare(const Part& part, const TableHashes& found) {
         compared_.insert(part);
         ++result_.hashed;
+        note_work(result_.work_of_part);
         const TableHashes& stored = stored_[part];
         std::set<std::string> tables;
         for (const auto& [table, sha256] : found) tables.insert(table);
@@ -147,10 +150,18 @@ void check_diagnosis(Database& database, std::int64_t diagnosis_id, HashCheck& r
             result.problems.push_back(name + " has rows in table " + table + ", but no hash of them");
 }
 
+int hashed_parts(Database& database) {
+    Statement count(database,
+                    "SELECT count(*) FROM (SELECT DISTINCT study_id, part, part_index FROM content_hash)");
+    count.step("count the hashes");
+    return count.get<int>(0);
+}
+
 }  // namespace
 
-HashCheck check_hashes(Database& database) {
+HashCheck check_hashes(Database& database, double work) {
     HashCheck result;
+    result.work_of_part = work / std::max(hashed_parts(database), 1);
     Statement studies(database, "SELECT study_id, name, status FROM study ORDER BY study_id");
     while (studies.step("read the studies"))
         StudyCheck(database, studies.get<std::int64_t>(0), studies.get<std::string>(1), result)

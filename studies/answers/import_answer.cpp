@@ -192,11 +192,12 @@ reports::Answer recording_check_answer(const Recording& recording, const std::ve
                             {"unit", channel.unit},
                             {"noise_std", channel.noise_std},
                             {"step", channel.step}});
-    answer.headline = problems.empty()
-                          ? fmt::format("the recording can be used: {}, {} runs, {} samples.",
-                                        mode_name(recording.mode), recording.runs.size(), recording.samples())
-                          : fmt::format("the recording cannot be used: {} problem{}.", problems.size(),
-                                        problems.size() == 1 ? "" : "s");
+    answer.headline =
+        problems.empty()
+            ? fmt::format("the recording can be used: {}, {} run{}, {} samples.", mode_name(recording.mode),
+                          recording.runs.size(), recording.runs.size() == 1 ? "" : "s", recording.samples())
+            : fmt::format("the recording cannot be used: {} problem{}.", problems.size(),
+                          problems.size() == 1 ? "" : "s");
     answer.values = {{"ok", problems.empty()},
                      {"problems", problems},
                      {"assumptions", recording.assumptions},

@@ -62,6 +62,13 @@ Reference read_reference(const std::filesystem::path& path, const std::string& n
     return reference;
 }
 
+void diagnose_case(const TrialFolder& folder, const std::string& name, const std::string& seal) {
+    gap::DiagnosisOptions one_thread;
+    one_thread.threads = 1;
+    const Recording recording = read_recording(folder.recording(name));
+    write_answer(folder.answer(name), answer_of(name, gap::diagnose(recording, one_thread)), seal);
+}
+
 }  // namespace
 
 TrialLabels make_recordings(const TrialOptions& options, const std::filesystem::path& folder, int jobs,
@@ -97,12 +104,18 @@ void answer_trial(const TrialFolder& folder, const TrialOptions& options, const 
     for_each_missing(
         names, "diagnosing", jobs, hooks,
         [&](const std::string& name) { return std::filesystem::exists(folder.answer(name)); },
-        [&](const std::string& name) {
-            gap::DiagnosisOptions one_thread;
-            one_thread.threads = 1;
-            const Recording recording = read_recording(folder.recording(name));
-            write_answer(folder.answer(name), answer_of(name, gap::diagnose(recording, one_thread)), seal);
-        });
+        [&](const std::string& name) { diagnose_case(folder, name, seal); });
+}
+
+std::string answer_case(const TrialFolder& folder, int number) {
+    const std::string name = case_name(number);
+    if (folder.seal().empty() || !std::filesystem::exists(folder.recording(name)))
+        throw InvalidInput(
+            {fmt::format("{}: there is no sealed {}; `capstan gap-trial --keep {} --generate-only` "
+                         "makes recordings and seals their labels",
+                         folder.path().string(), name, folder.path().string())});
+    if (!std::filesystem::exists(folder.answer(name))) diagnose_case(folder, name, folder.seal());
+    return read_file(folder.answer(name));
 }
 
 TrialScore unseal_and_score(const TrialFolder& folder, const std::string& seal, int jobs,

@@ -30,6 +30,10 @@ std::string prepare_trial(const TrialFolder& folder, const TrialOptions& options
 void answer_trial(const TrialFolder& folder, const TrialOptions& options, const std::string& seal, int jobs,
                   const BlindTrialHooks& hooks);
 
+/// Diagnoses one recording of a prepared trial, unless it has an answer, and returns the text of the answer.
+/// Throws InvalidInput if the trial has no such case or is not sealed.
+std::string answer_case(const TrialFolder& folder, int number);
+
 /// Unseals the labels, fits the true causes where that is not done yet, and computes the score.
 TrialScore unseal_and_score(const TrialFolder& folder, const std::string& seal, int jobs,
                             const BlindTrialHooks& hooks);

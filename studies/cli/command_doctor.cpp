@@ -125,7 +125,9 @@ reports::Answer answer_of(const std::string& file, const DatabaseState& state) {
 
 ExitCode run_doctor(const Invocation& invocation) {
     const std::string& file = invocation.text("db");
+    ShownWork work(invocation, "reading " + file);
     const DatabaseState state = state_of(file);
+    work.end();
     deliver_answer(invocation, answer_of(file, state));
     return state.is_intact ? ExitCode::success : ExitCode::database_problem;
 }
@@ -140,7 +142,7 @@ Command doctor_command() {
             "Checks the program, the processor and the optional programs, reads every page of the "
             "database, checks every reference in it, and compares every content hash, so that a changed number "
             "is found and its study, unit and table are named. Changes nothing.",
-        .options = {database_option, output_option, json_option, help_option},
+        .options = {database_option, output_option, json_option, progress_option, help_option},
         .examples = {"capstan doctor", "capstan doctor --db other.db --json"},
         .run = run_doctor};
 }

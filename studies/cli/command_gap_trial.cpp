@@ -96,7 +96,17 @@ ExitCode score_again(const Invocation& invocation) {
     return ExitCode::success;
 }
 
+ExitCode answer_one(const Invocation& invocation) {
+    if (!invocation.has("keep"))
+        throw UsageError("--case needs --keep DIR, a trial whose recordings are there");
+    const TrialFolder folder =
+        TrialFolder::of_labels(std::filesystem::path(invocation.text("keep")) / "labels.json");
+    deliver(invocation, gap_trial::answer_case(folder, static_cast<int>(invocation.integer("case"))));
+    return ExitCode::success;
+}
+
 ExitCode run_gap_trial(const Invocation& invocation) {
+    if (invocation.has("case")) return answer_one(invocation);
     if (invocation.has("unseal")) return score_again(invocation);
     const bool only_recordings = invocation.has("generate-only");
     if (only_recordings && !invocation.has("keep"))
@@ -216,6 +226,15 @@ Command gap_trial_command() {
                  .value = "DIR",
                  .meaning =
                      "Keep recordings, labels and answers in DIR, and continue a trial that is already there."},
+             Option{
+                 .name = "case",
+                 .kind = OptionKind::integer,
+                 .value = "K",
+                 .meaning =
+                     "Diagnose only case K of the sealed trial in --keep, with one thread, and print its answer (JSON). "
+                     "`capstan batch gap-trial` does so for all cases.",
+                 .low = 1,
+                 .high = 999},
              Option{.name = "generate-only",
                     .kind = OptionKind::flag,
                     .meaning = "Stop when the recordings and the sealed labels are in DIR."},
@@ -225,7 +244,11 @@ Command gap_trial_command() {
                  .meaning =
                      "Check FILE (a kept labels.json) against its hash and score the stored answers beside it "
                      "again."},
-             jobs_option, output_option, json_option, progress_option, help_option},
+             jobs_option,
+             output_option,
+             json_option,
+             progress_option,
+             help_option},
         .examples =
             {"capstan gap-trial --cases 200",
              "capstan gap-trial --length short --nominal-error --seed 2 --keep trial",

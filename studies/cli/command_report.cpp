@@ -91,10 +91,19 @@ void require_browser(std::string_view option) {
 
 void write_figures(const Invocation& invocation, const std::string& page) {
     const std::filesystem::path folder = invocation.text("figures");
+    ShownWork work(invocation, "drawing the figures");
     const auto figures = printing::figures_of(page, static_cast<int>(invocation.integer("width")));
+    work.end();
     std::filesystem::create_directories(folder);
     for (const printing::FigureFile& figure : figures) write_file(folder / figure.name, figure.bytes);
     say(fmt::format("Wrote {} figures, each as SVG and PNG, to {}.", figures.size() / 2, folder.string()));
+}
+
+std::string printed(const Invocation& invocation, const std::string& page) {
+    ShownWork work(invocation, "printing");
+    std::string pdf = printing::pdf_of(page);
+    work.end();
+    return pdf;
 }
 
 ExitCode run_report(const Invocation& invocation) {
@@ -122,7 +131,7 @@ ExitCode run_report(const Invocation& invocation) {
         write_figures(invocation, chosen_report(invocation, database, AnswerFormat::html));
     if (figures_only) return ExitCode::success;
     const std::string text = chosen_report(invocation, database, format);
-    deliver(invocation, as_pdf ? printing::pdf_of(text) : text);
+    deliver(invocation, as_pdf ? printed(invocation, text) : text);
     if (file != "-") say(fmt::format("Wrote {}.", file));
     return ExitCode::success;
 }
@@ -169,6 +178,7 @@ Command report_command() {
                     database_option,
                     output_option,
                     {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
+                    progress_option,
                     help_option},
         .examples = {"capstan report -o report.html", "capstan report -o report.pdf",
                      "capstan report --figures figures --width 340", "capstan report paper --format md",

@@ -8,12 +8,15 @@
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
 #include "capstan/cli/watched_run.h"
-#include "capstan/cluster/lease.h"
 #include "capstan/cluster/shard_record.h"
 #include "capstan/cluster/study_queue.h"
 #include "capstan/cluster/worker.h"
+#include "capstan/platform/files.h"
 #include "capstan/platform/simd_width.h"
 #include "capstan/platform/standard_streams.h"
+#include "capstan/units/lease.h"
+#include "capstan/units/result_units.h"
+#include "capstan/units/unit_record.h"
 
 namespace capstan::cli {
 
@@ -57,10 +60,11 @@ TaskStatus shard_status(const StudyStatus& status, const cluster::StudyQueue& qu
     if (const auto task = queue.shards.find(number); task != queue.shards.end()) shard.task = task->second;
     shard.state =
         state_of(shard.progress.is_done(), shard.progress.was_begun, shard.task, status.scheduler != nullptr);
-    if (shard.state != "done" && cluster::is_held(directory.lease_file(number), now_s)) {
+    units::DiskFolder leases = directory.leases();
+    if (shard.state != "done" && units::is_held(leases, units::lease_of(number), now_s)) {
         shard.state =
-            cluster::is_late(directory, number, usual.late_after_s, usual.late_factor) ? "late" : "running";
-        if (const auto lease = cluster::read_lease(directory.lease_file(number)))
+            units::is_late(leases, number, usual.late_after_s, usual.late_factor) ? "late" : "running";
+        if (const auto lease = units::read_lease(leases, units::lease_of(number)))
             shard.worker = lease->worker;
     }
     if (shard.state == "failed" || shard.state == "unfinished")
@@ -77,13 +81,14 @@ StudyStatus status_of(const std::string& named) {
     const cluster::StudyQueue queue = status.scheduler != nullptr
                                           ? cluster::read_queue(*status.scheduler, directory)
                                           : cluster::StudyQueue{};
-    const double now_s = cluster::disk_time_s(directory.leases_folder());
+    units::DiskFolder leases = directory.leases();
+    const double now_s = leases.now_s();
     for (int number = 1; number <= directory.shards; ++number)
         status.shards.push_back(shard_status(status, queue, now_s, number));
     const bool merged = std::filesystem::exists(directory.merged_file());
     const bool begun = std::filesystem::exists(directory.merge_log());
     status.merge.state = state_of(merged, begun, queue.merge, status.scheduler != nullptr);
-    if (!merged && cluster::is_held(directory.merge_lease_file(), now_s)) status.merge.state = "running";
+    if (!merged && units::is_held(leases, units::merge_lease, now_s)) status.merge.state = "running";
     status.merge.task = queue.merge;
     status.outlook = cluster::outlook_of(directory);
     return status;
@@ -93,9 +98,18 @@ StudyStatus status_of(const std::string& named) {
 std::string advice(const StudyStatus& status) {
     const StudyDirectory& directory = status.directory;
     const std::string folder = directory.path.string();
+    if (status.merge.state == "done" && directory.batch) {
+        const auto problems = units::problems_of_results(read_file(directory.merged_file()));
+        return problems.empty()
+                   ? fmt::format("Complete, every answer has its hash: {}", directory.merged_file().string())
+                   : fmt::format("Damaged: {}; remove {} and run `capstan study work {}`.", problems.front(),
+                                 directory.merged_file().string(), folder);
+    }
     if (status.merge.state == "done") {
         return fmt::format("Complete: capstan recommend --db {}", directory.merged_file().string());
     }
+    if (directory.batch && status.scheduler == nullptr)
+        return fmt::format("`capstan study work {}` goes on, on any machine that sees the folder.", folder);
     if (status.scheduler == nullptr)
         return fmt::format("There is no queue of {} on this machine, so only the files are known.",
                            directory.scheduler);
@@ -104,6 +118,11 @@ std::string advice(const StudyStatus& status) {
         left = left || shard.state == "failed" || shard.state == "not_started";
     }
     if (!left) return "Running; nothing to do.";
+    if (directory.batch)
+        return fmt::format(
+            "Some tasks are not in the queue. The logs in {0}/logs show why; submit them again with the same `capstan "
+            "batch --directory {0}`.",
+            folder);
     return fmt::format(
         "Some tasks are not in the queue. The logs in {0}/logs show why; submit them again with:\n"
         "capstan study submit --scheduler {3} {0}/config.toml --shards {1} --processors {2} --directory {0}",
@@ -185,7 +204,7 @@ Command study_status_command() {
         .name = "study status",
         .summary = "Show the progress of a submitted study.",
         .description =
-            "Shows for every shard in a folder made by `capstan study submit` whether it is done, "
+            "Shows for every shard in a folder made by `capstan study submit` or `capstan batch` whether it is done, "
             "running, late, waiting, failed (started, but neither in the queue nor at work; with the last line of its "
             "log) or not started, how many of its units are stored, who works on it, and its state in the queue; then "
             "what is left in time and core-hours, and what to do next. It reads the shards' files and leases, and also "
@@ -215,12 +234,18 @@ ExitCode run_study_work(const Invocation& invocation) {
     return watch(invocation, directory.name, [&](const RunOptions& options) -> WatchedEnd {
         work_options.run = options;
         if (!invocation.has("jobs")) work_options.run.jobs = directory.processors_per_shard;
-        const RunEnd end = invocation.has("merge") ? cluster::merge(directory, work_options)
-                                                   : cluster::work(directory, own, work_options);
+        const units::WorkEnd worked = invocation.has("merge") ? cluster::merge(directory, work_options)
+                                                              : cluster::work(directory, own, work_options);
+        if (worked == units::WorkEnd::failed)
+            throw std::runtime_error(
+                "a command of the batch failed; the lines above say which, and the same "
+                "command tries again");
+        const RunEnd end = worked == units::WorkEnd::stopped ? RunEnd::stopped : RunEnd::complete;
         const std::string words =
             end == RunEnd::stopped ? "Stopped; every finished unit is kept. The same command goes on."
             : std::filesystem::exists(directory.merged_file())
-                ? fmt::format("The study is complete: {}", directory.merged_file().string())
+                ? fmt::format("{} is complete: {}", directory.batch ? "The batch" : "The study",
+                              directory.merged_file().string())
                 : "Nothing is left to do here; other workers have the other shards.";
         return {end, {}, words, 0};
     });
@@ -233,11 +258,11 @@ Command study_work_command() {
         .name = "study work",
         .summary = "Work on the shards of a submitted study.",
         .description =
-            "Runs shards in a folder made by `capstan study submit`, one after the other, until none is left; any "
+            "Runs shards in a folder made by `capstan study submit` or `capstan batch`, one after the other, until none is left; any "
             "number of such workers on any machines share the folder, each shard under a lease. Where all shards "
             "have been begun, a worker waits beside one that runs and computes it once more if it is late (longer "
             "than --late and than three times the median shard) or its worker has died; both give the same bits. "
-            "The last worker joins the shards into study.db. The jobs of schedulers call it; by hand it serves "
+            "The last worker joins the shards into study.db, or the answers of a batch into results.json. The jobs of schedulers call it; by hand it serves "
             "where there is none.",
         .arguments = {{"DIR", "The study's folder.", ArgumentNeed::optional, "capstan-study"}},
         .options = {{.name = "shard",

@@ -25,6 +25,13 @@ constexpr CommandTime times[] = {
     {"study plan",
      "The --seconds of its pilot, and the true motion of every study of the sweep: 20 s for configs/atlas.toml. Shows "
      "progress and the time left."},
+    {"study submit",
+     "The pilot takes a second, or longer where `study plan` does; the rest less than 2 s for some hundred shards, 20 s "
+     "for 100,000. Shows progress of the pilot and the time left."},
+    {"study status", "Less than 2 s for some hundred shards, in proportion to their number."},
+    {"study work", "Until no shard is left, so as long as the study or batch. Shows progress."},
+    {"batch",
+     "Less than 2 s for some hundred inputs; the work itself is the scheduler's or `capstan study work`'s."},
     {"place",
      "10 s for 11 nodes and 1000 repetitions; twice as long for each further node, and in proportion to the "
      "repetitions; a configuration with [uncertainty] takes minutes. Shows progress and the time left."},
@@ -44,7 +51,9 @@ constexpr CommandTime times[] = {
      "left."},
     {"gap-trial",
      "Half a minute to minutes for each case; --generate-only takes seconds. Shows progress and the time left."},
-    {"report", "Less than 2 s; as PDF and with --figures 3 to 15 s, which the browser takes."},
+    {"report",
+     "Less than 2 s; as PDF and with --figures about half a second for each figure, which the browser takes. Shows "
+     "progress and the time left."},
     {"import", "About a second for 10 MB of log. Shows progress."},
     {"export", "About a second for a million rows."},
     {"serve", "Until it is stopped."},
@@ -53,7 +62,7 @@ constexpr CommandTime times[] = {
     {"paper solver", "100 times --seconds, 10 s by default. Shows progress and the time left."},
     {"paper estimation",
      "Some ten times as long as the study itself, about a minute. Shows progress and the time left."},
-    {"doctor", "About a second per gigabyte of the database."},
+    {"doctor", "About half a minute for a gigabyte of the database. Shows progress and the time left."},
 };
 
 }  // namespace

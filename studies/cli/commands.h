@@ -21,6 +21,7 @@
     COMMAND(study_submit)         \
     COMMAND(study_status)         \
     COMMAND(study_work)           \
+    COMMAND(batch)                \
     COMMAND(recommend)            \
     COMMAND(place)                \
     COMMAND(budget)               \

@@ -102,6 +102,11 @@ void use_simd_of(const Invocation& invocation, const std::vector<storage::Comput
 }
 
 config::ReadConfig read_config_of(const Invocation& invocation) {
+    if (names_a_recording(invocation.argument("CONFIG")))
+        throw UsageError(
+            fmt::format("{} is a recording, but `capstan {}` takes the configuration of a study (TOML); "
+                        "`capstan diagnose` and `capstan estimate` take recordings",
+                        invocation.argument("CONFIG"), invocation.command().name));
     config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     StudyPlan& plan = config.plan;
     if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
@@ -148,6 +153,13 @@ std::vector<std::string> split_at_commas(const std::string& listed) {
     for (std::string part; std::getline(stream, part, ',');)
         if (!part.empty()) parts.push_back(part);
     return parts;
+}
+
+std::vector<std::string> split_at_blanks(const std::string& text) {
+    std::vector<std::string> words;
+    std::istringstream stream(text);
+    for (std::string word; stream >> word;) words.push_back(word);
+    return words;
 }
 
 std::vector<int> run_numbers(const std::string& listed) {

@@ -52,6 +52,9 @@ extern const Argument log_argument;
 /// The parts of a list such as a,b,c, without the empty ones.
 std::vector<std::string> split_at_commas(const std::string& listed);
 
+/// The words between blanks.
+std::vector<std::string> split_at_blanks(const std::string& text);
+
 /// The numbers in a list such as 1,2,5. Throws UsageError for what is not a number.
 std::vector<int> run_numbers(const std::string& listed);
 

@@ -34,6 +34,11 @@ std::string up_to(const std::string& text, std::string_view ends) {
     return text.substr(0, text.find_first_of(ends));
 }
 
+// What the pilot measured, in the scheduler's words; nothing where nothing was.
+std::string requested(const char* words, int amount) {
+    return amount > 0 ? fmt::format(fmt::runtime(words), amount) : "";
+}
+
 // ---- Slurm
 
 std::string slurm_directives(const StudyDirectory& directory, const std::string& job, const std::string& log,
@@ -41,8 +46,11 @@ std::string slurm_directives(const StudyDirectory& directory, const std::string&
     return fmt::format(
         "#SBATCH --job-name={}\n#SBATCH --output=logs/{}\n#SBATCH --open-mode=append\n#SBATCH --requeue\n"
         "#SBATCH --nodes=1\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task={}\n#SBATCH --chdir={}\n"
+        "{}{}"
         "# Partition, time limit and the like: set SBATCH_PARTITION, SBATCH_TIMELIMIT, ... when you submit.\n",
-        job, log, processors, quoted_for_sbatch(directory.path.string()));
+        job, log, processors, quoted_for_sbatch(directory.path.string()),
+        requested("#SBATCH --time={}\n", directory.minutes_per_shard),
+        requested("#SBATCH --mem={}M\n", directory.megabytes_per_shard));
 }
 
 Words slurm_submission(const StudyDirectory& directory, const ShardArray& array, int throttle) {
@@ -78,9 +86,11 @@ Words slurm_question(const std::string& job) {
 std::string gridengine_directives(const StudyDirectory& directory, const std::string& job,
                                   const std::string& log, int processors) {
     return fmt::format(
-        "#$ -N {}\n#$ -S /bin/sh\n#$ -wd {}\n#$ -j y\n#$ -o logs/{}\n#$ -r y\n{}"
+        "#$ -N {}\n#$ -S /bin/sh\n#$ -wd {}\n#$ -j y\n#$ -o logs/{}\n#$ -r y\n{}{}{}"
         "# Queue, time limit and the like: put them into ~/.sge_request.\n",
-        job, directory.path.string(), log, processors > 1 ? fmt::format("#$ -pe smp {}\n", processors) : "");
+        job, directory.path.string(), log, processors > 1 ? fmt::format("#$ -pe smp {}\n", processors) : "",
+        requested("#$ -l h_rt={}\n", 60 * directory.minutes_per_shard),
+        requested("#$ -l mem_free={}M\n", directory.megabytes_per_shard));
 }
 
 Words gridengine_submission(const StudyDirectory& directory, const ShardArray& array, int throttle) {
@@ -112,9 +122,10 @@ Words gridengine_question(const std::string& job) {
 std::string pbs_directives(const StudyDirectory& directory, const std::string& job, const std::string& log,
                            int processors) {
     return fmt::format(
-        "#PBS -N {}\n#PBS -j oe\n#PBS -o {}/logs/{}\n#PBS -r y\n#PBS -l select=1:ncpus={}\n"
+        "#PBS -N {}\n#PBS -j oe\n#PBS -o {}/logs/{}\n#PBS -r y\n#PBS -l select=1:ncpus={}{}\n{}"
         "# Queue, time limit and the like: put them into PBS_DEFAULT or the queue's defaults.\n",
-        job, directory.path.string(), log, processors);
+        job, directory.path.string(), log, processors, requested(":mem={}mb", directory.megabytes_per_shard),
+        requested("#PBS -l walltime={}\n", 60 * directory.minutes_per_shard));
 }
 
 // A name has at most 15 characters there, and an array at least two tasks.
@@ -173,6 +184,10 @@ Words lsf_submission(const StudyDirectory& directory, const ShardArray& array, i
                            fmt::format("{}[{}]{}", job_of(directory, array), range_of(array),
                                        throttle > 0 ? "%" + std::to_string(throttle) : ""),
                            directory.processors_per_shard);
+    if (directory.minutes_per_shard > 0)
+        words.insert(words.end(), {"-W", std::to_string(directory.minutes_per_shard)});
+    if (directory.megabytes_per_shard > 0)
+        words.insert(words.end(), {"-M", std::to_string(directory.megabytes_per_shard) + "MB"});
     words.insert(words.end(), {"sh", directory.shards_script().string(), std::to_string(array.offset)});
     return words;
 }
@@ -279,7 +294,9 @@ std::string shards_script(const Scheduler& scheduler, const StudyDirectory& dire
 }
 
 std::string merge_script(const Scheduler& scheduler, const StudyDirectory& directory) {
-    return script_head(scheduler, directory, directory.job_name() + "-merge", "merge.log", 1) +
+    StudyDirectory merge = directory;  // what was measured is of a shard
+    merge.minutes_per_shard = merge.megabytes_per_shard = 0;
+    return script_head(scheduler, merge, directory.job_name() + "-merge", "merge.log", 1) +
            "# Does nothing where the last worker has merged, or after a node that fails later.\nexec " +
            quoted(directory.program.string()) + " study work . --merge --progress none\n";
 }

@@ -1,47 +1,37 @@
 #include "capstan/cluster/worker.h"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <thread>
 
-#include "capstan/cluster/lease.h"
+#include "capstan/cluster/batch_work.h"
 #include "capstan/cluster/shard_record.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/config/plan_checks.h"
 #include "capstan/placement/study_merge.h"
+#include "capstan/units/unit_worker.h"
 #include "capstan/worlds/world_shard.h"
 
 namespace capstan::cluster {
 
-namespace {
-
 namespace fs = std::filesystem;
+using units::WorkEnd;
 
-// Sets `stop` when the user asks for it, or when another worker has done the shard.
-class Watcher {
-  public:
-    Watcher(std::atomic<bool>& stop, const std::atomic<bool>* asked, fs::path done_record) {
-        thread_ = std::thread([this, &stop, asked, record = std::move(done_record)] {
-            for (int tenths = 0; !ends_.load(); ++tenths) {
-                std::error_code none;
-                if ((asked != nullptr && asked->load()) || (tenths % 20 == 19 && fs::exists(record, none)))
-                    stop.store(true);
-                std::this_thread::sleep_for(std::chrono::milliseconds(100));
-            }
-        });
-    }
-    ~Watcher() {
-        ends_.store(true);
-        thread_.join();
-    }
-    Watcher(const Watcher&) = delete;
-    Watcher& operator=(const Watcher&) = delete;
+Watcher::Watcher(std::atomic<bool>& stop, const std::atomic<bool>* asked, std::function<bool()> is_unwanted) {
+    thread_ = std::thread([this, &stop, asked, unwanted = std::move(is_unwanted)] {
+        for (int tenths = 0; !ends_.load(); ++tenths) {
+            if ((asked != nullptr && asked->load()) || (tenths % 20 == 19 && unwanted())) stop.store(true);
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+    });
+}
 
-  private:
-    std::atomic<bool> ends_{false};
-    std::thread thread_;
-};
+Watcher::~Watcher() {
+    ends_.store(true);
+    thread_.join();
+}
+
+namespace {
 
 void remove_shard(const fs::path& path) {
     for (const char* end : {"", "-wal", "-shm", "-journal"}) {
@@ -50,118 +40,61 @@ void remove_shard(const fs::path& path) {
     }
 }
 
-class Worker {
+WorkEnd work_end(RunEnd end) {
+    return end == RunEnd::stopped ? WorkEnd::stopped : WorkEnd::complete;
+}
+
+// Shards of a study, each in a database.
+class StudyWork final : public units::UnitWork {
   public:
-    Worker(const StudyDirectory& directory, const WorkOptions& options)
+    StudyWork(const StudyDirectory& directory, const WorkOptions& options)
         : directory_(directory),
           options_(options),
           config_(config::read_config(directory.config_file())),
-          plans_(config::runnable_studies(config_)) {
-        fs::create_directories(directory.leases_folder());
+          plans_(config::runnable_studies(config_)) {}
+
+    int count() const override { return directory_.shards; }
+    bool is_merged() override { return fs::exists(directory_.merged_file()); }
+    bool stop_requested() const override { return options_.run.stop != nullptr && options_.run.stop->load(); }
+
+    bool is_complete_by_hand(int unit) override {
+        return fs::exists(directory_.shard_file(unit)) && progress_of(directory_, unit).is_done();
     }
 
-    RunEnd run(std::optional<int> own) {
-        if (is_merged()) return RunEnd::complete;
-        if (own && !is_done(*own)) {
-            const Lease lease = Lease::take(directory_.lease_file(*own));
-            run_shard_into(*own, directory_.shard_file(*own), lease);
+    Computed compute(int unit, bool is_second, const std::function<bool()>& is_unwanted) override {
+        const fs::path file = is_second ? directory_.second_file(unit, directory_.leases().worker())
+                                        : directory_.shard_file(unit);
+        std::atomic<bool> stop{false};
+        const Watcher watcher(stop, options_.run.stop, is_unwanted);
+        storage::Database database = storage::Database::open_or_create(file, storage::Journal::rollback);
+        return {work_end(run_in(database, {unit, directory_.shards}, stop)), file.filename().string()};
+    }
+
+    void discard(const std::string& file) override { remove_shard(directory_.path / file); }
+
+    Merged merge() override {
+        units::DiskFolder leases = directory_.leases();
+        Merged damaged;
+        for (const int shard : units::look_at_leases(leases).done)
+            if (!units::read_unit_record(leases, shard)) damaged.damaged.push_back(shard);
+        if (!damaged.damaged.empty()) return damaged;
+        std::vector<fs::path> files;
+        for (int shard = 1; shard <= directory_.shards; ++shard)
+            files.push_back(file_of_shard(directory_, shard));
+        if (!config_.plan.uncertainty.is_stated)
+            return {work_end(merge_shards(directory_.merged_file(), files, options_.run))};
+        TableOptions of_table;
+        of_table.jobs = options_.run.jobs;
+        of_table.stop = options_.run.stop;
+        try {
+            merge_world_shards(directory_.merged_file(), files, of_table);
+        } catch (const TableStopped&) {
+            return {WorkEnd::stopped};
         }
-        while (!own && !stop_requested() && run_a_free_shard()) continue;
-        while (!stop_requested() && stand_by()) continue;
-        if (stop_requested()) return RunEnd::stopped;
-        const auto left = running();
-        return left && left->empty() && !is_merged() ? merge(directory_, options_) : RunEnd::complete;
+        return {WorkEnd::complete};
     }
 
   private:
-    bool stop_requested() const { return options_.run.stop != nullptr && options_.run.stop->load(); }
-    bool is_merged() const { return fs::exists(directory_.merged_file()); }
-
-    double now_s() const { return disk_time_s(directory_.leases_folder()); }
-
-    // A file that was made by hand has no record.
-    bool is_done(int shard) const {
-        return read_shard_record(directory_, shard).has_value() ||
-               (fs::exists(directory_.shard_file(shard)) && !is_held(directory_.lease_file(shard), now_s()) &&
-                progress_of(directory_, shard).is_done());
-    }
-
-    // Those that run; nothing if some shard is neither done nor begun.
-    std::optional<std::vector<int>> running() const {
-        const LeaseFolder leases = look_at_leases(directory_);
-        std::vector<int> shards;
-        for (int shard = 1; shard <= directory_.shards; ++shard) {
-            if (leases.done.count(shard) != 0) continue;
-            if (leases.leased.count(shard) != 0 && is_held(directory_.lease_file(shard), now_s()))
-                shards.push_back(shard);
-            else if (!is_done(shard))
-                return std::nullopt;
-        }
-        return shards;
-    }
-
-    // False: there is none.
-    bool run_a_free_shard() {
-        const LeaseFolder leases = look_at_leases(directory_);
-        for (int shard = 1; shard <= directory_.shards; ++shard) {
-            if (leases.done.count(shard) != 0) continue;
-            const std::optional<Lease> lease = Lease::claim(directory_.lease_file(shard));
-            if (!lease || read_shard_record(directory_, shard)) continue;
-            run_shard_into(shard, directory_.shard_file(shard), *lease);
-            return true;
-        }
-        return false;
-    }
-
-    // Beside a shard that runs, until it is done or this worker has done it. False: nobody is needed.
-    bool stand_by() {
-        const auto left = running();
-        if (!left) return false;  // the scheduler starts the others
-        for (const int shard : *left) {
-            const std::optional<Lease> place = Lease::claim(directory_.standby_file(shard));
-            if (!place) continue;
-            wait_beside(shard);
-            return true;
-        }
-        return false;
-    }
-
-    void wait_beside(int shard) {
-        while (!stop_requested() && !read_shard_record(directory_, shard)) {
-            const auto lease = read_lease(directory_.lease_file(shard));
-            if (!lease || !is_held(directory_.lease_file(shard), now_s())) {
-                if (const auto claimed = Lease::claim(directory_.lease_file(shard)))
-                    run_shard_into(shard, directory_.shard_file(shard), *claimed);
-                return;
-            }
-            if (is_late(directory_, shard, options_.late_after_s, options_.late_factor)) {
-                say("Shard " + std::to_string(shard) + " is late at " + lease->worker +
-                    "; computing it once more.");
-                const Lease own = Lease::take(directory_.second_lease_file(shard));
-                run_shard_into(shard, directory_.second_file(shard, this_worker()), own);
-                return;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(500));
-        }
-    }
-
-    void run_shard_into(int shard, const fs::path& file, const Lease& lease) {
-        std::atomic<bool> stop{false};
-        RunEnd end = RunEnd::stopped;
-        {
-            const Watcher watcher(stop, options_.run.stop, directory_.done_file(shard));
-            storage::Database database = storage::Database::open_or_create(file, storage::Journal::rollback);
-            end = run_in(database, {shard, directory_.shards}, stop);
-        }
-        if (end == RunEnd::complete && !read_shard_record(directory_, shard)) {
-            const double seconds = disk_time_s(directory_.leases_folder()) - lease.begun_s();
-            write_shard_record(directory_, shard, {this_worker(), seconds, file.filename().string()});
-            say(words_of({shard, directory_.shards}) + " is done.");
-        } else if (file != directory_.shard_file(shard)) {
-            remove_shard(file);  // the other worker was faster
-        }
-    }
-
     RunEnd run_in(storage::Database& database, const Shard& shard, const std::atomic<bool>& stop) {
         if (!config_.plan.uncertainty.is_stated) {
             RunOptions options = options_.run;
@@ -180,53 +113,47 @@ class Worker {
         return RunEnd::complete;
     }
 
-    void say(const std::string& text) const {
-        if (options_.say) options_.say(text);
-    }
-
     const StudyDirectory& directory_;
     const WorkOptions& options_;
     config::ReadConfig config_;
     std::vector<StudyPlan> plans_;
 };
 
-RunEnd merge_files(const StudyDirectory& directory, const WorkOptions& options) {
-    std::vector<fs::path> files;
-    for (int shard = 1; shard <= directory.shards; ++shard) files.push_back(file_of_shard(directory, shard));
-    const config::ReadConfig config = config::read_config(directory.config_file());
-    if (!config.plan.uncertainty.is_stated) return merge_shards(directory.merged_file(), files, options.run);
-    TableOptions of_table;
-    of_table.jobs = options.run.jobs;
-    of_table.stop = options.run.stop;
-    try {
-        merge_world_shards(directory.merged_file(), files, of_table);
-    } catch (const TableStopped&) {
-        return RunEnd::stopped;
+// Calls `action` with the folder of leases and what its units are.
+WorkEnd with_work(const StudyDirectory& directory, const WorkOptions& options,
+                  const std::function<WorkEnd(units::SharedFolder&, units::UnitWork&)>& action) {
+    fs::create_directories(directory.leases_folder());
+    units::DiskFolder leases = directory.leases();
+    if (directory.batch) {
+        units::DiskFolder results(directory.path);
+        units::ResultWork work(
+            leases, results, units_of(directory),
+            [&](int unit, const std::function<bool()>& is_unwanted) {
+                return run_unit(directory, unit, options, is_unwanted);
+            },
+            [&] { return options.run.stop != nullptr && options.run.stop->load(); });
+        return action(leases, work);
     }
-    return RunEnd::complete;
+    StudyWork work(directory, options);
+    return action(leases, work);
+}
+
+units::WorkerOptions worker_options(const WorkOptions& options) {
+    return {options.late_after_s, options.late_factor, options.say};
 }
 
 }  // namespace
 
-RunEnd work(const StudyDirectory& directory, std::optional<int> own, const WorkOptions& options) {
-    return Worker(directory, options).run(own);
+WorkEnd work(const StudyDirectory& directory, std::optional<int> own, const WorkOptions& options) {
+    return with_work(directory, options, [&](units::SharedFolder& leases, units::UnitWork& work) {
+        return units::work(leases, work, own, worker_options(options));
+    });
 }
 
-RunEnd merge(const StudyDirectory& directory, const WorkOptions& options) {
-    fs::create_directories(directory.leases_folder());
-    while (!fs::exists(directory.merged_file())) {
-        if (options.run.stop != nullptr && options.run.stop->load()) return RunEnd::stopped;
-        if (const auto lease = Lease::claim(directory.merge_lease_file())) {
-            if (fs::exists(directory.merged_file())) break;
-            const RunEnd end = merge_files(directory, options);
-            if (end == RunEnd::complete && options.say)
-                options.say("Merged " + std::to_string(directory.shards) + " shards into " +
-                            directory.merged_file().string() + ".");
-            return end;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    }
-    return RunEnd::complete;
+WorkEnd merge(const StudyDirectory& directory, const WorkOptions& options) {
+    return with_work(directory, options, [&](units::SharedFolder& leases, units::UnitWork& work) {
+        return units::merge(leases, work, worker_options(options));
+    });
 }
 
 }  // namespace capstan::cluster

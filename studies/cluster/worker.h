@@ -1,11 +1,14 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "capstan/cluster/study_directory.h"
 #include "capstan/placement/study_run.h"
+#include "capstan/units/unit_worker.h"
 
 namespace capstan::cluster {
 
@@ -17,23 +20,26 @@ struct WorkOptions {
     std::function<void(const std::string&)> say;  ///< a line of the log
 };
 
-/// Runs shards of the folder's study, each under a lease, so that any number of workers on any machines can
-/// share it:
-///
-/// - with `own`: that shard, whoever held it before (a scheduler starts a task again when its node has
-/// failed); without,
-///   one free shard after the other;
-/// - then, where every shard has been begun: waits beside one that runs, and computes it once more if it is
-/// late or its
-///   worker has died. Two workers on one shard write into two files with the same bits; the first that ends
-///   counts;
-/// - then, where every shard is done: joins them into study.db.
-///
-/// Of each unfinished shard only one worker waits. Returns stopped when options.run.stop was set.
-RunEnd work(const StudyDirectory& directory, std::optional<int> own, const WorkOptions& options);
+/// Runs shards of the folder as units::work() does, and merges them into StudyDirectory::merged_file().
+/// Returns stopped when options.run.stop was set, and failed when a command of a batch failed here in a way
+/// that may pass.
+units::WorkEnd work(const StudyDirectory& directory, std::optional<int> own, const WorkOptions& options);
 
 /// Joins the shards unless that is done; waits for a worker that joins them now. Throws storage::Error that
 /// names what is missing.
-RunEnd merge(const StudyDirectory& directory, const WorkOptions& options);
+units::WorkEnd merge(const StudyDirectory& directory, const WorkOptions& options);
+
+/// While it lives, sets `stop` when the user asks for it, or when the work is no longer wanted.
+class Watcher {
+  public:
+    Watcher(std::atomic<bool>& stop, const std::atomic<bool>* asked, std::function<bool()> is_unwanted);
+    ~Watcher();
+    Watcher(const Watcher&) = delete;
+    Watcher& operator=(const Watcher&) = delete;
+
+  private:
+    std::atomic<bool> ends_{false};
+    std::thread thread_;
+};
 
 }  // namespace capstan::cluster

@@ -7,12 +7,16 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "capstan/platform/child_process.h"
 #include "capstan/platform/files.h"
+#include "capstan/platform/work_meter.h"
 
 namespace capstan::printing {
 
@@ -43,6 +47,18 @@ class BrowserFolder {
     std::filesystem::path path_;
 };
 
+// The page says "capstan: 3 of 20 drawn" on its console; the browser needs some time after the last one, too.
+std::optional<double> fraction_drawn(const std::string& line) {
+    constexpr double finishing = 0.05;
+    int done = 0;
+    int all = 0;
+    const std::size_t at = line.find("capstan: ");
+    if (at == std::string::npos ||
+        std::sscanf(line.c_str() + at, "capstan: %d of %d drawn", &done, &all) != 2 || all <= 0)
+        return std::nullopt;
+    return (1.0 - finishing) * std::min(done, all) / all;
+}
+
 // What the browser writes when it has opened `page_html` in the folder.
 std::string opened(const BrowserFolder& folder, const std::string& page_html, const std::string& what,
                    const std::string& part_of_page) {
@@ -59,14 +75,29 @@ std::string opened(const BrowserFolder& folder, const std::string& page_html, co
                                    "--no-pdf-header-footer",
                                    fmt::format("--user-data-dir={}", (folder / "profile").string()),
                                    fmt::format("--virtual-time-budget={}", page_time_ms),
+                                   "--enable-logging=stderr",
+                                   "--log-level=0",
                                    what};
     if (::geteuid() == 0) words.insert(words.begin() + 1, "--no-sandbox");  // else it refuses to run as root
     words.push_back("file://" + (folder / "page.html").string() + part_of_page);
-    CommandOutput ended = run_command(words, {}, {.longest = browser_time});
+    ChildProcess process(words);
+    std::string messages;
+    double drawn = 0.0;
+    expect_work(1.0);
+    const CommandOutput ended = process.wait(
+        [&](const std::string& line) {
+            const auto fraction = fraction_drawn(line);
+            if (!fraction) messages += line + "\n";
+            if (fraction && *fraction > drawn) {
+                note_work(*fraction - drawn);
+                drawn = *fraction;
+            }
+        },
+        {.longest = browser_time});
     if (ended.exit_code != 0)
-        throw std::runtime_error(fmt::format("{} failed (exit code {}): {}", browser, ended.exit_code,
-                                             ended.messages.substr(0, 500)));
-    return std::move(ended.output);
+        throw std::runtime_error(
+            fmt::format("{} failed (exit code {}): {}", browser, ended.exit_code, messages.substr(0, 500)));
+    return ended.output;
 }
 
 std::string decoded(const std::string& base64) {
@@ -91,7 +122,7 @@ std::string browser_on_path() {
 
 std::string pdf_of(const std::string& page_html) {
     const BrowserFolder folder;
-    opened(folder, page_html, "--print-to-pdf=" + (folder / "page.pdf").string(), "");
+    opened(folder, page_html, "--print-to-pdf=" + (folder / "page.pdf").string(), "#paper");
     return read_file(folder / "page.pdf");
 }
 

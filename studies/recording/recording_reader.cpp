@@ -112,6 +112,13 @@ Recording read_recording(const std::filesystem::path& path, ProblemList& problem
             "is not a recording, which is NAME.csv with NAME.json; `capstan import` makes one of a laboratory's log");
         return {};
     }
+    if (!std::filesystem::exists(samples_path) && !std::filesystem::exists(sidecar_path)) {
+        problems.add(
+            samples_path.string(),
+            fmt::format("does not exist, nor does {}; a recording is NAME.csv with NAME.json beside it",
+                        sidecar_path.filename().string()));
+        return {};
+    }
     if (std::filesystem::exists(samples_path) && !std::filesystem::exists(sidecar_path)) {
         problems.add(
             sidecar_path.string(),

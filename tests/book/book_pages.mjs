@@ -4,7 +4,7 @@ import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { check, finish, launch } from "./checks.mjs";
+import { accessible, check, finish, launch } from "./checks.mjs";
 
 const [book, folder] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
@@ -44,6 +44,7 @@ async function look(browser, name, { width, dark }) {
   const flat = await page.$$eval("figure.drawn svg", (figures) => figures.filter((figure) => figure.getBoundingClientRect().width < 200).length);
   check(flat === 0, `${words}: figures have a size`);
   await page.screenshot({ path: join(folder, `${name.replace("/", "-")}-${width}-${dark ? "dark" : "light"}.png`) });
+  await accessible(page, words);
   await page.close();
 }
 

@@ -31,7 +31,7 @@ class Help(CapstanTest):
 
     def test_every_command_says_how_long_it_takes_and_long_ones_show_progress(self):
         """Those without --progress end at once, are given their time, or wait for another program."""
-        given_a_time = {"serve", "query", "report", "export", "doctor", "study replay", "simulate"}
+        given_a_time = {"serve", "query", "export", "study replay", "simulate", "study status", "batch"}
         table = []
         for name in self.commands():
             asked = self.run_capstan(*name.split(), "--help").stdout

@@ -171,6 +171,21 @@ TEST_F(StudyLife, DeletingAStudyRemovesItsRowsOnly) {
     expect_says(error_of([&] { delete_study(database, kept); }), "no study");
 }
 
+TEST_F(StudyLife, AForgottenStudyLeavesNoHistory) {
+    const auto kept = complete_study();
+    const auto forgotten = complete_study();
+    const auto count = [&](const char* table) {
+        Statement rows(database, std::string("SELECT group_concat(DISTINCT study_id) FROM ") + table);
+        rows.step();
+        return rows.get<std::string>(0);
+    };
+    ASSERT_EQ(count("history"), std::to_string(kept) + "," + std::to_string(forgotten));
+    forget_study(database, forgotten);
+    EXPECT_EQ(count("study"), std::to_string(kept));
+    EXPECT_EQ(count("history"), std::to_string(kept));
+    EXPECT_THROW(forget_study(database, forgotten), Error);
+}
+
 TEST_F(StudyLife, TheOrderOfTheUnitsDoesNotChangeTheTables) {
     complete_study();
     Database other = Database::open_or_create(folder / "other.db");

@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "capstan/cluster/lease.h"
+#include "capstan/units/lease.h"
 
-namespace capstan::cluster {
+namespace capstan::units {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,12 +18,16 @@ namespace fs = std::filesystem;
 // An empty folder of each test, gone after it.
 class Leases : public ::testing::Test {
   protected:
-    Leases() : folder_(fs::path(::testing::TempDir()) / ("capstan-lease-" + std::to_string(::getpid()))) {
+    static fs::path folder_of_test() {
+        return fs::path(::testing::TempDir()) / ("capstan-lease-" + std::to_string(::getpid()));
+    }
+    Leases() : folder_(folder_of_test()) {
         fs::remove_all(folder_);
         fs::create_directory(folder_);
     }
     ~Leases() override { fs::remove_all(folder_); }
 
+    DiskFolder leases{folder_of_test()};
     fs::path file() const { return folder_ / "3.lease"; }
     const fs::path& folder() const { return folder_; }
 
@@ -48,7 +52,7 @@ TEST_F(Leases, AStaleOneIsGivenToOneOfManyWorkers) {
         for (int k = 0; k < workers; ++k)
             threads.emplace_back([&, k] {
                 begin.arrive_and_wait();
-                if (auto lease = Lease::claim(file()))
+                if (auto lease = Lease::claim(leases, "3.lease"))
                     claimed[static_cast<std::size_t>(k)].emplace(std::move(*lease));
             });
         for (std::thread& thread : threads) thread.join();
@@ -58,17 +62,17 @@ TEST_F(Leases, AStaleOneIsGivenToOneOfManyWorkers) {
 }
 
 TEST_F(Leases, OneOfALivingWorkerIsNotTaken) {
-    const auto held = Lease::claim(file());
+    const auto held = Lease::claim(leases, "3.lease");
     ASSERT_TRUE(held);
-    EXPECT_FALSE(Lease::claim(file()));
+    EXPECT_FALSE(Lease::claim(leases, "3.lease"));
     EXPECT_TRUE(fs::exists(file()));
 }
 
 TEST_F(Leases, ThatEndLeaveNothingBehind) {
     write_stale_lease(file());
-    { const auto lease = Lease::claim(file()); }
+    { const auto lease = Lease::claim(leases, "3.lease"); }
     EXPECT_TRUE(fs::is_empty(folder()));
 }
 
 }  // namespace
-}  // namespace capstan::cluster
+}  // namespace capstan::units
