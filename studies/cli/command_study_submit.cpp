@@ -351,7 +351,7 @@ Command batch_command() {
         .options = and_where_it_runs({
             {.name = "with",
              .value = "OPTIONS",
-             .meaning = "Options of the command, as --with \"--time-limit 600\"."},
+             .meaning = "Options of the command, as --with \"--fit 1,2\"."},
             {.name = "directory",
              .value = "DIR",
              .meaning = "The batch's folder: scripts, answers, logs, and results.json.",
