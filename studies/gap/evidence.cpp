@@ -38,6 +38,9 @@ constexpr double law_error = 0.1;
 constexpr double min_unknown_size = 1.0;
 // The standard deviation of noise and floor together is known to a tenth: of ln variance twice that.
 constexpr double scale_error = 0.2;
+// No excess says more against named causes than that another acts beside them: noise may be wrongly stated,
+// and then all named causes leave too much.
+constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty;
 // A cause's law in the catalogue is an idealisation, good to about a tenth of what the cause does. A further
 // cause that is fainter than that only corrects the law of the clearest one.
 constexpr double faint = law_error;
@@ -82,7 +85,7 @@ double scale_penalty(const ScoredFit& fit) {
         const double excess = std::max(0.0, std::log(mean_square / tenable_mean_square(fit)));
         penalty += 0.5 * std::pow(excess / scale_error, 2);
     }
-    return penalty;
+    return std::min(penalty, max_scale_penalty);
 }
 
 // The part of a gap that a cause outside the list explains beside the named ones. `without_cause`: the mean
