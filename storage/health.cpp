@@ -19,9 +19,9 @@ int number_from(Database& database, const char* sql) {
 }
 
 // Of the time, measured on a study of 6 MB.
-constexpr double pages_share = 0.25;
-constexpr double references_share = 0.10;
-constexpr double hashes_share = 1.0 - pages_share - references_share;
+constexpr double pages_fraction = 0.25;
+constexpr double references_fraction = 0.10;
+constexpr double hashes_fraction = 1.0 - pages_fraction - references_fraction;
 
 std::vector<std::string> problems_in(Database& database) {
     std::vector<std::string> problems;
@@ -29,13 +29,13 @@ std::vector<std::string> problems_in(Database& database) {
     while (pages.step("check the pages")) {
         if (pages.get<std::string>(0) != "ok") problems.push_back(pages.get<std::string>(0));
     }
-    note_work(pages_share);
+    note_work(pages_fraction);
     Statement references(database, "PRAGMA foreign_key_check");
     while (references.step("check the references") && problems.size() < 20) {
         problems.push_back("a row of table " + references.get<std::string>(0) + " refers to nothing in " +
                            references.get<std::string>(2));
     }
-    note_work(references_share);
+    note_work(references_fraction);
     if (number_from(database,
                     "SELECT count(*) FROM study t WHERE status = 'complete' AND EXISTS "
                     "(SELECT 1 FROM work_unit w WHERE w.study_id = t.study_id AND done = 0)") > 0)
@@ -140,9 +140,9 @@ Health examine(Database& database) {
     Health health;
     health.problems = schema_problems(database);
     if (!health.problems.empty()) return health;
-    expect_work(pages_share + references_share + hashes_share);
+    expect_work(pages_fraction + references_fraction + hashes_fraction);
     health.problems = problems_in(database);
-    HashCheck hashes = check_hashes(database, hashes_share);
+    HashCheck hashes = check_hashes(database, hashes_fraction);
     health.hashed_parts = hashes.hashed;
     health.unhashed = std::move(hashes.unhashed);
     health.problems.insert(health.problems.end(), hashes.problems.begin(), hashes.problems.end());

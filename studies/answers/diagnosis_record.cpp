@@ -155,8 +155,8 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
                           fmt::join(causes.begin(), causes.end() - 1, ", "), causes.back());
     const double unknown = present_probability(diagnosis, "unknown");
     if (unknown > likely)
-        text +=
-            fmt::format(" They leave a part that no known effect explains (probability {:.2f}).", unknown);
+        text += fmt::format(" {} a part that no known effect explains (probability {:.2f}).",
+                            causes.size() == 1 ? "It leaves" : "They leave", unknown);
     return text + bounds_sentence(diagnosis);
 }
 

@@ -88,22 +88,22 @@ double scale_penalty(const ScoredFit& fit) {
     return std::min(penalty, max_scale_penalty);
 }
 
-// The part of a gap that a cause outside the list explains beside the named ones. `without_cause`: the mean
-// square residual where nothing is named.
-double unknown_part(const ScoredFit& fit, double without_cause) {
-    constexpr double both = 0.5;
+// The fraction of a gap that a cause outside the list explains beside the named ones. `without_cause`: the
+// mean square residual where nothing is named.
+double unknown_fraction(const ScoredFit& fit, double without_cause) {
+    constexpr double neither_leaves = 0.5;  // where there is no gap to divide
     const double left = std::max(0.0, fit.misfit - 1.0);
     const double closed = std::max(0.0, without_cause - fit.misfit);
-    return left + closed > 0.0 ? left / (left + closed) : both;
+    return left + closed > 0.0 ? left / (left + closed) : neither_leaves;
 }
 
-// Gives `unknown` this part of all shares, unless it stands alone.
-void share_by_part(std::map<std::string, double>& shares, double part) {
+// Gives `unknown` this fraction of all shares; all of it where it stands alone.
+void give_unknown_its_fraction(std::map<std::string, double>& shares, double fraction) {
     shares.erase("unknown");
     double named = 0.0;
     for (const auto& [effect, share] : shares) named += share;
-    for (auto& [effect, share] : shares) share *= (1.0 - part) / named;
-    shares["unknown"] = shares.empty() ? 1.0 : part;
+    for (auto& [effect, share] : shares) share *= (1.0 - fraction) / named;
+    shares["unknown"] = shares.empty() ? 1.0 : fraction;
 }
 
 // The condition that the effect follows in an explanation; empty: none.
@@ -139,14 +139,15 @@ double Evidence::with_unknown(const ScoredFit& fit) const {
     const double prior = priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior);
     const double function = marginal(fit, [](double size) { return size >= min_unknown_size ? 1.0 : 0.0; });
     if (fit.channel_misfits.empty()) return prior + function;
-    const double no_function = of_no_function(fit);
-    const double most = std::max(function, no_function);
-    return prior + most + std::log(0.5 * (std::exp(function - most) + std::exp(no_function - most)));
+    const double any = of_any_residuals(fit);
+    const double most = std::max(function, any);
+    // Both kinds are equally probable beforehand.
+    return prior + most + std::log(0.5 * (std::exp(function - most) + std::exp(any - most)));
 }
 
 // What comes once, wanders or interferes is no function of the motion. Its size is one more fitted number,
 // and it is as visible as any cause.
-double Evidence::of_no_function(const ScoredFit& fit) const {
+double Evidence::of_any_residuals(const ScoredFit& fit) const {
     const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());
     const double size = std::sqrt(std::max(0.0, most - tenable_mean_square(fit)));
     return of(fit.misfit, open_numbers(fit.fit) + 1) -
@@ -217,7 +218,7 @@ std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fit
         });
         const double without_cause = nothing == fits.end() ? each.misfit : nothing->misfit;
         take({effects, each.of_the_bench(), 0.0, with_unknown(each), &each, true,
-              unknown_part(each, without_cause)});
+              unknown_fraction(each, without_cause)});
     }
     std::stable_sort(weighed.begin(), weighed.end(),
                      [](const WeighedHypothesis& a, const WeighedHypothesis& b) {
@@ -242,7 +243,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         for (const std::string& effect : each.effects) shares[effect] = 1.0;
         if (!each.of_the_bench.empty()) shares.erase("none");
         for (const std::string& effect : each.of_the_bench) shares.emplace(effect, bench_fraction);
-        if (each.with_unknown) share_by_part(shares, each.unknown_part);
+        if (each.with_unknown) give_unknown_its_fraction(shares, each.unknown_fraction);
         double sum = 0.0;
         for (const auto& [effect, share] : shares) sum += share;
         for (const auto& [effect, share] : shares) {

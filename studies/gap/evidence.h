@@ -56,7 +56,7 @@ struct WeighedHypothesis {
     const ScoredFit* fit = nullptr;
     bool with_unknown = false;
     /// Of what the hypothesis explains, the part that the named causes do not; 0 without an unknown cause.
-    double unknown_part = 0.0;
+    double unknown_fraction = 0.0;
 };
 
 /// Compares explanations of a recording by the residuals that they leave.
@@ -96,7 +96,7 @@ class Evidence {
     double of(double misfit, std::size_t open_numbers) const;
     double priors(const ScoredFit& fit) const;
     double marginal(const ScoredFit& fit, const std::function<double(double size)>& weight) const;
-    double of_no_function(const ScoredFit& fit) const;
+    double of_any_residuals(const ScoredFit& fit) const;
 
     double samples_;
 };

@@ -184,7 +184,7 @@ TEST(Evidence, AnUnknownCauseHasTheShareOfTheGapThatTheNamedOneLeaves) {
     std::erase_if(weighed, [](const WeighedHypothesis& each) { return each.effects.size() != 2; });
     ASSERT_EQ(weighed.size(), 1U);
     EXPECT_TRUE(weighed.front().with_unknown);
-    EXPECT_NEAR(weighed.front().unknown_part, 0.75, 1e-12);
+    EXPECT_NEAR(weighed.front().unknown_fraction, 0.75, 1e-12);
     weighed.front().probability = 1.0;
     EXPECT_NEAR(probability(Evidence::rank({known.none, known.drag}, weighed), "unknown"), 0.75, 0.02);
 }
