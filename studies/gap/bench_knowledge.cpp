@@ -187,7 +187,8 @@ BenchKnowledge measured_bench(const NominalSpread& stated) {
 
 BenchKnowledge built_bench(const Recording& recording) {
     constexpr NominalSpread of_values{.friction = 0.22, .stiffness = 0.10, .pretension = 0.15};
-    constexpr double zero_part = 0.03;
+    // A load cell's zero is within 1 to 2% of its full scale, and a recording uses about a third of that.
+    constexpr double zero_part = 0.1;
     constexpr double bearing_part = 0.03;
     BenchKnowledge bench{ratios(of_values, recording.nominal->spread)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);

@@ -62,7 +62,7 @@ const BenchKnowledge& measured_bench();
 BenchKnowledge measured_bench(const NominalSpread& stated);
 
 /// A bench as it is built: friction and wrap from tables (20%), stiffness from a data sheet (10%), a tension
-/// set by hand (15%), torque and tension sensors with a zero error of a few per cent of their span, and
+/// set by hand (15%), torque and tension sensors with a zero error (10% of half of their recorded span), and
 /// bearings with Coulomb friction. Numbers that the sidecar states as ranges are known as it says.
 BenchKnowledge built_bench(const Recording& recording);
 
