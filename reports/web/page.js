@@ -63,6 +63,7 @@
     }
   }
   let passes = () => true;  // the filter of the page, if it has one
+  let marks = { rowsOf: () => [], channel: () => "" };  // the samples that brush.js marks
   const chosenNoise = () => {
     const box = document.querySelector('input[name="noise"]:checked');
     return box ? Number(box.value) : tables.noise_level?.[0]?.noise_level_id;
@@ -155,6 +156,7 @@
     const info = about(figure);
     const datasets = {};
     for (const table of info.tables) datasets[table] = rowsOf(figure, table);
+    if (info.brush) datasets.marked = marks.rowsOf(figure);
     const rows = datasets[info.tables[0]];
     const room = (width_px ?? figure.querySelector(".chart").clientWidth) - trim;
     let columns = info.columns_by ? distinct(rows, info.columns_by).length : info.columns ?? 1;
@@ -182,7 +184,7 @@
       "@width": width, "@height": info.panel_height_px,
       "@legend_columns": Math.max(1, Math.floor(room / 190)), "@gradient": Math.min(width, 200), "@label_limit": labels,
       "@objective": rows[0]?.scope === "minimax_regret" ? "largest regret [N]" : "mean tension error [N]",
-      "@family_order": named.family.domain,
+      "@family_order": named.family.domain, "@marked_channel": marks.channel(),
     };
     for (const name of ["ink", "quiet", "accent", "sensor", "soft", "paper", "known", "unknown"]) words["@" + name] = css("--" + name);
     const spec = fill(template, named, words);
@@ -324,6 +326,7 @@
     tableNames: () => Object.keys(study.tables),
     rowsOf, about, specOf, onPaper, load, drawAll,
     looks: (rows) => ({ ...scales(rows), theme: theme() }),
+    setMarks(made) { marks = made; },
     setFilter(filter) { passes = filter; return drawAll(); },
   };
 })();

@@ -228,7 +228,7 @@ Table map_table(const DiagnosisRecord& diagnosis) {
                 {"part", "fraction", "low", "high", "fraction_of_samples"},
                 {}};
     for (const auto& each : diagnosis.gap)
-        table.rows.push_back({each.divided_by + ": " + each.part, each.energy_fraction, each.low_fraction,
+        table.rows.push_back({part_name(each.divided_by, each.part), each.energy_fraction, each.low_fraction,
                               each.high_fraction, each.samples_fraction});
     return table;
 }
@@ -286,6 +286,10 @@ reports::AnswerSection next_section(const gap::NonIdentifiable& open, const Data
 }
 
 }  // namespace
+
+std::string part_name(const std::string& divided_by, const std::string& part) {
+    return divided_by + ": " + part;
+}
 
 Answer stored_diagnosis_answer(const DiagnosisRecord& diagnosis) {
     Answer answer{.id = "diagnosis",

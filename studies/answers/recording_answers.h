@@ -54,7 +54,11 @@ reports::Answer diagnosed_runs_answer(const model_comparison::DiagnosedRuns& dia
 /// The cable as a diagnosis corrects it, as a file for `capstan study run CONFIG --truth FILE`.
 std::string corrected_model_text(const Recording& recording, const gap::Diagnosis& diagnosis);
 
-/// Measured channels, the model without and with the cause, residuals and loops.
+/// A part of a gap's map as its figure names it, "regime: rest".
+std::string part_name(const std::string& divided_by, const std::string& part);
+
+/// Measured channels, the model without and with the cause, residuals, loops, and the parts of the gap's map
+/// that the drawn samples belong to.
 std::vector<reports::Table> diagnosis_curves(const Recording& recording, const gap::Diagnosis& diagnosis);
 
 reports::Answer calibration_answer(const Recording& recording, const gap::Calibration& calibration);

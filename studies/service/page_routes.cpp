@@ -30,6 +30,7 @@ constexpr WebFile web_files[] = {
     {"vega-embed.min.js", "text/javascript"},
     {"page.js", "text/javascript"},
     {"player.js", "text/javascript"},
+    {"brush.js", "text/javascript"},
     {"figure_data.js", "text/javascript"},
     {"live.js", "text/javascript"},
     {"pins.js", "text/javascript"},

@@ -5,6 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { accessible, check, finish, launch } from "./checks.mjs";
 import { askQuestions, estimateTension, seeProblems } from "./service_answers.mjs";
+import { markSamples } from "./brushing.mjs";
 import { placeByHand } from "./service_by_hand.mjs";
 
 const [folder, address, log, sidecar, laboratory, tensions] = process.argv.slice(2);
@@ -172,6 +173,7 @@ async function openWholePages(browser) {
   check((await page.$$("main figure[data-figure] svg")).length > 2, "the diagnosis has its curves");
   await accessible(page, "the diagnosis, light");
   await page.screenshot({ path: join(folder, "service_diagnosis.png") });
+  await markSamples(page, "diagnosis", folder);
   for (const [width, dark] of [[390, false], [390, true]]) {
     await page.setViewportSize({ width, height: 844 });
     await page.emulateMedia({ colorScheme: dark ? "dark" : "light" });
@@ -180,6 +182,7 @@ async function openWholePages(browser) {
     check(await overflow(page) <= 0, "the diagnosis fits a telephone");
     const cut = await page.$$eval("main figure .chart", (all) => all.filter((each) => each.scrollWidth > each.clientWidth).map((each) => each.closest("figure").id));
     check(cut.length === 0, "no chart of the diagnosis is cut off on a telephone: " + cut);
+    await markSamples(page, `diagnosis 390${dark ? " dark" : ""}`, folder);
   }
   await page.screenshot({ path: join(folder, "service_diagnosis_390_dark.png") });
   await accessible(page, "the diagnosis, narrow, dark");
