@@ -73,4 +73,30 @@ ordered_json cost_of_studies(const JobCommands& commands, const std::string& tom
             {"seconds", processor_s / threads_of(commands)}};
 }
 
+ordered_json cost_of_diagnosis(const JobCommands& commands, const std::string& log) {
+    const CommandOutput ended =
+        run_command({commands.program, "diagnose", log, "--cost", "--json", "--progress", "none", "--jobs",
+                     std::to_string(commands.threads)},
+                    {.nice_increment = pilot_nice_increment, .processor_s = 60},
+                    {plan_limit, max_output, commands.ending});
+    constexpr int wrong_input = 2;
+    if (ended.exit_code == wrong_input) return {{"known", false}, {"problems", ended.messages}};
+    if (ended.exit_code != 0) return unknown();
+    const auto cost = nlohmann::json::parse(ended.output, nullptr, false);
+    if (!cost.is_object()) return unknown();
+    return {{"known", true},
+            {"studies", 1},
+            {"min_seconds", cost.value("min_seconds", 0.0)},
+            {"seconds", cost.value("max_seconds", 0.0)}};
+}
+
+ordered_json cost_of_diagnosis(const JobCommands& commands, const UploadedRecording& recording) {
+    const PrivateFolder folder("capstan-cost");
+    std::filesystem::path file = folder.path() / safe_file_name(recording.title);
+    file.replace_extension(".csv");
+    write_file(file, recording.log);
+    write_file(std::filesystem::path(file).replace_extension(".json"), recording.sidecar);
+    return cost_of_diagnosis(commands, file.string());
+}
+
 }  // namespace capstan::service
