@@ -47,8 +47,8 @@ constexpr CommandTime times[] = {
      "Seconds to a minute, in proportion to the length of the recording and to the square of its runs. Shows progress and "
      "the time left."},
     {"diagnose",
-     "Half a minute to some minutes, by the length of the recording and its number of runs. Shows progress and the time "
-     "left."},
+     "Seconds to some minutes, by the length of the recording and by what it finds; --cost says how long on this machine. "
+     "Shows progress and the time left."},
     {"gap-trial",
      "Half a minute to minutes for each case; --generate-only takes seconds. Shows progress and the time left."},
     {"report",
