@@ -191,16 +191,17 @@
     delete spec.usermeta;
     const title = figure.querySelector("h3").firstChild.textContent;
     const caption = figure.querySelector("figcaption").textContent;
-    return { ...spec, datasets, description: title + ". " + caption, config: theme(room), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
+    return { ...spec, datasets, description: title + ". " + caption, config: theme(room, labelWidth(rows)), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
   }
 
-  const narrow_px = 520;
-  function theme(room = Infinity) {
+  const narrow_px = 520, narrowest_label_px = 110;
+  const labelWidth = (rows) => Math.max(narrowest_label_px, ...distinct(rows, "series").map((name) => 34 + 6.5 * String(name ?? "").length));
+  function theme(room = Infinity, label_px = narrowest_label_px) {
     const ink = css("--ink"), quiet = css("--quiet"), line = css("--line"), font = css("--font");
     return {
       font, view: { stroke: line },
       axis: { labelColor: quiet, titleColor: ink, gridColor: line, domainColor: line, tickColor: line, labelFontSize: 11, titleFontSize: 12, titleFontWeight: 500, titlePadding: 8 },
-      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18, ...(room < narrow_px && { columns: Math.max(1, Math.floor((room - 80) / 110)) }) },
+      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18, ...(room < narrow_px && { columns: Math.max(1, Math.floor((room - 80) / label_px)) }) },
       header: { labelColor: ink, titleColor: ink, labelFontSize: 12, labelFontWeight: 600, labelLimit: Math.min(400, room - 100) },
       title: { color: ink, fontSize: 12, fontWeight: 600 },
       mark: { aria: false },
