@@ -93,7 +93,7 @@
       element("th", { scope: "row" }, box, " ", link("/studies/" + id, "Study " + id)),
       cell(study.name, ...(notes ? [element("div", { className: "quiet", textContent: notes })] : [])), cell(begun),
       cell(idle ? "stopped" : study.status, ...(job ? [" (job " + job.job + ")"] : [])),
-      cell(...bar(study.units ? study.units_done / study.units : 0, study.units_done + " of " + study.units + " units")),
+      cell(...(study.units ? bar(study.units_done / study.units, study.units_done + " of " + study.units + " units") : [])),
       element("td", { className: "buttons" }, ...actions));
   }
   function showStudies(studies, jobs) {

@@ -21,7 +21,7 @@
     if (mine !== clicks) return false;
     at(form + "-cost-words").textContent = "";
     if (cost.problems) throw new Error(cost.problems);
-    const told = cost.known ? `${cost.studies === 1 ? what + " takes" : cost.studies + " studies take"} about ${duration(cost)} on this machine.` : "";
+    const told = cost.known ? `${cost.studies === 1 ? what + " takes" : cost.studies + " studies take"} ${cost.is_at_least ? "at least" : "about"} ${duration(cost)} on this machine.` : "";
     at(form + "-cost-words").textContent = [doubt, told].filter(Boolean).join(" ");
     if (!doubt && (!cost.known || cost.seconds <= asks_above_s)) return true;
     at(form + "-cost").hidden = false;

@@ -29,6 +29,26 @@ int threads_of(const JobCommands& commands) {
         1, static_cast<int>(commands.threads > 0 ? commands.threads : std::thread::hardware_concurrency()));
 }
 
+struct TimeLeft {
+    std::optional<double> seconds;
+    bool of_one_part = false;  // the work has several parts, whose progress begins anew: others follow
+};
+
+// By the progress that a command told. The end of a part says nothing of the next one.
+TimeLeft time_left(const std::string& messages) {
+    TimeLeft left;
+    double fraction = 0.0;
+    std::istringstream lines(messages);
+    for (std::string line; std::getline(lines, line);) {
+        const auto event = read_progress_json(line);
+        if (!event) continue;
+        left.of_one_part |= event->fraction < fraction;
+        fraction = event->fraction;
+        if (event->seconds_left && event->fraction < 1.0) left.seconds = event->seconds_left;
+    }
+    return left;
+}
+
 }  // namespace
 
 ordered_json cost_of_command(const JobCommands& commands, const std::vector<std::string>& words) {
@@ -44,14 +64,11 @@ ordered_json cost_of_command(const JobCommands& commands, const std::vector<std:
     if (!ended.is_late)
         return ended.exit_code == 0 ? ordered_json{{"known", true}, {"seconds", took_s}, {"studies", 1}}
                                     : unknown();
-    std::optional<double> left_s;
-    std::istringstream lines(ended.messages);
-    for (std::string line; std::getline(lines, line);) {
-        const auto event = read_progress_json(line);
-        if (event && event->seconds_left) left_s = event->seconds_left;
-    }
-    if (!left_s) return unknown();
-    return {{"known", true}, {"seconds", took_s + *left_s}, {"studies", 1}};
+    const TimeLeft left = time_left(ended.messages);
+    if (!left.seconds) return unknown();
+    ordered_json cost = {{"known", true}, {"seconds", took_s + *left.seconds}, {"studies", 1}};
+    if (left.of_one_part) cost["is_at_least"] = true;
+    return cost;
 }
 
 ordered_json cost_of_studies(const JobCommands& commands, const std::string& toml, bool is_over_worlds) {
