@@ -65,9 +65,8 @@ ordered_json cost_of_command(const JobCommands& commands, const std::vector<std:
         return ended.exit_code == 0 ? ordered_json{{"known", true}, {"seconds", took_s}, {"studies", 1}}
                                     : unknown();
     const TimeLeft left = time_left(ended.messages);
-    if (!left.seconds) return unknown();
-    ordered_json cost = {{"known", true}, {"seconds", took_s + *left.seconds}, {"studies", 1}};
-    if (left.of_one_part) cost["is_at_least"] = true;
+    ordered_json cost = {{"known", true}, {"seconds", took_s + left.seconds.value_or(0.0)}, {"studies", 1}};
+    if (left.of_one_part || !left.seconds) cost["is_at_least"] = true;
     return cost;
 }
 

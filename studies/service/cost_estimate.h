@@ -14,8 +14,8 @@ namespace capstan::service {
 ordered_json cost_of_studies(const JobCommands& commands, const std::string& toml, bool is_over_worlds);
 
 /// The same of one command, such as {"place", "study.toml"}: it is begun, and its own progress tells after a
-/// few seconds how much is left. Nothing that it writes is kept. {"known": false} if it does not say;
-/// "is_at_least": true where its progress is that of one part of the work.
+/// few seconds how much is left. Nothing that it writes is kept. {"known": false} where it fails;
+/// "is_at_least": true where its progress is that of one part of the work, or says nothing.
 ordered_json cost_of_command(const JobCommands& commands, const std::vector<std::string>& words);
 
 /// The same of the diagnosis of a recording, by `capstan diagnose --cost`. What it finds decides how long it
