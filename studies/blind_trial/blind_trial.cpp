@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/gap/equivalent_bench.h"
 #include "capstan/platform/files.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/recording/driven_inputs.h"
@@ -66,7 +67,8 @@ void diagnose_case(const TrialFolder& folder, const std::string& name, const std
     gap::DiagnosisOptions one_thread;
     one_thread.threads = 1;
     const Recording recording = read_recording(folder.recording(name));
-    write_answer(folder.answer(name), answer_of(name, gap::diagnose(recording, one_thread)), seal);
+    const Recording bench = gap::equivalent_bench(recording, recording);
+    write_answer(folder.answer(name), answer_of(name, gap::diagnose(bench, one_thread)), seal);
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ struct OpenNumber {
     double high = 0.0;
 
     double value(double coordinate) const;
+    /// Of a size; the inverse of value() within its range.
+    double coordinate_of_size(double value) const { return (value - absent) / (typical - absent); }
     /// Whether the search ended at the end of its range: the true number may lie beyond it.
     bool is_at_bound(double value) const;
     bool is_size() const { return kind == Kind::size || kind == Kind::signed_size || kind == Kind::step; }

@@ -127,8 +127,10 @@ FoundCauses CauseSearch::run() & {
         Fits rougher = search_one(built_);
         search_several(built_, rougher);
         rougher = finely_fitted(rougher);
+        const ScoredFit best = rougher.front();
         std::move(rougher.begin(), rougher.end(), std::back_inserter(found.fits));
         sort_by_evidence(found.fits);
+        add_measured_sets(best, found.fits);
     } else if (!is_measured) {
         found.fits = finely_fitted(found.fits);
     }
@@ -149,11 +151,9 @@ bool CauseSearch::is_better_when_built(const ScoredFit& best) {
     Eigen::Index next = nominal_coordinates;
     for (const CandidateCause* cause : best.fit.causes) {
         const auto count = static_cast<Eigen::Index>(cause->numbers.size());
-        const auto same = std::find_if(built_.causes.begin(), built_.causes.end(), [&](const auto& other) {
-            return other.effect == cause->effect && other.variant == cause->variant;
-        });
-        if (same != built_.causes.end() && same->effect != "none")
-            built = with_cause(built, &*same, best.fit.coordinates.segment(next, count));
+        const CandidateCause* same = built_.same_cause(cause->effect, cause->variant);
+        if (same != nullptr && same->effect != "none")
+            built = with_cause(built, same, best.fit.coordinates.segment(next, count));
         next += count;
     }
     if (built.causes.empty()) built = with_cause(built, &built_.causes.front(), {});
@@ -302,9 +302,9 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
     for (std::size_t k = 0; k < visibility.of_the_bench.size(); ++k) {
         const FloatingNumber& number = scored.fit.bench->numbers[k];
         const double coordinate = scored.fit.coordinates[static_cast<Eigen::Index>(k)];
-        if (visibility.of_the_bench[k] > visible && !number.effect.empty() &&
-            std::abs(coordinate) > number.usual)
-            scored.far_numbers.push_back(k);
+        if (visibility.of_the_bench[k] <= visible || number.effect.empty()) continue;
+        scored.visible_numbers.push_back(k);
+        if (std::abs(coordinate) > number.usual) scored.far_numbers.push_back(k);
     }
     if (!scored.fit.bench->is_measured()) {
         if (scored.fit.causes.front()->effect == "none")

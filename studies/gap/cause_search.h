@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,9 @@ class CauseSearch {
     struct Level {
         BenchKnowledge bench;
         std::vector<CandidateCause> causes;
+
+        /// Null if it is not sought.
+        const CandidateCause* same_cause(const std::string& effect, const std::string& variant) const;
     };
     using Fits = std::vector<ScoredFit>;
     struct Model {
@@ -84,7 +88,10 @@ class CauseSearch {
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);
     void try_fewer(const Level& level, Fits& all);
+    void try_replacing(const Level& level, Fits& sets);
     void try_others(const Level& level, Fits& all);
+    std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;
+    void add_measured_sets(const ScoredFit& built, Fits& all);
     void add_single(const Level& level, const Screened& screened, const Hypothesis& nothing, Fits& singles);
     void add_confusable(const Level& level, const std::vector<Screened>& screened, const Hypothesis& nothing,
                         Fits& singles);

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include "capstan/gap/cause_search.h"
 
@@ -76,6 +79,69 @@ void CauseSearch::try_fewer(const Level& level, Fits& all) {
     }
 }
 
+const CandidateCause* CauseSearch::Level::same_cause(const std::string& effect,
+                                                     const std::string& variant) const {
+    const auto same = std::find_if(causes.begin(), causes.end(), [&](const CandidateCause& cause) {
+        return cause.effect == effect && cause.variant == variant;
+    });
+    return same == causes.end() ? nullptr : &*same;
+}
+
+// What was found on the bench as it is built, with measured numbers instead: a number that is visibly not
+// what was stated becomes a cause. None where that makes too many causes, or one that is not sought.
+std::optional<Hypothesis> CauseSearch::with_measured_numbers(const ScoredFit& found) const {
+    const CauseFit& fit = found.fit;
+    if (fit.causes.size() + found.visible_numbers.size() > max_causes) return {};
+    Hypothesis measured = nominal_hypothesis(described_.bench);
+    Eigen::Index next = fit.bench->size();
+    for (const CandidateCause* cause : fit.causes) {
+        const auto count = static_cast<Eigen::Index>(cause->numbers.size());
+        const CandidateCause* same = described_.same_cause(cause->effect, cause->variant);
+        if (same == nullptr) return {};
+        if (same->effect != "none")
+            measured = with_cause(measured, same, fit.coordinates.segment(next, count));
+        next += count;
+    }
+    for (const std::size_t visible : found.visible_numbers) {
+        const FloatingNumber& number = fit.bench->numbers[visible];
+        const double coordinate = fit.coordinates[static_cast<Eigen::Index>(visible)];
+        const CandidateCause* same = described_.same_cause(number.effect, number.variant);
+        if (same == nullptr) return {};
+        Eigen::VectorXd sizes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(same->numbers.size()));
+        if (visible < nominal_coordinates) {
+            measured.coordinates[static_cast<Eigen::Index>(visible)] = coordinate;
+        } else {
+            sizes[0] = same->numbers.front().coordinate_of_size(number.value(coordinate));
+        }
+        measured = with_cause(measured, same, sizes);
+    }
+    return measured.causes.empty() ? std::nullopt : std::optional(measured);
+}
+
+// Rough knowledge of all numbers may stand for a second cause, and its many numbers take up a part of the
+// first one. So the same causes are tried on the measured bench, together and without each in turn.
+void CauseSearch::add_measured_sets(const ScoredFit& built, Fits& all) {
+    const std::optional<Hypothesis> start = with_measured_numbers(built);
+    if (!start || is_out_of_time()) return;
+    report("fitting " + in_words(start->causes));
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    Fits sets = {fitted(described_, *start, options)};
+    // Wrong numbers compensate one another, so that none of them can be dropped alone.
+    const Hypothesis stated =
+        only_causes(*start, [](const CandidateCause& cause) { return !cause.numbers.empty(); });
+    if (!stated.causes.empty() && stated.causes.size() < start->causes.size()) {
+        Hypothesis from = stated;
+        from.coordinates.head(nominal_coordinates).setZero();
+        sets.push_back(fitted(described_, from, options));
+        sort_by_evidence(sets);
+    }
+    try_fewer(described_, sets);
+    if (sets.front().evidence > all.front().evidence) try_replacing(described_, sets);
+    std::move(sets.begin(), sets.end(), std::back_inserter(all));
+    sort_by_evidence(all);
+}
+
 // The best of the smaller sets, each with one cause more; then without each of its former causes in turn, for
 // the first cause may have stood for two others.
 CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& smaller) {
@@ -96,14 +162,20 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
     }
     sort_by_evidence(sets);
     if (sets.empty() || sets.front().fit.causes.size() > 2) return sets;
-    if (!worth_a_further_cause(sets.front())) return sets;
-    const CauseFit best = sets.front().fit;
-    for (const CandidateCause* kept : best.causes)
-        add_sets(level,
-                 only_causes(best.hypothesis(), [&](const CandidateCause& cause) { return &cause == kept; }),
-                 best.weights, max_fitted_further, sets);
-    sort_by_evidence(sets);
+    if (worth_a_further_cause(sets.front())) try_replacing(level, sets);
     return sets;
+}
+
+// Others in the place of each cause of the best set in turn, the one that was found last first.
+void CauseSearch::try_replacing(const Level& level, Fits& sets) {
+    const CauseFit best = sets.front().fit;
+    if (best.causes.size() < 2) return;
+    for (auto replaced = best.causes.rbegin(); replaced != best.causes.rend(); ++replaced)
+        add_sets(
+            level,
+            only_causes(best.hypothesis(), [&](const CandidateCause& cause) { return &cause != *replaced; }),
+            best.weights, max_fitted_further, sets);
+    sort_by_evidence(sets);
 }
 
 // `weights`: of the fit that the hypothesis comes from; `max_further`: causes that are tried beside it.

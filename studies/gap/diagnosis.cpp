@@ -14,6 +14,9 @@ namespace {
 // A cause that closes nothing on held-out data may only have fitted noise. Up to this misfit the recording
 // may well have no gap, and `none` is put first; beyond it the cause loses evidence.
 constexpr double tenable_misfit = 1.2;
+// Half of noise and floor (rms) is within what the model may be wrong by: there is no gap, however well a
+// cause fits it. Recordings without noise, as simulations are, show that much.
+constexpr double misfit_without_gap = 0.25;
 constexpr double unproven_penalty = 4.0;
 
 class Diagnoser {
@@ -37,16 +40,16 @@ class Diagnoser {
 
     Diagnosis verdict(std::vector<ScoredFit> fits) {
         Diagnosis diagnosis;
+        if (!is_nothing(fits.front()) && nothing_in(fits).misfit < misfit_without_gap)
+            put_nothing_first(fits, unproven_penalty);
         describe(diagnosis, fits);
         if (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap)) {
-            const auto nothing = std::find_if(fits.begin(), fits.end(), is_nothing);
-            ScoredFit& leading = fits.front();
-            if (nothing->misfit < tenable_misfit) {
-                nothing->evidence = leading.evidence + Evidence::overstated;
+            if (nothing_in(fits).misfit < tenable_misfit) {
+                put_nothing_first(fits, Evidence::overstated);
             } else {
-                leading.charge_unproven(unproven_penalty);
+                fits.front().charge_unproven(unproven_penalty);
+                sort_by_evidence(fits);
             }
-            sort_by_evidence(fits);
             diagnosis = {};
             describe(diagnosis, fits);
         }
@@ -77,6 +80,16 @@ class Diagnoser {
     }
 
     static bool is_nothing(const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; }
+
+    static ScoredFit& nothing_in(std::vector<ScoredFit>& fits) {
+        return *std::find_if(fits.begin(), fits.end(), is_nothing);
+    }
+
+    // `ahead`: of the evidence of the best cause.
+    static void put_nothing_first(std::vector<ScoredFit>& fits, double ahead) {
+        nothing_in(fits).evidence = fits.front().evidence + ahead;
+        sort_by_evidence(fits);
+    }
 
     // No channel comes closer to its noise in the parts that were left out of the fit.
     static bool closes_nothing(const GapMeasure& gap) {

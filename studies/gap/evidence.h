@@ -33,7 +33,9 @@ struct ScoredFit {
     /// Mean square residual of each predicted channel, in units of noise and floor. Empty where the scale of
     /// a channel's error is not known (E54).
     std::vector<double> channel_misfits{};
-    /// Of the bench's floating numbers those that are visibly far from what was stated.
+    /// Of the bench's floating numbers those that visibly change what is measured,
+    std::vector<std::size_t> visible_numbers{};
+    /// and of these those that are further from what was stated than is usual.
     std::vector<std::size_t> far_numbers{};
 
     /// The effects that they stand for.

@@ -137,6 +137,15 @@ RECORDING = {
 
 
 
+class NoGap(CapstanTest):
+    def test_a_simulated_bench_without_effects_has_none(self):
+        self.run_capstan("simulate", CONFIGS / "bench-grip.toml", "-o", "grip.csv")
+        answer = json.loads(self.run_capstan("diagnose", "grip.csv", "--json", "--progress", "none").stdout)
+        self.assertEqual(answer["ranked"][0]["effect"], "none")
+        self.assertGreater(answer["ranked"][0]["probability"], 0.8)
+        self.assertEqual(answer["causes"], [])
+
+
 class PapersGap(CapstanTest):
     """Exp. 2 of the paper on a bench with viscous friction, which the model that is to explain it does not have."""
 

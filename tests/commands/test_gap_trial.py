@@ -2,9 +2,10 @@
 
 import hashlib
 import json
+import shutil
 import unittest
 
-from capstan_program import CapstanTest
+from capstan_program import CONFIGS, CapstanTest
 
 SMALL = ("--cases", 2, "--seed", 4, "--length", "short", "--severity", "strong")
 
@@ -96,6 +97,15 @@ class Rigs(CapstanTest):
             for condition in label.get("conditions", []):
                 self.assertIn(condition, checked)
         self.assertEqual(stated, 2)
+
+    def test_a_drive_of_unknown_geometry_is_diagnosed_as_its_equivalent_bench(self):
+        self.run_capstan("gap-trial", "--kind", "rigs", "--cases", 1, "--seed", 4, "--keep", "rigs", "--generate-only")
+        recordings = CONFIGS / "recordings"
+        for ending in (".csv", ".json"):
+            shutil.copyfile(recordings / f"lumped-drive{ending}", self.folder / f"rigs/case001{ending}")
+        answer = json.loads(self.run_capstan("gap-trial", "--keep", "rigs", "--case", 1).stdout)
+        self.assertAlmostEqual(sum(e["probability"] for e in answer["ranked"]), 1.0)
+        self.assertTrue(answer["named"])
 
     def test_a_trial_without_causes(self):
         self.run_capstan("gap-trial", "--kind", "rigs", "--only", "none", "--cases", 2, "--seed", 4, "--keep", "rigs",

@@ -124,6 +124,19 @@ TEST(Diagnosis, FindsACauseBesideRoughNumbersZerosAndBearings) {
     EXPECT_NEAR(zero->value, 0.03, 0.015);
 }
 
+// Rough numbers of all kinds could stand for the bearing.
+TEST(Diagnosis, FrictionOfABearingBesideAnotherCauseMakesNoMeasuredNumberWrong) {
+    BenchNumbers numbers;
+    numbers.effects.of<PulleyFriction>().load.coulomb_Nm = 0.1;
+    numbers.effects.of<Presliding>().length_m = 3e-4;
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    ASSERT_EQ(diagnosis.causes.size(), 2u);
+    for (const FittedCause& cause : diagnosis.causes)
+        EXPECT_TRUE(cause.effect == "pulley_friction" || cause.effect == "presliding") << cause.effect;
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_GT(diagnosis.ranked[k].probability, 0.4);
+    EXPECT_TRUE(diagnosis.bench.empty());  // nothing of it floats beyond what was measured
+}
+
 // Nobody stated the stiffness or the pretension, and the friction only as a range.
 TEST(Diagnosis, FindsACauseOnABenchOfWhichLittleIsStated) {
     BenchNumbers numbers;
