@@ -218,7 +218,8 @@ reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const D
 Table ranking_table(const DiagnosisRecord& diagnosis) {
     Table table{"ranking", "Probability of each cause", {"effect", "probability"}, {}};
     for (const auto& each : diagnosis.effects) {
-        if (table.rows.size() < drawn_causes) table.rows.push_back({cause_title(each.effect), each.probability_fraction});
+        if (table.rows.size() < drawn_causes)
+            table.rows.push_back({cause_title(each.effect), each.probability_fraction});
     }
     return table;
 }

@@ -8,12 +8,13 @@ namespace capstan::answers {
 
 reports::Answer diagnosis_cost_answer(const std::string& recording,
                                       const model_comparison::DiagnosisCost& cost) {
-    reports::Answer answer{.id = "diagnosis_cost",
-                           .kind = "Estimated cost of a diagnosis",
-                           .title = recording,
-                           .headline = fmt::format("a diagnosis takes about {} to {} on this machine, depending on what it finds.",
-                                                   duration_words(cost.min_seconds),
-                                                   duration_words(cost.max_seconds))};
+    reports::Answer answer{
+        .id = "diagnosis_cost",
+        .kind = "Estimated cost of a diagnosis",
+        .title = recording,
+        .headline =
+            fmt::format("a diagnosis takes about {} to {} on this machine, depending on what it finds.",
+                        duration_words(cost.min_seconds), duration_words(cost.max_seconds))};
     answer.values = {{"recording", recording},
                      {"runs", cost.runs},
                      {"samples", cost.samples},

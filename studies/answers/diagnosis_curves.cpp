@@ -28,7 +28,8 @@ struct Curves {
                "Load torque over motor torque",
                {"run", "time_s", "series", "motor_torque_Nm", "load_torque_Nm"},
                {}};
-    Table condition{"condition", "The part of the gap's map that each drawn sample belongs to", {"run", "time_s"}, {}};
+    Table condition{
+        "condition", "The part of the gap's map that each drawn sample belongs to", {"run", "time_s"}, {}};
     Table part_channel{"part_channel", "The channel of a part of the gap's map", {"part", "channel"}, {}};
 };
 
@@ -86,7 +87,8 @@ void add_conditions(Curves& curves, const Recording& recording, const Diagnosis&
         row = {std::int64_t{recorded.number}, recorded.time_s[k]};
         for (const gap::SampleSorting& sorting : diagnosis.gap.sortings) {
             const int part = sorting.part_of[run][k];
-            row.emplace_back(part < 0 ? "" : part_name(sorting.by, sorting.parts[static_cast<std::size_t>(part)]));
+            row.emplace_back(part < 0 ? ""
+                                      : part_name(sorting.by, sorting.parts[static_cast<std::size_t>(part)]));
         }
     }
 }
@@ -128,7 +130,7 @@ Curves curves_of(const Recording& recording, const Diagnosis& diagnosis) {
 
 std::vector<Table> diagnosis_curves(const Recording& recording, const Diagnosis& diagnosis) {
     Curves curves = curves_of(recording, diagnosis);
-    return {run_table(recording), std::move(curves.channel), std::move(curves.residual),
+    return {run_table(recording),   std::move(curves.channel),   std::move(curves.residual),
             std::move(curves.loop), std::move(curves.condition), std::move(curves.part_channel)};
 }
 

@@ -41,7 +41,7 @@ struct GapMeasure {
     std::vector<ChannelGap> channels;
     std::vector<GapFraction> map;         ///< of the nominal model
     std::vector<SampleSorting> sortings;  ///< the samples of the map's parts
-    int worst_run = 0;             ///< where the gap is largest against noise
+    int worst_run = 0;                    ///< where the gap is largest against noise
     std::string worst_channel;
     std::vector<TwinRun> nominal;  ///< runs, at every sample
     std::vector<TwinRun> leading;

@@ -61,7 +61,7 @@ namespace {
 
 // In "tau_m" and "theta_m" the letter stands for the motor: a torque, an angle or a current has no metres.
 bool names_the_motor(std::string_view quantity, std::string_view ending) {
-    constexpr std::array quantities{"tau",  "torque", "trq", "tq",    "moment",  "theta", "phi",
+    constexpr std::array quantities{"tau",   "torque", "trq", "tq",    "moment",  "theta", "phi",
                                     "alpha", "angle",  "ang", "omega", "current", "i",     "q"};
     std::string word(quantity.substr(quantity.find_last_of("_ ") + 1));
     std::transform(word.begin(), word.end(), word.begin(),

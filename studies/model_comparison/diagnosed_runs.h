@@ -25,7 +25,8 @@ struct DiagnosedRuns {
     ModelComparison comparison;       ///< empty where nothing is held out and nothing compared
 };
 
-/// The runs that diagnose_runs fits, as the equivalent bench where the geometry is unknown. Throws as it does.
+/// The runs that diagnose_runs fits, as the equivalent bench where the geometry is unknown. Throws as it
+/// does.
 Recording runs_to_diagnose(const Recording& recording, const DiagnosisRequest& request);
 
 /// Diagnoses the runs that are asked for, of all runs if none are. Without a split, a comparison with simple

@@ -61,8 +61,10 @@ TEST(GapMap, SortsNoSampleBeforeTheFirstThatIsCompared) {
     runs[1].first_sample = 30;
     for (const SampleSorting& sorting : sample_sortings(recording, runs)) {
         const std::vector<int>& part_of = sorting.part_of[1];
-        EXPECT_TRUE(std::all_of(part_of.begin(), part_of.begin() + 30, [](int part) { return part == -1; })) << sorting.by;
-        EXPECT_TRUE(std::any_of(part_of.begin() + 30, part_of.end(), [](int part) { return part >= 0; })) << sorting.by;
+        EXPECT_TRUE(std::all_of(part_of.begin(), part_of.begin() + 30, [](int part) { return part == -1; }))
+            << sorting.by;
+        EXPECT_TRUE(std::any_of(part_of.begin() + 30, part_of.end(), [](int part) { return part >= 0; }))
+            << sorting.by;
     }
 }
 

@@ -34,8 +34,8 @@ TEST_F(Suggesting, TakesTheLetterOfTheMotorForNoUnit) {
     std::string text = "t_ms,tau_m,phi_m_deg,tau_l,phi_l_deg\n";
     for (int k = 0; k < 400; ++k) {
         const double angle = 30.0 * std::sin(0.03 * k), friction = std::cos(0.03 * k) > 0.0 ? 0.02 : -0.02;
-        text += fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f}\n", 10 * k, 0.05 + friction, angle, 0.08 + 0.0001 * k,
-                            0.5 * angle);
+        text += fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f}\n", 10 * k, 0.05 + friction, angle,
+                            0.08 + 0.0001 * k, 0.5 * angle);
     }
     const Suggestion suggestion = suggest_mapping({write("a.csv", text)}, {});
     std::vector<std::string> channels;

@@ -36,7 +36,8 @@ TEST(DiagnosisCost, EndsAtTheTimeLimit) {
 }
 
 TEST(DiagnosisCost, ThrowsForARunThatIsMissing) {
-    EXPECT_THROW(predict_diagnosis_cost(gap::lumped_session({}), {.runs = {7}}, {}, no_pilot_s), InvalidInput);
+    EXPECT_THROW(predict_diagnosis_cost(gap::lumped_session({}), {.runs = {7}}, {}, no_pilot_s),
+                 InvalidInput);
 }
 
 }  // namespace
