@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/recording/channel_range.h"
 #include "capstan/rig/channel_names.h"
 #include "capstan/simple_models/modelled_output.h"
 
@@ -129,8 +130,7 @@ std::optional<std::size_t> driven_channel(const Recording& recording, const Reco
     std::optional<std::size_t> found;
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const Channel& described = recording.channels[channel];
-        const auto [low, high] = std::minmax_element(run.values[channel].begin(), run.values[channel].end());
-        if (!run.drives(described.name) || !(*low < *high)) continue;
+        if (!run.drives(described.name) || !(range_of(run.values[channel]).span() > 0.0)) continue;
         const bool is_motion = described.unit == "rad" || described.unit == "m";
         if (!found || is_motion) found = channel;
         if (is_motion && run.output != OutputKind::locked) break;

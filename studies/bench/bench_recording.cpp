@@ -7,6 +7,7 @@
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/plan/true_motion.h"
+#include "capstan/recording/channel_range.h"
 #include "capstan/rig/channel_names.h"
 #include "capstan/sensing/random_stream.h"
 
@@ -166,15 +167,7 @@ Recording recorded_motion(const StudyPlan& plan, const Instruments& instruments)
 void add_noise(Recording& recording, const Instruments& instruments) {
     if (instruments.noise_fraction <= 0.0) return;
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
-        double low = recording.runs.front().values[channel].front();
-        double high = low;
-        for (const RecordedRun& run : recording.runs) {
-            const auto [least, most] =
-                std::minmax_element(run.values[channel].begin(), run.values[channel].end());
-            low = std::min(low, *least);
-            high = std::max(high, *most);
-        }
-        const double deviation = instruments.noise_fraction * (high - low);
+        const double deviation = instruments.noise_fraction * range_of(recording, channel).span();
         if (deviation <= 0.0) continue;
         recording.channels[channel].noise_std = deviation;
         for (std::size_t run = 0; run < recording.runs.size(); ++run) {

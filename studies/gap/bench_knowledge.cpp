@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/recording/channel_range.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
@@ -41,15 +42,7 @@ std::vector<FloatingNumber> ratios(const NominalSpread& of_values, const Nominal
 
 // Half of what a channel covers over all runs.
 double half_span(const Recording& recording, std::size_t channel) {
-    double low = recording.runs.front().values[channel].front();
-    double high = low;
-    for (const RecordedRun& run : recording.runs) {
-        const auto [least, most] =
-            std::minmax_element(run.values[channel].begin(), run.values[channel].end());
-        low = std::min(low, *least);
-        high = std::max(high, *most);
-    }
-    return 0.5 * (high - low);
+    return 0.5 * range_of(recording, channel).span();
 }
 
 // A sensor's zero as a part of its span, bearings' friction as a part of the torque at their end.

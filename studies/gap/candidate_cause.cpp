@@ -7,6 +7,7 @@
 
 #include "capstan/effects/effect_catalogue.h"
 #include "capstan/effects/known_causes.h"
+#include "capstan/recording/channel_range.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
@@ -56,19 +57,10 @@ double usual_normal_force_N_per_m(const Recording& recording) {
     return pretension_N / radius_m;
 }
 
-double span_of(const Recording& recording, std::size_t channel) {
-    double span = 0.0;
-    for (const RecordedRun& run : recording.runs) {
-        const auto [low, high] = std::minmax_element(run.values[channel].begin(), run.values[channel].end());
-        span = std::max(span, *high - *low);
-    }
-    return span;
-}
-
 // How far the motor turns in the recording [rad].
 double turned_rad(const Recording& recording) {
     const auto channel = recording.channel(channel::motor_angle);
-    return channel ? span_of(recording, static_cast<std::size_t>(*channel)) : 0.0;
+    return channel ? largest_span(recording, static_cast<std::size_t>(*channel)) : 0.0;
 }
 
 CandidateCause cause_of(const Effect& effect, double length_m, double normal_force_N_per_m,
@@ -208,8 +200,8 @@ std::vector<CandidateCause> following_causes(const Recording& recording) {
             CandidateCause zero = plain("sensor_offset", "sensor:" + described.name);
             zero.family = "sensor";
             zero.variant = follows.channel = described.name;
-            causes.push_back(
-                following(zero, follows, curved, described.unit, typical_zero * span_of(recording, channel)));
+            causes.push_back(following(zero, follows, curved, described.unit,
+                                       typical_zero * largest_span(recording, channel)));
         }
     }
     return causes;
@@ -341,7 +333,7 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
         const std::string& name = recording.channels[channel].name;
         if (!recording.is_predicted(name) || name == channel::load_angle) continue;
         for (CandidateCause& cause :
-             sensor_causes(name, span_of(recording, channel), 1.0 / recording.sample_rate_Hz,
+             sensor_causes(name, largest_span(recording, channel), 1.0 / recording.sample_rate_Hz,
                            unstated_step(recording, channel)))
             causes.push_back(std::move(cause));
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "capstan/recording/channel_range.h"
 #include "capstan/simple_models/stop_operator.h"
 
 namespace capstan::gap {
@@ -35,16 +36,13 @@ std::vector<Driving> driving_channels(const Recording& recording) {
     std::vector<Driving> all;
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
-        double low = std::numeric_limits<double>::infinity();
-        double high = -low;
+        ValueRange driven{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
         for (const RecordedRun& run : recording.runs) {
             if (!run.drives(name)) continue;
-            const auto [least, most] =
-                std::minmax_element(run.values[channel].begin(), run.values[channel].end());
-            low = std::min(low, *least);
-            high = std::max(high, *most);
+            const ValueRange in_run = range_of(run.values[channel]);
+            driven = {std::min(driven.low, in_run.low), std::max(driven.high, in_run.high)};
         }
-        if (high > low) all.push_back({channel, 0.5 * (low + high), high - low});
+        if (driven.high > driven.low) all.push_back({channel, driven.middle(), driven.span()});
     }
     constexpr std::size_t max_channels = 2;
     if (all.size() > max_channels) all.resize(max_channels);

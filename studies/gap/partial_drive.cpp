@@ -6,6 +6,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/calibration/twin.h"
 #include "capstan/gap/bench_channels.h"
+#include "capstan/recording/channel_range.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
@@ -27,9 +28,7 @@ double span_of(const Recording& recording, const char* name, double otherwise) {
     if (!has(recording, name)) return otherwise;
     double span = 0.0;
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
-        const auto& values = samples_of(recording, run, name);
-        const auto [low, high] = std::minmax_element(values.begin(), values.end());
-        span = std::max(span, *high - *low);
+        span = std::max(span, range_of(samples_of(recording, run, name)).span());
     }
     return span > 0.0 ? span : otherwise;
 }

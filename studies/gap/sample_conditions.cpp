@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "capstan/gap/gap_map.h"
+#include "capstan/recording/channel_range.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
@@ -20,8 +21,7 @@ const std::vector<double>* moving_angle(const Recording& recording, const Record
         const auto channel = recording.channel(name);
         if (!channel) continue;
         const std::vector<double>& angle = run.values[static_cast<std::size_t>(*channel)];
-        const auto [low, high] = std::minmax_element(angle.begin(), angle.end());
-        if (*high - *low > moves_rad) return &angle;
+        if (range_of(angle).span() > moves_rad) return &angle;
     }
     return nullptr;
 }

@@ -85,92 +85,106 @@ int steps_per_fine_sample(const LumpedCableNumbers& numbers, int masses) {
         std::ceil(1.0 / (fine_rate_Hz * LumpedCable::stable_time_step_s(numbers, masses))));
 }
 
-TrueRun run_pair(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
-                 const LumpedBenchOptions& options) {
+// What the four sensors of the ends read at a step.
+struct EndReadings {
+    double motor_torque_Nm;
+    double motor_rad;
+    double load_rad;
+    double load_torque_Nm;
+};
+
+// Two cables between the pulleys of a motor and a load.
+struct Pair {
+    LumpedCable a;
+    LumpedCable b;
+    MotorSide motor;
+    LoadSide load;
+    Rim rim;
+    double motor_radius_m;
+
+    void move_cables() {
+        const CableEnds ends{-motor_radius_m * motor.pulley_rad(), -motor_radius_m * motor.pulley_rad_per_s(),
+                             -rim.taken_up_m(load.pulley_rad()),
+                             -rim.arm_m(load.pulley_rad()) * load.pulley_rad_per_s()};
+        a.step(ends);
+        b.step({-ends.motor_m, -ends.motor_m_per_s, -ends.load_m, -ends.load_m_per_s});
+    }
+    double motor_pull_Nm() const { return motor_radius_m * (a.motor_tension_N() - b.motor_tension_N()); }
+    double load_pull_Nm() const {
+        return rim.arm_m(load.pulley_rad()) * (a.load_tension_N() - b.load_tension_N());
+    }
+};
+
+// `start`: what is read at rest; `step` moves both ends to a fraction of the way from a fine sample to the
+// next, after the cables have moved.
+template <class Step>
+TrueRun run_between_pulleys(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
+                            const LumpedBenchOptions& options, std::size_t samples, const EndReadings& start,
+                            const Step& step) {
     LumpedCableNumbers numbers = cable_numbers(bench, run, effects, options);
     const int steps = steps_per_fine_sample(numbers, options.masses);
     const double dt = 1.0 / (fine_rate_Hz * steps);
-    LumpedCable a(numbers, effects, options.masses, dt);
+    const LumpedCable a(numbers, effects, options.masses, dt);
     numbers.is_cable_b = true;
-    LumpedCable b(numbers, effects, options.masses, dt);
-    MotorSide motor(bench.nominal.rotor_inertia_kg_m2, effects, dt);
-    LoadSide load(bench.nominal.load_pulley_inertia_kg_m2, effects, dt);
-    const Rim rim{bench.nominal.load_radius_m, effects.lobed_pulley};
-    const double motor_radius_m = bench.nominal.motor_radius_m;
-    const MotionBetweenSamples torque(run.motor_torque_Nm, fine_rate_Hz);
-    const MotionBetweenSamples hand(run.load_angle_rad, fine_rate_Hz);
+    Pair pair{a,
+              LumpedCable(numbers, effects, options.masses, dt),
+              MotorSide(bench.nominal.rotor_inertia_kg_m2, effects, dt),
+              LoadSide(bench.nominal.load_pulley_inertia_kg_m2, effects, dt),
+              {bench.nominal.load_radius_m, effects.lobed_pulley},
+              bench.nominal.motor_radius_m};
 
     TrueRun result;
     result.values.resize(bench.channels().size());
     FineSample sample(bench, result);
-    sample.add(run.motor_torque_Nm.front(), 0.0, run.load_angle_rad.front(), 0.0, a, &b);
+    const auto add = [&](const EndReadings& read) {
+        sample.add(read.motor_torque_Nm, read.motor_rad, read.load_rad, read.load_torque_Nm, pair.a, &pair.b);
+    };
+    add(start);
     sample.finish(1);
-    for (std::size_t fine = 0; fine + 1 < run.load_angle_rad.size(); ++fine) {
-        for (int step = 1; step <= steps; ++step) {
-            const double fraction = static_cast<double>(step) / steps;
-            const double torque_Nm = torque.at(fine, fraction).value;
-            const MotionBetweenSamples::Point hand_now = hand.at(fine, fraction);
-            const double arm_m = rim.arm_m(load.pulley_rad());
-            const CableEnds ends{-motor_radius_m * motor.pulley_rad(),
-                                 -motor_radius_m * motor.pulley_rad_per_s(),
-                                 -rim.taken_up_m(load.pulley_rad()), -arm_m * load.pulley_rad_per_s()};
-            a.step(ends);
-            b.step({-ends.motor_m, -ends.motor_m_per_s, -ends.load_m, -ends.load_m_per_s});
-            motor.step(torque_Nm, motor_radius_m * (a.motor_tension_N() - b.motor_tension_N()));
-            load.step(hand_now, arm_m * (a.load_tension_N() - b.load_tension_N()));
-            sample.add(torque_Nm, motor.rotor_rad(), hand_now.value, load.torque_Nm(), a, &b);
+    for (std::size_t fine = 0; fine + 1 < samples; ++fine) {
+        for (int now = 1; now <= steps; ++now) {
+            pair.move_cables();
+            add(step(pair, fine, static_cast<double>(now) / steps));
         }
         sample.finish(steps);
         const double session_s = run.session_start_s + static_cast<double>(fine + 1) / fine_rate_Hz;
-        a.follow(load.pulley_rad(), session_s, 1.0 / fine_rate_Hz);
-        b.follow(load.pulley_rad(), session_s, 1.0 / fine_rate_Hz);
+        pair.a.follow(pair.load.pulley_rad(), session_s, 1.0 / fine_rate_Hz);
+        pair.b.follow(pair.load.pulley_rad(), session_s, 1.0 / fine_rate_Hz);
     }
     return result;
+}
+
+// A torque drives the motor, a hand or a clamp the load.
+TrueRun run_pair(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
+                 const LumpedBenchOptions& options) {
+    const MotionBetweenSamples torque(run.motor_torque_Nm, fine_rate_Hz);
+    const MotionBetweenSamples hand(run.load_angle_rad, fine_rate_Hz);
+    return run_between_pulleys(
+        bench, run, effects, options, run.load_angle_rad.size(),
+        {run.motor_torque_Nm.front(), 0.0, run.load_angle_rad.front(), 0.0},
+        [&](Pair& pair, std::size_t fine, double fraction) -> EndReadings {
+            const double torque_Nm = torque.at(fine, fraction).value;
+            const MotionBetweenSamples::Point hand_now = hand.at(fine, fraction);
+            pair.motor.step(torque_Nm, pair.motor_pull_Nm());
+            pair.load.step(hand_now, pair.load_pull_Nm());
+            return {torque_Nm, pair.motor.rotor_rad(), hand_now.value, pair.load.torque_Nm()};
+        });
 }
 
 // A servo turns the motor, a load motor resists: a drive between two shafts.
 TrueRun run_drive(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,
                   const LumpedBenchOptions& options) {
-    LumpedCableNumbers numbers = cable_numbers(bench, run, effects, options);
-    const int steps = steps_per_fine_sample(numbers, options.masses);
-    const double dt = 1.0 / (fine_rate_Hz * steps);
-    LumpedCable a(numbers, effects, options.masses, dt);
-    numbers.is_cable_b = true;
-    LumpedCable b(numbers, effects, options.masses, dt);
-    MotorSide motor(bench.nominal.rotor_inertia_kg_m2, effects, dt);
-    LoadSide load(bench.nominal.load_pulley_inertia_kg_m2, effects, dt);
-    const Rim rim{bench.nominal.load_radius_m, effects.lobed_pulley};
-    const double motor_radius_m = bench.nominal.motor_radius_m;
     const MotionBetweenSamples input(run.motor_angle_rad, fine_rate_Hz);
     const MotionBetweenSamples resisting(run.load_torque_Nm, fine_rate_Hz);
-
-    TrueRun result;
-    result.values.resize(bench.channels().size());
-    FineSample sample(bench, result);
-    sample.add(0.0, 0.0, 0.0, run.load_torque_Nm.front(), a, &b);
-    sample.finish(1);
-    for (std::size_t fine = 0; fine + 1 < run.motor_angle_rad.size(); ++fine) {
-        for (int step = 1; step <= steps; ++step) {
-            const double fraction = static_cast<double>(step) / steps;
+    return run_between_pulleys(
+        bench, run, effects, options, run.motor_angle_rad.size(), {0.0, 0.0, 0.0, run.load_torque_Nm.front()},
+        [&](Pair& pair, std::size_t fine, double fraction) -> EndReadings {
             const MotionBetweenSamples::Point rotor = input.at(fine, fraction);
             const double load_Nm = resisting.at(fine, fraction).value;
-            const double arm_m = rim.arm_m(load.pulley_rad());
-            const CableEnds ends{-motor_radius_m * motor.pulley_rad(),
-                                 -motor_radius_m * motor.pulley_rad_per_s(),
-                                 -rim.taken_up_m(load.pulley_rad()), -arm_m * load.pulley_rad_per_s()};
-            a.step(ends);
-            b.step({-ends.motor_m, -ends.motor_m_per_s, -ends.load_m, -ends.load_m_per_s});
-            const double motor_Nm =
-                motor.step_prescribed(rotor, motor_radius_m * (a.motor_tension_N() - b.motor_tension_N()));
-            load.step_against(load_Nm, arm_m * (a.load_tension_N() - b.load_tension_N()));
-            sample.add(motor_Nm, motor.rotor_rad(), load.pulley_rad(), load_Nm, a, &b);
-        }
-        sample.finish(steps);
-        const double session_s = run.session_start_s + static_cast<double>(fine + 1) / fine_rate_Hz;
-        a.follow(load.pulley_rad(), session_s, 1.0 / fine_rate_Hz);
-        b.follow(load.pulley_rad(), session_s, 1.0 / fine_rate_Hz);
-    }
-    return result;
+            const double motor_Nm = pair.motor.step_prescribed(rotor, pair.motor_pull_Nm());
+            pair.load.step_against(load_Nm, pair.load_pull_Nm());
+            return {motor_Nm, pair.motor.rotor_rad(), pair.load.pulley_rad(), load_Nm};
+        });
 }
 
 TrueRun run_single(const TrialBench& bench, const TrialRun& run, const TrueEffects& effects,

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <span>
 
+#include "capstan/recording/channel_range.h"
+
 namespace capstan::imports {
 
 namespace {
@@ -40,12 +42,12 @@ std::vector<double> speed_of(const std::vector<double>& values) {
 Eigen::MatrixXd features_of(const std::vector<ClockReference>& others) {
     std::vector<std::vector<double>> columns;
     for (const ClockReference& other : others) {
-        const auto [low, high] = std::minmax_element(other.values.begin(), other.values.end());
-        if (*high <= *low) continue;
+        const double span = range_of(other.values).span();
+        if (span <= 0.0) continue;
         columns.push_back(other.values);
         for (const double yield :
              other.with_friction ? std::span<const double>(yields) : std::span<const double>())
-            columns.push_back(stop_element(other.values, yield * (*high - *low)));
+            columns.push_back(stop_element(other.values, yield * span));
         if (other.is_angle) columns.push_back(speed_of(other.values));
     }
     Eigen::MatrixXd features(others.empty() ? 0 : static_cast<Eigen::Index>(others[0].values.size()),

@@ -12,6 +12,7 @@
 #include "capstan/calibration/twin.h"
 #include "capstan/import/units.h"
 #include "capstan/platform/statistics.h"
+#include "capstan/recording/channel_range.h"
 #include "capstan/recording/recording_reader.h"
 #include "capstan/rig/channel_names.h"
 
@@ -28,7 +29,7 @@ constexpr double not_explained = 0.5;  // with more, a channel is not explained
 constexpr double explaining_gain =
     0.4;  // and a correction that explains it takes this much of the sum over channels
 constexpr double looked_into = 0.1;  // with less, no correction is tried
-constexpr double max_left = 0.2;    // of the sum over channels, by a correction that explains none anew
+constexpr double max_left = 0.2;     // of the sum over channels, by a correction that explains none anew
 constexpr double guessed = 0.34;     // with more after all corrections, these are called guesses
 constexpr int max_corrections = 3;
 
@@ -39,13 +40,6 @@ struct Correction {
     double factor = 1.0;
     std::string unit{};  ///< that the numbers would be in; empty: the sign alone
 };
-
-bool moves(const Recording& recording, std::size_t channel) {
-    return std::any_of(recording.runs.begin(), recording.runs.end(), [&](const RecordedRun& run) {
-        const auto [low, high] = std::minmax_element(run.values[channel].begin(), run.values[channel].end());
-        return *high > *low;
-    });
-}
 
 std::vector<Correction> corrections_of(const Recording& recording) {
     std::vector<Correction> all;
@@ -65,9 +59,9 @@ std::vector<Correction> corrections_of(const Recording& recording) {
                     {channel, {}, sign / si, unit});  // converted although they were in SI units already
             }
         }
-        for (std::size_t other = channel + 1; moves(recording, channel) && other < recording.channels.size();
-             ++other) {
-            if (moves(recording, other)) all.push_back({channel, other, 1.0, ""});
+        for (std::size_t other = channel + 1;
+             largest_span(recording, channel) > 0.0 && other < recording.channels.size(); ++other) {
+            if (largest_span(recording, other) > 0.0) all.push_back({channel, other, 1.0, ""});
         }
     }
     return all;
@@ -234,11 +228,6 @@ struct Work {
     double load_path_Nm_rad = 0.0;
 };
 
-double span_of(const std::vector<double>& values) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return *high - *low;
-}
-
 double work_of(const std::vector<double>& torque, const std::vector<double>& angle) {
     double sum = 0.0;
     for (std::size_t k = 1; k < angle.size(); ++k)
@@ -248,7 +237,7 @@ double work_of(const std::vector<double>& torque, const std::vector<double>& ang
 
 /// Closed loops only: from where an angle starts to the last sample near that angle.
 std::size_t loop_end(const std::vector<double>& angle) {
-    const double near = 0.02 * span_of(angle);
+    const double near = 0.02 * range_of(angle).span();
     for (std::size_t k = angle.size(); k-- > angle.size() / 2;) {
         if (std::abs(angle[k] - angle[0]) <= near) return k + 1;
     }
@@ -278,9 +267,9 @@ std::vector<Finding> doubts_by_work(const Recording& recording) {
             for (const double sample : samples) sum += sample * sample;
             return std::sqrt(sum / static_cast<double>(samples.size()));
         };
-        work.motor_path_Nm_rad += span_of(values[0]) * rms(values[1]);
-        work.load_path_Nm_rad += span_of(values[2]) * rms(values[3]);
-        angle_span = std::max({angle_span, span_of(values[0]), span_of(values[2])});
+        work.motor_path_Nm_rad += range_of(values[0]).span() * rms(values[1]);
+        work.load_path_Nm_rad += range_of(values[2]).span() * rms(values[3]);
+        angle_span = std::max({angle_span, range_of(values[0]).span(), range_of(values[2]).span()});
     }
     std::vector<Finding> found;
     // Whatever the signs of the load, it can have given no more work than this.
@@ -297,7 +286,7 @@ std::vector<Finding> doubts_by_work(const Recording& recording) {
     const double passed_on = work.load_path_Nm_rad / work.motor_path_Nm_rad;
     constexpr double largest_angle_rad = 8.0 * std::numbers::pi;  // four turns; more is rather in degrees
     constexpr double min_passed_on = 0.02;  // friction of exp(-4), a wrap of three turns at 0.2
-    constexpr double max_passed_on = 5.0;    // a load that drives the motor through the same friction
+    constexpr double max_passed_on = 5.0;   // a load that drives the motor through the same friction
     constexpr double rather_torque =
         300.0;  // between the factors of a degree, 57, and of a millinewton metre, 1000
     const bool large_angle = angle_span > largest_angle_rad;
@@ -305,8 +294,8 @@ std::vector<Finding> doubts_by_work(const Recording& recording) {
     const double off = passed_on > 1.0 ? passed_on : 1.0 / passed_on;
     const char* unit = !large_angle && off > rather_torque ? "mN m" : "deg";
     std::string suspect = channel::motor_angle;
-    const double motor_span = span_of(recording.runs[0].values[at[0]]);
-    const double load_span = span_of(recording.runs[0].values[at[2]]);
+    const double motor_span = range_of(recording.runs[0].values[at[0]]).span();
+    const double load_span = range_of(recording.runs[0].values[at[2]]).span();
     if (std::string(unit) == "deg") {
         suspect = motor_span > load_span ? channel::motor_angle : channel::load_angle;
     } else {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "capstan/recording/channel_range.h"
 #include "capstan/recording/recording_reader.h"
 #include "capstan/rig/channel_names.h"
 
@@ -17,16 +18,11 @@ constexpr double longest_period_in_samples = 1.5;
 // elasticity explain a factor of a few.
 constexpr double implausible_factor = 20.0;
 
-double span_of(const std::vector<double>& values) {
-    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
-    return *highest - *lowest;
-}
-
 double largest_span(const Recording& recording, int channel, OutputKind output) {
     double span = 0.0;
     for (const RecordedRun& run : recording.runs) {
         if (run.output == output || output == OutputKind::unknown)
-            span = std::max(span, span_of(run.values[static_cast<std::size_t>(channel)]));
+            span = std::max(span, range_of(run.values[static_cast<std::size_t>(channel)]).span());
     }
     return span;
 }
@@ -40,7 +36,7 @@ void check_constant_channels(const Recording& recording, const std::string& plac
     bool any_input_moves = false;
     for (std::size_t index = 0; index < recording.channels.size(); ++index) {
         const std::string& name = recording.channels[index].name;
-        const bool constant = largest_span(recording, static_cast<int>(index), OutputKind::unknown) == 0.0;
+        const bool constant = largest_span(recording, index) == 0.0;
         if (is_driven(recording, name)) {
             any_input_moves |= !constant;
         } else if (constant && name != channel::load_angle) {  // a lock may hold perfectly

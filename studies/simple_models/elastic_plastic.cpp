@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "capstan/calibration/least_squares.h"
+#include "capstan/recording/channel_range.h"
 #include "capstan/simple_models/linear_models.h"
 
 namespace capstan::simple_models {
@@ -68,7 +69,7 @@ SearchScales scales_of(const Recording& recording, const ModelledOutput& channel
     }
     const double spread = std::sqrt(std::max(0.0, squares - sum * sum));
     return {spread > 0.0 ? spread : 1.0, load_squares > 0.0 ? std::sqrt(load_squares) : 1.0,
-            range_of(recording, channels.motion)};
+            largest_span(recording, channels.motion)};
 }
 
 // Coordinates: yield, zero, logarithms of the stiffnesses and of the shares, then what belongs to the load.

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "capstan/recording/channel_range.h"
 #include "capstan/simple_models/stop_operator.h"
 
 namespace capstan::simple_models {
@@ -130,15 +131,6 @@ Eigen::VectorXd stop_operator(std::span<const double> motion, double limit) {
     return held;
 }
 
-double range_of(const Recording& recording, std::size_t channel) {
-    double range = 0.0;
-    for (const RecordedRun& run : recording.runs) {
-        const auto [low, high] = std::minmax_element(run.values[channel].begin(), run.values[channel].end());
-        range = std::max(range, *high - *low);
-    }
-    return range;
-}
-
 std::size_t scored_samples(const Recording& recording) {
     std::size_t samples = 0;
     for (const RecordedRun& run : recording.runs) samples += run.time_s.size() - first_scored_sample(run);
@@ -146,7 +138,7 @@ std::size_t scored_samples(const Recording& recording) {
 }
 
 std::vector<SimpleModel> fit_linear_models(const Recording& recording, const ModelledOutput& channels) {
-    const double range = range_of(recording, channels.motion);
+    const double range = largest_span(recording, channels.motion);
     const auto linear = [=](const RecordedRun& run) {
         FeatureColumns columns(run, channels);
         columns.load();

@@ -11,9 +11,6 @@ std::vector<SimpleModel> fit_linear_models(const Recording& recording, const Mod
 /// Elements of fixed stiffness in series with a slider, whose yield grows linearly with the load (E51).
 SimpleModel fit_elastic_plastic(const Recording& recording, const ModelledOutput& channels);
 
-/// The largest range of a channel over the runs.
-double range_of(const Recording& recording, std::size_t channel);
-
 /// RMS of measured minus predicted over the scored samples of all runs.
 double rms_over(const Recording& recording, const SimpleModel& model);
 

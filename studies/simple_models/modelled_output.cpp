@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "capstan/recording/channel_range.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::simple_models {
@@ -27,13 +28,6 @@ bool is_predicted(const Recording& recording, std::size_t index) {
                                       [&](const RecordedRun& run) { return run.drives(name); });
 }
 
-bool moves(const Recording& recording, std::size_t index) {
-    return std::any_of(recording.runs.begin(), recording.runs.end(), [&](const RecordedRun& run) {
-        const auto [low, high] = std::minmax_element(run.values[index].begin(), run.values[index].end());
-        return low != high && *low < *high;
-    });
-}
-
 }  // namespace
 
 std::vector<std::size_t> output_channels(const Recording& recording) {
@@ -49,7 +43,7 @@ std::vector<ModelledOutput> possible_inputs(const Recording& recording, std::siz
         const bool always =
             std::all_of(recording.runs.begin(), recording.runs.end(),
                         [&](const RecordedRun& run) { return run.drives(recording.channels[index].name); });
-        if (always && index != output && moves(recording, index)) driven.push_back(index);
+        if (always && index != output && largest_span(recording, index) > 0.0) driven.push_back(index);
     }
     std::vector<ModelledOutput> choices;
     for (const std::size_t motion : driven) {
