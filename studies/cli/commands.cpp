@@ -41,7 +41,7 @@ constexpr CommandTime times[] = {
      "the time left."},
     {"duty", "As long as the recording, divided by about 1000. Shows progress and the time left."},
     {"estimate",
-     "A minute of recording at 100 Hz takes about 1 s for each cable, with --leave-out each as often as there are sensors; "
+     "A minute of recording at 100 Hz takes about 1 s for each cable, that times the number of sensors with --leave-out each; "
      "a study's configuration takes 15 s. Shows progress and the time left."},
     {"calibrate",
      "Seconds to a minute, in proportion to the length of the recording and to the square of its runs. Shows progress and "
