@@ -26,7 +26,8 @@ enum class PageFiles {
 
 /// The scripts of every page, in the order in which they run.
 inline constexpr const char* page_scripts[] = {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js",
-                                               "page.js",     "figure_data.js",   "player.js"};
+                                               "page.js",     "figure_data.js",   "player.js",
+                                               "brush.js"};
 
 /// Of this build, "0.2.0".
 std::string program_version();

@@ -8,6 +8,7 @@
   const colours = ["--accent", "--sensor", "--known", "--quiet", "--unknown"];
 
   let files = [], columns = [], roles = [], guesses = [], mapping = { mapping: "", channels: [], problems: [] };
+  let placeholder = "";  // the line of a proposal that describes the bench
   const changed_by_hand = new Set();  // roles whose guesses are out of date
   const extra_roles = new Set();
   const cards = new Map();  // of roles, by name
@@ -201,7 +202,8 @@
       cards.delete(name);
     }
     markUsedColumns();
-    const others = guesses.filter((guess) => !names.includes(guess.about));
+    const is_outdated = (guess) => changed_by_hand.size > 0 && (guess.about === "channels" || guess.reason.startsWith("a trial import fails"));
+    const others = guesses.filter((guess) => !names.includes(guess.about) && !is_outdated(guess));
     at("import-guesses").replaceChildren(...others.map(guessItem));
   }
 
@@ -239,6 +241,7 @@
       at("import-result").hidden = true;
       at("import-work").hidden = false;
       mapping = { mapping: "", channels: [], problems: [] };
+      placeholder = saved ? "" : /^nominal = .*$/m.exec(answer.mapping)?.[0] ?? "";
       if (saved) { guesses = []; take(await postJson({ mapping: await saved.text() })); } else take(answer);
     }, "import-problems");
   });
@@ -303,8 +306,18 @@
     element("a", { href: address, download: "import.toml" }).click();
     setTimeout(() => URL.revokeObjectURL(address), 60000);
   });
-  at("import-diagnose").addEventListener("click", () => during("Importing …", async () => {
+  at("import-diagnose").addEventListener("click", async () => {
+    const cost = async () => (await postForm("/api/import/diagnosis/cost", true)).json();
+    const doubt = placeholder && at("import-text").value.includes(placeholder) ? "The numbers of the bench are still placeholders, which a diagnosis takes as true." : "";
+    showProblems("import-run-problems", []);
+    try {
+      if (await globalThis.capstanPage.accepted("import", "The diagnosis", cost, doubt)) startDiagnosis();
+    } catch (error) {
+      showProblems("import-run-problems", [error.message]);
+    }
+  });
+  const startDiagnosis = () => during("Importing …", async () => {
     const job = await (await postForm("/api/import/diagnosis", true)).json();
-    at("import-run-status").textContent = `Job ${job.job} is queued. Its progress is in the queue; its verdict will stand under Diagnoses.`;
-  }, "import-run-problems"));
+    at("import-run-status").textContent = `Job ${job.job} is queued. Its progress is in the queue; its verdict will stand under Recordings.`;
+  }, "import-run-problems");
 })();

@@ -63,6 +63,7 @@
     }
   }
   let passes = () => true;  // the filter of the page, if it has one
+  let marks = { rowsOf: () => [], channel: () => "" };  // the samples that brush.js marks
   const chosenNoise = () => {
     const box = document.querySelector('input[name="noise"]:checked');
     return box ? Number(box.value) : tables.noise_level?.[0]?.noise_level_id;
@@ -155,6 +156,7 @@
     const info = about(figure);
     const datasets = {};
     for (const table of info.tables) datasets[table] = rowsOf(figure, table);
+    if (info.brush) datasets.marked = marks.rowsOf(figure);
     const rows = datasets[info.tables[0]];
     const room = (width_px ?? figure.querySelector(".chart").clientWidth) - trim;
     let columns = info.columns_by ? distinct(rows, info.columns_by).length : info.columns ?? 1;
@@ -182,23 +184,24 @@
       "@width": width, "@height": info.panel_height_px,
       "@legend_columns": Math.max(1, Math.floor(room / 190)), "@gradient": Math.min(width, 200), "@label_limit": labels,
       "@objective": rows[0]?.scope === "minimax_regret" ? "largest regret [N]" : "mean tension error [N]",
-      "@family_order": named.family.domain,
+      "@family_order": named.family.domain, "@marked_channel": marks.channel(),
     };
     for (const name of ["ink", "quiet", "accent", "sensor", "soft", "paper", "known", "unknown"]) words["@" + name] = css("--" + name);
     const spec = fill(template, named, words);
     delete spec.usermeta;
     const title = figure.querySelector("h3").firstChild.textContent;
     const caption = figure.querySelector("figcaption").textContent;
-    return { ...spec, datasets, description: title + ". " + caption, config: theme(room), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
+    return { ...spec, datasets, description: title + ". " + caption, config: theme(room, labelWidth(rows)), background: css("--paper"), autosize: { type: "pad", contains: "padding" }, padding: 4 };
   }
 
-  const narrow_px = 520;
-  function theme(room = Infinity) {
+  const narrow_px = 520, narrowest_label_px = 110;
+  const labelWidth = (rows) => Math.max(narrowest_label_px, ...distinct(rows, "series").map((name) => 34 + 6.5 * String(name ?? "").length));
+  function theme(room = Infinity, label_px = narrowest_label_px) {
     const ink = css("--ink"), quiet = css("--quiet"), line = css("--line"), font = css("--font");
     return {
       font, view: { stroke: line },
       axis: { labelColor: quiet, titleColor: ink, gridColor: line, domainColor: line, tickColor: line, labelFontSize: 11, titleFontSize: 12, titleFontWeight: 500, titlePadding: 8 },
-      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18, ...(room < narrow_px && { columns: Math.max(1, Math.floor((room - 80) / 110)) }) },
+      legend: { labelColor: ink, titleColor: ink, labelFontSize: 12, titleFontWeight: 500, labelLimit: 240, offset: 10, columnPadding: 18, ...(room < narrow_px && { columns: Math.max(1, Math.floor((room - 80) / label_px)) }) },
       header: { labelColor: ink, titleColor: ink, labelFontSize: 12, labelFontWeight: 600, labelLimit: Math.min(400, room - 100) },
       title: { color: ink, fontSize: 12, fontWeight: 600 },
       mark: { aria: false },
@@ -324,6 +327,7 @@
     tableNames: () => Object.keys(study.tables),
     rowsOf, about, specOf, onPaper, load, drawAll,
     looks: (rows) => ({ ...scales(rows), theme: theme() }),
+    setMarks(made) { marks = made; },
     setFilter(filter) { passes = filter; return drawAll(); },
   };
 })();

@@ -93,10 +93,11 @@
       element("th", { scope: "row" }, box, " ", link("/studies/" + id, "Study " + id)),
       cell(study.name, ...(notes ? [element("div", { className: "quiet", textContent: notes })] : [])), cell(begun),
       cell(idle ? "stopped" : study.status, ...(job ? [" (job " + job.job + ")"] : [])),
-      cell(...bar(study.units ? study.units_done / study.units : 0, study.units_done + " of " + study.units + " units")),
+      cell(...(study.units ? bar(study.units_done / study.units, study.units_done + " of " + study.units + " units") : [])),
       element("td", { className: "buttons" }, ...actions));
   }
   function showStudies(studies, jobs) {
+    at("study-none").hidden = studies.length > 0;
     at("study-table").tBodies[0].replaceChildren(...studies.toReversed().filter(isWanted).map((study) => studyRow(study, jobs)));
   }
 
@@ -115,6 +116,7 @@
   };
   const has_page = new Set(["place", "sensitivity", "estimate"]);
   function showJobs(jobs) {
+    at("job-none").hidden = jobs.length > 0;
     const { shown, under_way } = ofInterest(jobs);
     at("stop-all").hidden = under_way < 2;
     at("stop-all").textContent = `Stop all ${under_way} jobs`;
@@ -159,6 +161,7 @@
   const percent = (fraction) => fraction == null ? "" : Math.round(100 * fraction) + "%";
   const digits = (value) => value == null ? "" : Number(value).toPrecision(3);
 
+  const verdict_words = (verdict) => ({ none: "no gap", unknown: "unknown cause" })[verdict] ?? verdict.replaceAll("_", " ");
   function diagnosisCard(row) {
     const channel = element("p", { className: "quiet" }, row.channel ? `${row.channel}: RMS of the gap ${digits(row.rms_before_in_unit)} ${row.unit} before, ${digits(row.rms_after_in_unit)} after, ${digits(row.rms_held_out_in_unit)} held out` +
       (row.closed_fraction == null ? "" : `; ${percent(row.closed_fraction)} (${percent(row.closed_low_fraction)} to ${percent(row.closed_high_fraction)}) of it closed`) + "." : "");
@@ -169,8 +172,8 @@
       more.lastChild.append(capstanPage.tableOf(rows));
     });
     const card = element("article", { className: "card verdict-card", id: "diagnosis-" + row.diagnosis_id },
-      element("h3", { textContent: `${row.recording}: ${row.verdict} (${percent(row.confidence_fraction)})` }),
-      element("p", { textContent: row.sentence + (row.component && row.component !== "none" ? ` In ${row.component}${row.cable_end ? ", at the " + row.cable_end + " end" : ""}${row.position_m == null ? "" : ", about " + digits(row.position_m) + " m from the motor"}.` : "") }),
+      element("h3", { textContent: `${row.recording}: ${verdict_words(row.verdict)}` }),
+      element("p", { textContent: row.sentence + (row.component && row.component !== "none" ? ` Where: ${row.component}${row.cable_end ? ", at the " + row.cable_end + " end" : ""}${row.position_m == null ? "" : ", about " + digits(row.position_m) + " m from the motor"}.` : "") }),
       channel, more, element("p", { className: "buttons" }, link("/diagnoses/" + row.diagnosis_id, "The whole diagnosis: numbers, curves, model"), " ",
         element("a", { href: `/api/diagnoses/${row.diagnosis_id}/model`, download: "", textContent: "Corrected model" })));
     card.dataset.verdict = row.verdict;
@@ -193,13 +196,12 @@
     showUploadProblem("");
     const wants_estimate = event.submitter?.value === "estimate", leave_out = at("leave-out").checked;
     try {
-      if (wants_estimate) {
-        const cost = async () => (await ask("/api/estimates/cost", uploaded(leave_out))).json();
-        if (!await capstanPage.accepted("upload", "The estimate", cost)) return;
-      }
-      await ask(wants_estimate ? "/api/estimates" : "/api/diagnoses", uploaded(wants_estimate && leave_out));
+      const path = wants_estimate ? "/api/estimates" : "/api/diagnoses", upload = () => uploaded(wants_estimate && leave_out);
+      const cost = async () => (await ask(path + "/cost", upload())).json();
+      if (!await capstanPage.accepted("upload", wants_estimate ? "The estimate" : "The diagnosis", cost)) return;
+      await ask(path, upload());
       await refresh();
-      if (wants_estimate) at("jobs-title").scrollIntoView();
+      at("jobs-title").scrollIntoView();
     } catch (error) {
       showUploadProblem(error.message);
     }

@@ -5,25 +5,33 @@
   const { at, ask, get, post, element, problemList, seconds } = capstanPage;
   const asks_above_s = 60, check_after_ms = 400;
 
+  // What is found decides how long a diagnosis takes.
+  const duration = ({ min_seconds, seconds: longest }) => min_seconds == null || seconds(min_seconds) === seconds(longest) ? seconds(longest) : `${seconds(min_seconds)} to ${seconds(longest)}`;
+
   // Whether to start, once the cost is known: at once if it is short, else as the user decides.
-  let decide = null;
-  capstanPage.accepted = async (form, what, cost_of) => {
+  let decide = null, clicks = 0;
+  // What the service refuses to start is thrown. With a doubt it is asked for whatever it costs.
+  capstanPage.accepted = async (form, what, cost_of, doubt = "") => {
+    const mine = ++clicks;  // a later click takes the place of this one
     at(form + "-cost").hidden = true;
     at(form + "-cost-words").textContent = "Estimating the cost …";
     decide?.(false);
     let cost = { known: false };
     try { cost = await cost_of(); } catch { /* the start says what is wrong */ }
+    if (mine !== clicks) return false;
     at(form + "-cost-words").textContent = "";
-    if (!cost.known || cost.seconds <= asks_above_s) return true;
-    at(form + "-cost-words").textContent = `${cost.studies === 1 ? what + " takes" : cost.studies + " studies take"} about ${seconds(cost.seconds)} on this machine.`;
+    if (cost.problems) throw new Error(cost.problems);
+    const told = cost.known ? `${cost.studies === 1 ? what + " takes" : cost.studies + " studies take"} ${cost.is_at_least ? "at least" : "about"} ${duration(cost)} on this machine.` : "";
+    at(form + "-cost-words").textContent = [doubt, told].filter(Boolean).join(" ");
+    if (!doubt && (!cost.known || cost.seconds <= asks_above_s)) return true;
     at(form + "-cost").hidden = false;
     at(form + "-anyway").focus();
     const is_wanted = await new Promise((decided) => { decide = decided; });
     at(form + "-cost").hidden = true;
-    at(form + "-cost-words").textContent = "";
+    if (!is_wanted) at(form + "-cost-words").textContent = "";
     return is_wanted;
   };
-  for (const form of ["start", "upload"]) {
+  for (const form of ["start", "upload", "import"]) {
     at(form + "-anyway").addEventListener("click", () => decide?.(true));
     at(form + "-not").addEventListener("click", () => decide?.(false));
   }

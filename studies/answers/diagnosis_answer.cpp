@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/effects/known_causes.h"
 
 namespace capstan::answers {
 
@@ -217,7 +218,8 @@ reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const D
 Table ranking_table(const DiagnosisRecord& diagnosis) {
     Table table{"ranking", "Probability of each cause", {"effect", "probability"}, {}};
     for (const auto& each : diagnosis.effects) {
-        if (table.rows.size() < drawn_causes) table.rows.push_back({each.effect, each.probability_fraction});
+        if (table.rows.size() < drawn_causes)
+            table.rows.push_back({cause_title(each.effect), each.probability_fraction});
     }
     return table;
 }
@@ -228,7 +230,7 @@ Table map_table(const DiagnosisRecord& diagnosis) {
                 {"part", "fraction", "low", "high", "fraction_of_samples"},
                 {}};
     for (const auto& each : diagnosis.gap)
-        table.rows.push_back({each.divided_by + ": " + each.part, each.energy_fraction, each.low_fraction,
+        table.rows.push_back({part_name(each.divided_by, each.part), each.energy_fraction, each.low_fraction,
                               each.high_fraction, each.samples_fraction});
     return table;
 }
@@ -286,6 +288,10 @@ reports::AnswerSection next_section(const gap::NonIdentifiable& open, const Data
 }
 
 }  // namespace
+
+std::string part_name(const std::string& divided_by, const std::string& part) {
+    return divided_by + ": " + part;
+}
 
 Answer stored_diagnosis_answer(const DiagnosisRecord& diagnosis) {
     Answer answer{.id = "diagnosis",

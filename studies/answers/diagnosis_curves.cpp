@@ -28,7 +28,14 @@ struct Curves {
                "Load torque over motor torque",
                {"run", "time_s", "series", "motor_torque_Nm", "load_torque_Nm"},
                {}};
+    Table condition{
+        "condition", "The part of the gap's map that each drawn sample belongs to", {"run", "time_s"}, {}};
+    Table part_channel{"part_channel", "The channel of a part of the gap's map", {"part", "channel"}, {}};
 };
+
+std::string drawn_name(const Channel& channel) {
+    return fmt::format("{} [{}]", channel.name, channel.unit);
+}
 
 void add_channel(Curves& curves, const Recording& recording, const Diagnosis& diagnosis, std::size_t run,
                  std::size_t channel, std::size_t limit) {
@@ -36,8 +43,7 @@ void add_channel(Curves& curves, const Recording& recording, const Diagnosis& di
     const std::vector<double>& measured = recorded.values[channel];
     const std::vector<double>& nominal = diagnosis.gap.nominal[run].values[channel];
     const std::vector<double>& corrected = diagnosis.gap.leading[run].values[channel];
-    const std::string name =
-        fmt::format("{} [{}]", recording.channels[channel].name, recording.channels[channel].unit);
+    const std::string name = drawn_name(recording.channels[channel]);
     const auto number = std::int64_t{recorded.number};
     const std::size_t every = reports::drawn_every(measured.size(), limit);
     for (std::size_t k = 0; k < measured.size(); k += every) {
@@ -72,6 +78,32 @@ void add_loop(Curves& curves, const Recording& recording, const Diagnosis& diagn
     }
 }
 
+void add_conditions(Curves& curves, const Recording& recording, const Diagnosis& diagnosis, std::size_t run,
+                    std::size_t limit) {
+    const RecordedRun& recorded = recording.runs[run];
+    const std::size_t every = reports::drawn_every(recorded.time_s.size(), limit);
+    for (std::size_t k = 0; k < recorded.time_s.size(); k += every) {
+        auto& row = curves.condition.rows.emplace_back();
+        row = {std::int64_t{recorded.number}, recorded.time_s[k]};
+        for (const gap::SampleSorting& sorting : diagnosis.gap.sortings) {
+            const int part = sorting.part_of[run][k];
+            row.emplace_back(part < 0 ? ""
+                                      : part_name(sorting.by, sorting.parts[static_cast<std::size_t>(part)]));
+        }
+    }
+}
+
+void add_channels_of_parts(Curves& curves, const Recording& recording) {
+    for (const Channel& channel : recording.channels) {
+        curves.part_channel.rows.push_back({part_name("channel", channel.name), drawn_name(channel)});
+        for (const TensionSensor& sensor : recording.tension_sensors) {
+            if (sensor.channel == channel.name)
+                curves.part_channel.rows.push_back(
+                    {part_name("place", gap::place_part(sensor)), drawn_name(channel)});
+        }
+    }
+}
+
 Curves curves_of(const Recording& recording, const Diagnosis& diagnosis) {
     Curves curves;
     std::size_t modelled = 0;
@@ -80,7 +112,11 @@ Curves curves_of(const Recording& recording, const Diagnosis& diagnosis) {
             run.values.begin(), run.values.end(), [](const auto& values) { return !values.empty(); }));
     }
     const std::size_t limit = drawn_diagnosis_samples / std::max<std::size_t>(1, modelled);
+    for (const gap::SampleSorting& sorting : diagnosis.gap.sortings)
+        curves.condition.columns.push_back(sorting.by);
+    add_channels_of_parts(curves, recording);
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
+        add_conditions(curves, recording, diagnosis, run, limit);
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
             if (!diagnosis.gap.nominal[run].values[channel].empty())
                 add_channel(curves, recording, diagnosis, run, channel, limit);
@@ -94,8 +130,8 @@ Curves curves_of(const Recording& recording, const Diagnosis& diagnosis) {
 
 std::vector<Table> diagnosis_curves(const Recording& recording, const Diagnosis& diagnosis) {
     Curves curves = curves_of(recording, diagnosis);
-    return {run_table(recording), std::move(curves.channel), std::move(curves.residual),
-            std::move(curves.loop)};
+    return {run_table(recording),   std::move(curves.channel),   std::move(curves.residual),
+            std::move(curves.loop), std::move(curves.condition), std::move(curves.part_channel)};
 }
 
 reports::Table run_table(const Recording& recording) {

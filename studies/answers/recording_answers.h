@@ -15,6 +15,7 @@
 #include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"
 #include "capstan/model_comparison/diagnosed_runs.h"
+#include "capstan/model_comparison/diagnosis_cost.h"
 #include "capstan/recording/recording.h"
 #include "capstan/reports/answer.h"
 #include "capstan/storage/diagnosis_records.h"
@@ -51,10 +52,18 @@ void add_comparison(reports::Answer& answer, const model_comparison::ModelCompar
 /// All of that: the answer of `capstan diagnose`.
 reports::Answer diagnosed_runs_answer(const model_comparison::DiagnosedRuns& diagnosed);
 
+/// The answer of `capstan diagnose --cost`; `recording`: its name.
+reports::Answer diagnosis_cost_answer(const std::string& recording,
+                                      const model_comparison::DiagnosisCost& cost);
+
 /// The cable as a diagnosis corrects it, as a file for `capstan study run CONFIG --truth FILE`.
 std::string corrected_model_text(const Recording& recording, const gap::Diagnosis& diagnosis);
 
-/// Measured channels, the model without and with the cause, residuals and loops.
+/// A part of a gap's map as its figure names it, "regime: rest".
+std::string part_name(const std::string& divided_by, const std::string& part);
+
+/// Measured channels, the model without and with the cause, residuals, loops, and the parts of the gap's map
+/// that the drawn samples belong to.
 std::vector<reports::Table> diagnosis_curves(const Recording& recording, const gap::Diagnosis& diagnosis);
 
 reports::Answer calibration_answer(const Recording& recording, const gap::Calibration& calibration);

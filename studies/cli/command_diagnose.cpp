@@ -10,6 +10,7 @@
 #include "capstan/cli/program.h"
 #include "capstan/export/series.h"
 #include "capstan/model_comparison/diagnosed_runs.h"
+#include "capstan/model_comparison/diagnosis_cost.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/driven_inputs.h"
@@ -81,6 +82,12 @@ ExitCode run_diagnose(const Invocation& invocation) {
     gap::DiagnosisOptions options;
     options.threads = static_cast<int>(invocation.integer("jobs"));
     if (invocation.has("time-limit")) options.time_limit_s = invocation.number("time-limit");
+    if (invocation.has("cost")) {
+        deliver_answer(invocation, answers::diagnosis_cost_answer(
+                                       recorded.name, model_comparison::predict_diagnosis_cost(
+                                                          recorded, asked_runs(invocation), options)));
+        return ExitCode::success;
+    }
     ProgressDisplay display(progress_mode(invocation.text("progress")));
     options.on_progress = [&](const std::string& activity, double fraction) {
         ProgressEvent event;
@@ -160,6 +167,13 @@ const Option time_limit_option{
     .low = 1,
     .high = 86400};
 
+const Option cost_option{
+    .name = "cost",
+    .kind = OptionKind::flag,
+    .meaning =
+        "Only say how long the diagnosis would take on this machine, from a pilot of half a second. Nothing is "
+        "diagnosed or written."};
+
 Command diagnose_command() {
     return {
         .name = "diagnose",
@@ -174,9 +188,11 @@ Command diagnose_command() {
             "them. Benches are pull_pull, single_cable, or a drive or band of unknown geometry.",
         .arguments = {log_argument},
         .options = {runs_option, calibrate_on_option, fit_option, hold_option, baselines_option, keep_option,
-                    save_model_option, corrected_option, prediction_option, time_limit_option, jobs_option,
-                    output_option, format_option, json_option, page_option, progress_option, help_option},
-        .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --json -o verdict.json",
+                    save_model_option, corrected_option, prediction_option, time_limit_option, cost_option,
+                    jobs_option, output_option, format_option, json_option, page_option, progress_option,
+                    help_option},
+        .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --cost",
+                     "capstan diagnose bench.csv --json -o verdict.json",
                      "capstan diagnose bench.csv --html bench.html",
                      "capstan diagnose bench.csv --fit 1,3,5 --hold 2,4,6 --baselines",
                      "capstan diagnose bench.csv --db bench.db",

@@ -23,7 +23,7 @@ constexpr CommandTime times[] = {
     {"study replay", "As long as one repetition of the study, mostly less than 2 s."},
     {"study merge", "Some seconds per gigabyte of shards. Shows progress."},
     {"study plan",
-     "The --seconds of its pilot, and the true motion of every study of the sweep: 20 s for configs/atlas.toml. Shows "
+     "The --seconds of its pilot, and the true motion of every study of the sweep: 10 s for configs/atlas.toml. Shows "
      "progress and the time left."},
     {"study submit",
      "The pilot takes a second, or longer where `study plan` does; the rest less than 2 s for some hundred shards, 20 s "
@@ -41,16 +41,16 @@ constexpr CommandTime times[] = {
      "the time left."},
     {"duty", "As long as the recording, divided by about 1000. Shows progress and the time left."},
     {"estimate",
-     "A minute of recording at 100 Hz takes about 10 s for each cable, with --leave-out each several times that; a study's "
-     "configuration takes 15 s. Shows progress and the time left."},
+     "A minute of recording at 100 Hz takes about 1 s for each cable, that times the number of sensors with --leave-out each; "
+     "a study's configuration takes 15 s. Shows progress and the time left."},
     {"calibrate",
      "Seconds to a minute, in proportion to the length of the recording and to the square of its runs. Shows progress and "
      "the time left."},
     {"diagnose",
-     "Half a minute to some minutes, by the length of the recording and its number of runs. Shows progress and the time "
-     "left."},
+     "Seconds to some minutes, by the length of the recording and by what it finds; --cost says how long on this machine. "
+     "Shows progress and the time left."},
     {"gap-trial",
-     "Half a minute to minutes for each case; --generate-only takes seconds. Shows progress and the time left."},
+     "Seconds to minutes for each case; --generate-only takes seconds. Shows progress and the time left."},
     {"report",
      "Less than 2 s; as PDF and with --figures about half a second for each figure, which the browser takes. Shows "
      "progress and the time left."},

@@ -103,6 +103,11 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
     remove_undescribed_parts(built_.causes);
 }
 
+void CauseSearch::simulate_once() const {
+    const Hypothesis nominal = nominal_hypothesis(described_.bench);
+    (void)coarse_.fitter.data_residuals({&nominal, 1});
+}
+
 FoundCauses CauseSearch::run() & {
     report("nominal model");
     const Hypothesis nominal = nominal_hypothesis(described_.bench);

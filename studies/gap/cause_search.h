@@ -45,6 +45,9 @@ class CauseSearch {
     /// The fits point to the causes that this search keeps.
     FoundCauses run() &;
 
+    /// Simulates the recording as the search does most often: a pilot times it.
+    void simulate_once() const;
+
     const CauseFitter& fitter() const { return fine_.fitter; }
     const CauseFitter& coarse_fitter() const { return coarse_.fitter; }
     const Evidence& evidence() const { return evidence_; }

@@ -36,8 +36,7 @@ class Tally {
         for (const RecordedRun& run : recording.runs) parts_.push_back({"run", std::to_string(run.number)});
         for (const Channel& channel : recording.channels) parts_.push_back({"channel", channel.name});
         for (const TensionSensor& sensor : recording.tension_sensors)
-            parts_.push_back({"place", fmt::format("{:.2f} m on cable {}", sensor.position_m,
-                                                   sensor.cable == CableName::a ? "A" : "B")});
+            parts_.push_back({"place", place_part(sensor)});
         for (const SampleSorting& sorting : sortings_) {
             for (const std::string& part : sorting.parts) parts_.push_back({sorting.by, part});
         }
@@ -104,6 +103,10 @@ std::vector<double> fractions_of(const std::vector<Part>& parts, const std::vect
 }
 
 }  // namespace
+
+std::string place_part(const TensionSensor& sensor) {
+    return fmt::format("{:.2f} m on cable {}", sensor.position_m, sensor.cable == CableName::a ? "A" : "B");
+}
 
 std::vector<GapFraction> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs) {
     const Tally tally(recording, runs);

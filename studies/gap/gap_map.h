@@ -27,7 +27,8 @@ struct RunResiduals {
     int first_sample = 0;                  ///< before it lies the first loading from rest
 };
 
-/// One way to sort a recording's samples into named parts. A sample that belongs to no part has the index -1.
+/// One way to sort a recording's samples into named parts. A sample that belongs to no part, or lies before
+/// the first that is compared, has the index -1.
 struct SampleSorting {
     std::string by;
     std::vector<std::string> parts;
@@ -36,6 +37,9 @@ struct SampleSorting {
 
 /// By regime, direction, speed, tension, time since reversal, and time in the session.
 std::vector<SampleSorting> sample_sortings(const Recording& recording, const std::vector<RunResiduals>& runs);
+
+/// Name of the part of the kind `place` that a sensor's readings make.
+std::string place_part(const TensionSensor& sensor);
 
 /// Empty if nothing is left beyond noise and floor.
 std::vector<GapFraction> gap_map(const Recording& recording, const std::vector<RunResiduals>& runs);

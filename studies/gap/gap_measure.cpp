@@ -148,6 +148,7 @@ GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, co
             measure.channels.push_back(summarised(recording.channels[channel], blocks[channel]));
     }
     measure.map = gap_map(recording, nominal_residuals);
+    measure.sortings = sample_sortings(recording, nominal_residuals);
     return measure;
 }
 

@@ -39,8 +39,9 @@ struct GapModels {
 
 struct GapMeasure {
     std::vector<ChannelGap> channels;
-    std::vector<GapFraction> map;  ///< of the nominal model
-    int worst_run = 0;             ///< where the gap is largest against noise
+    std::vector<GapFraction> map;         ///< of the nominal model
+    std::vector<SampleSorting> sortings;  ///< the samples of the map's parts
+    int worst_run = 0;                    ///< where the gap is largest against noise
     std::string worst_channel;
     std::vector<TwinRun> nominal;  ///< runs, at every sample
     std::vector<TwinRun> leading;

@@ -168,6 +168,10 @@ std::vector<SampleSorting> sample_sortings(const Recording& recording,
                   since),
         thirds("session", "s", recording, session_s, false)};
     std::erase_if(sortings, [](const SampleSorting& sorting) { return sorting.parts.empty(); });
+    for (SampleSorting& sorting : sortings) {
+        for (const RunResiduals& run : runs)
+            std::fill_n(sorting.part_of[run.run].begin(), run.first_sample, -1);
+    }
     return sortings;
 }
 

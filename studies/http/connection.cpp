@@ -228,7 +228,9 @@ void Connection::send(Response response) {
     for (const auto& [name, value] : response.headers) head_ += fmt::format("{}: {}\r\n", name, value);
     for (const auto& [name, value] : exchange_.options.headers)
         if (!response.has_header(name)) head_ += fmt::format("{}: {}\r\n", name, value);
-    head_ += fmt::format("Content-Length: {}\r\nConnection: close\r\n\r\n", body_.size());
+    constexpr int not_modified = 304;  // whose length would be that of the text which is not sent
+    if (response.status != not_modified) head_ += fmt::format("Content-Length: {}\r\n", body_.size());
+    head_ += "Connection: close\r\n\r\n";
     if (request_.method == "HEAD") body_ = {};
     begun_ = Clock::now();
     send_more();

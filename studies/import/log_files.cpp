@@ -1,7 +1,9 @@
 #include "capstan/import/log_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <string_view>
 
 #include "capstan/import/units.h"
 
@@ -55,11 +57,26 @@ std::vector<std::string> column_names(const logs::Log& log) {
     return names;
 }
 
+namespace {
+
+// In "tau_m" and "theta_m" the letter stands for the motor: a torque, an angle or a current has no metres.
+bool names_the_motor(std::string_view quantity, std::string_view ending) {
+    constexpr std::array quantities{"tau",   "torque", "trq", "tq",    "moment",  "theta", "phi",
+                                    "alpha", "angle",  "ang", "omega", "current", "i",     "q"};
+    std::string word(quantity.substr(quantity.find_last_of("_ ") + 1));
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return ending == "m" && std::find(quantities.begin(), quantities.end(), word) != quantities.end();
+}
+
+}  // namespace
+
 std::string stated_unit(const logs::LogColumn& column) {
     if (!column.unit.empty()) return column.unit;
     const std::size_t bar = column.name.find_last_of("_ ");
     if (bar == std::string::npos) return "";
     const std::string ending = column.name.substr(bar + 1);
+    if (names_the_motor(std::string_view(column.name).substr(0, bar), ending)) return "";
     return find_unit(ending) ? ending : "";
 }
 

@@ -35,11 +35,9 @@ RunSplit asked_split(const DiagnosisRequest& request, const Recording& recording
     return split;
 }
 
-DiagnosedSplit diagnosed(const Recording& recording, const DiagnosisRequest& request,
-                         const gap::DiagnosisOptions& options) {
-    if (request.has_split()) return diagnose_split(recording, asked_split(request, recording), options);
-    const RunSplit all{request.runs.empty() ? all_but({}, recording) : request.runs, {}};
-    return diagnose_split(recording, all, options, request.calibrate_on);
+RunSplit split_of(const Recording& recording, const DiagnosisRequest& request) {
+    if (request.has_split()) return asked_split(request, recording);
+    return {request.runs.empty() ? all_but({}, recording) : request.runs, {}};
 }
 
 std::vector<LeftOver> left_over_of(const DiagnosedSplit& split) {
@@ -48,6 +46,10 @@ std::vector<LeftOver> left_over_of(const DiagnosedSplit& split) {
 }
 
 }  // namespace
+
+Recording runs_to_diagnose(const Recording& recording, const DiagnosisRequest& request) {
+    return prepared_split(recording, split_of(recording, request), request.calibrate_on).diagnosed;
+}
 
 DiagnosedRuns diagnose_runs(const Recording& recording, const DiagnosisRequest& request,
                             const gap::DiagnosisOptions& options) {
@@ -59,7 +61,8 @@ DiagnosedRuns diagnose_runs(const Recording& recording, const DiagnosisRequest& 
     counted.on_progress = [&](const std::string& activity, double fraction) {
         options.on_progress(activity, (done + fraction) / diagnoses);
     };
-    DiagnosedRuns runs{diagnosed(recording, request, counted), {}, {}};
+    DiagnosedRuns runs{
+        diagnose_split(recording, split_of(recording, request), counted, request.calibrate_on), {}, {}};
     const Compared compared =
         request.with_simple_models ? Compared::with_simple_models : Compared::bench_alone;
     if (request.has_split()) add_split(runs.comparison, runs.split, compared, options);

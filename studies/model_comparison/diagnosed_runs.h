@@ -25,6 +25,10 @@ struct DiagnosedRuns {
     ModelComparison comparison;       ///< empty where nothing is held out and nothing compared
 };
 
+/// The runs that diagnose_runs fits, as the equivalent bench where the geometry is unknown. Throws as it
+/// does.
+Recording runs_to_diagnose(const Recording& recording, const DiagnosisRequest& request);
+
 /// Diagnoses the runs that are asked for, of all runs if none are. Without a split, a comparison with simple
 /// models diagnoses two halves of the runs as well; progress counts all of it. Throws InvalidInput where a
 /// run does not exist, is both fitted and held out, or where none is left to fit.

@@ -69,8 +69,8 @@ Recording runs_of(const Recording& recording, const std::vector<int>& numbers) {
     return some;
 }
 
-DiagnosedSplit diagnose_split(const Recording& recording, const RunSplit& split,
-                              const gap::DiagnosisOptions& options, const std::vector<int>& calibrate_on) {
+DiagnosedSplit prepared_split(const Recording& recording, const RunSplit& split,
+                              const std::vector<int>& calibrate_on) {
     std::vector<int> all = split.fit;
     all.insert(all.end(), split.hold.begin(), split.hold.end());
     DiagnosedSplit diagnosed{split, runs_of(recording, all), {}, {}, {}, {}};
@@ -81,6 +81,12 @@ DiagnosedSplit diagnose_split(const Recording& recording, const RunSplit& split,
         diagnosed.bench = gap::as_bench(diagnosed.recorded, *diagnosed.equivalence);
     }
     diagnosed.diagnosed = runs_of(diagnosed.bench, split.fit);
+    return diagnosed;
+}
+
+DiagnosedSplit diagnose_split(const Recording& recording, const RunSplit& split,
+                              const gap::DiagnosisOptions& options, const std::vector<int>& calibrate_on) {
+    DiagnosedSplit diagnosed = prepared_split(recording, split, calibrate_on);
     diagnosed.diagnosis = gap::diagnose(diagnosed.diagnosed, options);
     return diagnosed;
 }

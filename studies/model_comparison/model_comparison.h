@@ -32,6 +32,10 @@ struct DiagnosedSplit {
     std::optional<gap::BenchEquivalence> equivalence{};  ///< none where the geometry is known
 };
 
+/// All of a split but its diagnosis. `calibrate_on` as in diagnose_split.
+DiagnosedSplit prepared_split(const Recording& recording, const RunSplit& split,
+                              const std::vector<int>& calibrate_on = {});
+
 /// `calibrate_on`: runs to which a bench of unknown geometry is calibrated; empty: the fitted ones.
 DiagnosedSplit diagnose_split(const Recording& recording, const RunSplit& split,
                               const gap::DiagnosisOptions& options,

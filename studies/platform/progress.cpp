@@ -14,13 +14,6 @@ namespace {
 constexpr std::chrono::milliseconds bar_interval{100};
 constexpr std::chrono::seconds line_interval{5};
 
-std::string duration_words(double seconds) {
-    const long rounded = std::lround(std::ceil(seconds));
-    if (rounded < 90) return std::to_string(rounded) + " s";
-    if (rounded < 5400) return std::to_string((rounded + 30) / 60) + " min";
-    return std::to_string(rounded / 3600) + " h " + std::to_string(rounded % 3600 / 60) + " min";
-}
-
 std::string bar(double fraction) {
     constexpr int width = 30;
     const int full = static_cast<int>(width * std::clamp(fraction, 0.0, 1.0));
@@ -66,6 +59,13 @@ std::optional<ProgressEvent> read_progress_json(const std::string& line) {
     } catch (const nlohmann::json::exception&) {
         return std::nullopt;
     }
+}
+
+std::string duration_words(double seconds) {
+    const long rounded = std::lround(std::ceil(seconds));
+    if (rounded < 90) return std::to_string(rounded) + " s";
+    if (rounded < 5400) return std::to_string((rounded + 30) / 60) + " min";
+    return std::to_string(rounded / 3600) + " h " + std::to_string(rounded % 3600 / 60) + " min";
 }
 
 std::string progress_words(const ProgressEvent& event) {

@@ -27,6 +27,9 @@ std::string progress_json(const ProgressEvent& event);
 /// The event in a line of such JSON; nothing if the line is anything else.
 std::optional<ProgressEvent> read_progress_json(const std::string& line);
 
+/// "12 s", "3 min", "2 h 5 min", rounded up to seconds.
+std::string duration_words(double seconds);
+
 /// "4 of 40 units, about 3 s left", or "10%, about 3 s left".
 std::string progress_words(const ProgressEvent& event);
 

@@ -35,8 +35,9 @@ bool numbers_of(std::string_view line, const CsvNumbers& table, const std::strin
     const std::vector<std::string_view> fields = fields_of(line);
     if (fields.size() != table.columns.size()) {
         problems.add_line("columns", place,
-                          fmt::format("{} values for {} columns; is the line cut short?", fields.size(),
-                                      table.columns.size()));
+                          fmt::format("{} value{} for {} column{}; is the line cut short?", fields.size(),
+                                      fields.size() == 1 ? "" : "s", table.columns.size(),
+                                      table.columns.size() == 1 ? "" : "s"));
         return false;
     }
     numbers.clear();

@@ -29,6 +29,26 @@ int threads_of(const JobCommands& commands) {
         1, static_cast<int>(commands.threads > 0 ? commands.threads : std::thread::hardware_concurrency()));
 }
 
+struct TimeLeft {
+    std::optional<double> seconds;
+    bool of_one_part = false;  // the work has several parts, whose progress begins anew: others follow
+};
+
+// By the progress that a command told. The end of a part says nothing of the next one.
+TimeLeft time_left(const std::string& messages) {
+    TimeLeft left;
+    double fraction = 0.0;
+    std::istringstream lines(messages);
+    for (std::string line; std::getline(lines, line);) {
+        const auto event = read_progress_json(line);
+        if (!event) continue;
+        left.of_one_part |= event->fraction < fraction;
+        fraction = event->fraction;
+        if (event->seconds_left && event->fraction < 1.0) left.seconds = event->seconds_left;
+    }
+    return left;
+}
+
 }  // namespace
 
 ordered_json cost_of_command(const JobCommands& commands, const std::vector<std::string>& words) {
@@ -44,14 +64,10 @@ ordered_json cost_of_command(const JobCommands& commands, const std::vector<std:
     if (!ended.is_late)
         return ended.exit_code == 0 ? ordered_json{{"known", true}, {"seconds", took_s}, {"studies", 1}}
                                     : unknown();
-    std::optional<double> left_s;
-    std::istringstream lines(ended.messages);
-    for (std::string line; std::getline(lines, line);) {
-        const auto event = read_progress_json(line);
-        if (event && event->seconds_left) left_s = event->seconds_left;
-    }
-    if (!left_s) return unknown();
-    return {{"known", true}, {"seconds", took_s + *left_s}, {"studies", 1}};
+    const TimeLeft left = time_left(ended.messages);
+    ordered_json cost = {{"known", true}, {"seconds", took_s + left.seconds.value_or(0.0)}, {"studies", 1}};
+    if (left.of_one_part || !left.seconds) cost["is_at_least"] = true;
+    return cost;
 }
 
 ordered_json cost_of_studies(const JobCommands& commands, const std::string& toml, bool is_over_worlds) {
@@ -71,6 +87,32 @@ ordered_json cost_of_studies(const JobCommands& commands, const std::string& tom
             {"studies", plan.value("studies", 1)},
             {"processor_s", processor_s},
             {"seconds", processor_s / threads_of(commands)}};
+}
+
+ordered_json cost_of_diagnosis(const JobCommands& commands, const std::string& log) {
+    const CommandOutput ended =
+        run_command({commands.program, "diagnose", log, "--cost", "--json", "--progress", "none", "--jobs",
+                     std::to_string(commands.threads)},
+                    {.nice_increment = pilot_nice_increment, .processor_s = 60},
+                    {plan_limit, max_output, commands.ending});
+    constexpr int wrong_input = 2;
+    if (ended.exit_code == wrong_input) return {{"known", false}, {"problems", ended.messages}};
+    if (ended.exit_code != 0) return unknown();
+    const auto cost = nlohmann::json::parse(ended.output, nullptr, false);
+    if (!cost.is_object()) return unknown();
+    return {{"known", true},
+            {"studies", 1},
+            {"min_seconds", cost.value("min_seconds", 0.0)},
+            {"seconds", cost.value("max_seconds", 0.0)}};
+}
+
+ordered_json cost_of_diagnosis(const JobCommands& commands, const UploadedRecording& recording) {
+    const PrivateFolder folder("capstan-cost");
+    std::filesystem::path file = folder.path() / safe_file_name(recording.title);
+    file.replace_extension(".csv");
+    write_file(file, recording.log);
+    write_file(std::filesystem::path(file).replace_extension(".json"), recording.sidecar);
+    return cost_of_diagnosis(commands, file.string());
 }
 
 }  // namespace capstan::service

@@ -5,6 +5,7 @@
 
 #include "capstan/service/exchange.h"
 #include "capstan/service/job_queue.h"
+#include "capstan/service/routes.h"
 
 namespace capstan::service {
 
@@ -13,7 +14,16 @@ namespace capstan::service {
 ordered_json cost_of_studies(const JobCommands& commands, const std::string& toml, bool is_over_worlds);
 
 /// The same of one command, such as {"place", "study.toml"}: it is begun, and its own progress tells after a
-/// few seconds how much is left. Nothing that it writes is kept. {"known": false} if it does not say.
+/// few seconds how much is left. Nothing that it writes is kept. {"known": false} where it fails;
+/// "is_at_least": true where its progress is that of one part of the work, or says nothing.
 ordered_json cost_of_command(const JobCommands& commands, const std::vector<std::string>& words);
+
+/// The same of the diagnosis of a recording, by `capstan diagnose --cost`. What it finds decides how long it
+/// takes: "seconds" is the longest, "min_seconds" the shortest. A recording that cannot be diagnosed has
+/// "problems", the command's messages, one a line.
+ordered_json cost_of_diagnosis(const JobCommands& commands, const std::string& log);
+
+/// The same of an uploaded recording.
+ordered_json cost_of_diagnosis(const JobCommands& commands, const UploadedRecording& recording);
 
 }  // namespace capstan::service

@@ -1,6 +1,7 @@
 // Queuing the diagnosis of a recording, and reading stored diagnoses.
 #include "capstan/answers/recording_answers.h"
 #include "capstan/answers/study_answers.h"
+#include "capstan/service/cost_estimate.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/job_results.h"
 #include "capstan/service/routes.h"
@@ -55,6 +56,9 @@ std::vector<Route> diagnosis_routes(RouteContext& context) {
     const auto start_diagnosis = [&](const http::Request& request, http::Response& response) {
         send_json(response, job_json(start(context, request)), 202);
     };
+    const auto tell_cost = [&](const http::Request& request, http::Response& response) {
+        send_json(response, cost_of_diagnosis(context.options.commands, recording_of(request)));
+    };
     const auto show = [&](const http::Request& request, http::Response& response) {
         send_text(response, answer_of(context, number_in_path(request)), "application/json");
     };
@@ -79,6 +83,18 @@ std::vector<Route> diagnosis_routes(RouteContext& context) {
          {400, 413, 503, 507},
          {{"log", "binary", "NAME.csv"}, {"sidecar", "binary", "NAME.json"}},
          "multipart/form-data"},
+        {"post",
+         "/api/diagnoses/cost",
+         "diagnosisCost",
+         "How long startDiagnosis would take on this machine, by a pilot",
+         "The cost: what is found decides between min_seconds and seconds",
+         json_of("object"),
+         tell_cost,
+         200,
+         {400, 413, 503},
+         {{"log", "binary", "NAME.csv"}, {"sidecar", "binary", "NAME.json"}},
+         "multipart/form-data",
+         Lane::imports},
         {"get",
          "/api/diagnoses/{diagnosis_id}/model",
          "diagnosedModel",

@@ -11,6 +11,7 @@
 #include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
 #include "capstan/reports/answer.h"
+#include "capstan/service/cost_estimate.h"
 #include "capstan/service/import_folder.h"
 #include "capstan/service/routes.h"
 
@@ -176,6 +177,12 @@ Job diagnose(RouteContext& context, const http::Request& request) {
                                        read_file(samples.replace_extension(".json")));
 }
 
+ordered_json diagnosis_cost(const RouteContext& context, const http::Request& request) {
+    const ImportFolder folder(request, context.options.commands);
+    std::string answer;
+    return cost_of_diagnosis(context.options.commands, folder.import_recording(answer).string());
+}
+
 }  // namespace
 
 std::vector<Route> import_routes(RouteContext& context) {
@@ -190,6 +197,9 @@ std::vector<Route> import_routes(RouteContext& context) {
     };
     const auto start = [&](const http::Request& request, http::Response& response) {
         send_json(response, job_json(diagnose(context, request)), 202);
+    };
+    const auto tell_cost = [&](const http::Request& request, http::Response& response) {
+        send_json(response, diagnosis_cost(context, request));
     };
     const ApiField logs{"log", "[binary]", "The files, at most 32: text, MATLAB, HDF5, ROS bag, MCAP, XLSX"};
     const ApiField mapping{"mapping", "string", "The text of import.toml"};
@@ -239,6 +249,17 @@ std::vector<Route> import_routes(RouteContext& context) {
          start,
          202,
          {400, 408, 413, 503, 507},
+         {logs, mapping},
+         "multipart/form-data"},
+        {"post",
+         "/api/import/diagnosis/cost",
+         "importedDiagnosisCost",
+         "How long the diagnosis of the imported recording would take on this machine, by a pilot",
+         "The cost, as of diagnosisCost",
+         json_of("object"),
+         tell_cost,
+         200,
+         {400, 408, 413, 503},
          {logs, mapping},
          "multipart/form-data"},
     };

@@ -30,6 +30,7 @@ constexpr WebFile web_files[] = {
     {"vega-embed.min.js", "text/javascript"},
     {"page.js", "text/javascript"},
     {"player.js", "text/javascript"},
+    {"brush.js", "text/javascript"},
     {"figure_data.js", "text/javascript"},
     {"live.js", "text/javascript"},
     {"pins.js", "text/javascript"},
@@ -45,15 +46,18 @@ constexpr WebFile web_files[] = {
 
 constexpr const char* html = "text/html; charset=utf-8";
 
-// 'sha256-...' of CSP 2.
-std::string hash_source(std::string_view script) {
+std::string sha256_base64(std::string_view script) {
     unsigned char digest[EVP_MAX_MD_SIZE];
     unsigned int size = 0;
     ::EVP_Digest(script.data(), script.size(), digest, &size, EVP_sha256(), nullptr);
     unsigned char base64[2 * EVP_MAX_MD_SIZE];
     const int length = ::EVP_EncodeBlock(base64, digest, static_cast<int>(size));
-    return " 'sha256-" +
-           std::string(reinterpret_cast<const char*>(base64), static_cast<std::size_t>(length)) + "'";
+    return {reinterpret_cast<const char*>(base64), static_cast<std::size_t>(length)};
+}
+
+// Of CSP 2.
+std::string hash_source(std::string_view script) {
+    return " 'sha256-" + sha256_base64(script) + "'";
 }
 
 std::string policy_with(const std::string& scripts) {
@@ -121,8 +125,15 @@ void add_page_routes(http::Server& server, RouteContext& context) {
     for (const WebFile& file : web_files) {
         const auto text = http::KeptText::of_program(reports::embedded_file(file.name));
         server.add("GET", std::string("/web/") + file.name,
-                   [&file, text](const http::Request&, http::Response& response) {
-                       response.add_header("Cache-Control", "max-age=3600");
+                   [&file, text, tag = "W/\"" + sha256_base64(text->plain()) + "\""](
+                       const http::Request& request, http::Response& response) {
+                       // Another program at the same address has other pages, which need its scripts.
+                       response.add_header("Cache-Control", "no-cache");
+                       response.add_header("ETag", tag);
+                       if (request.header("if-none-match").find(tag) != std::string_view::npos) {
+                           response.status = 304;
+                           return;
+                       }
                        send_kept(response, text, file.content_type);
                    });
     }

@@ -13,9 +13,9 @@ namespace capstan::service {
 namespace {
 
 // Only these take files.
-constexpr std::array<std::string_view, 6> upload_paths{"/api/diagnoses",      "/api/estimates",
-                                                       "/api/estimates/cost", "/api/import/suggestion",
-                                                       "/api/import/trial",   "/api/import/diagnosis"};
+constexpr std::array<std::string_view, 8> upload_paths{
+    "/api/diagnoses",         "/api/diagnoses/cost", "/api/estimates",        "/api/estimates/cost",
+    "/api/import/suggestion", "/api/import/trial",   "/api/import/diagnosis", "/api/import/diagnosis/cost"};
 
 bool writes(const RequestHead& request) {
     return request.method != "GET" && request.method != "HEAD";

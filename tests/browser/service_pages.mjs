@@ -5,6 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { accessible, check, finish, launch } from "./checks.mjs";
 import { askQuestions, estimateTension, seeProblems } from "./service_answers.mjs";
+import { markSamples } from "./brushing.mjs";
 import { placeByHand } from "./service_by_hand.mjs";
 
 const [folder, address, log, sidecar, laboratory, tensions] = process.argv.slice(2);
@@ -93,10 +94,54 @@ async function refusedQuery(page) {
   complaints.splice(silent);  // the browser tells of the 400
 }
 
+// What a recording costs is of this machine, so that a long one is told to the page instead.
+async function askedBeforeALongDiagnosis(page, button, form, path) {
+  const started = [], count = (request) => { if (request.method() === "POST" && /\/api\/(diagnoses|import\/diagnosis)$/.test(request.url())) started.push(request.url()); };
+  page.on("request", count);
+  await page.route(path, (route) => route.fulfill({ json: { known: true, studies: 1, min_seconds: 20, seconds: 240 } }));
+  await page.click(button);
+  await page.waitForSelector(`#${form}-cost:not([hidden])`);
+  check((await text(page, `#${form}-cost-words`)).endsWith("The diagnosis takes about 20 s to 4 min on this machine."), "the cost of a diagnosis is told: " + await text(page, `#${form}-cost-words`));
+  await page.click(`#${form}-not`);
+  await page.waitForSelector(`#${form}-cost`, { state: "hidden" });
+  check(await text(page, `#${form}-cost-words`) === "", "the mouse cancels it");
+  await page.focus(button);
+  await page.keyboard.press("Enter");
+  await page.waitForSelector(`#${form}-cost:not([hidden])`);
+  check(await page.evaluate(() => document.activeElement.id) === form + "-anyway", "the question has the focus");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector(`#${form}-cost`, { state: "hidden" });
+  check(started.length === 0, "a key cancels it, and nothing was started: " + started);
+  await page.unroute(path);
+  page.off("request", count);
+}
+
+// What cannot be diagnosed is told beside the button, and nothing is queued.
+async function refusedRecording(page) {
+  const silent = complaints.length, jobs = await page.$$eval("#job-table tbody tr", (all) => all.length);
+  await page.setInputFiles("#log", laboratory);
+  await page.setInputFiles("#sidecar", sidecar);
+  await page.click("#upload-form button[value=diagnose]");
+  await page.waitForSelector("#upload-problem li");
+  const problems = await text(page, "#upload-problem");
+  check(/no column 'motor_torque'/.test(problems) && !/capstan-cost/.test(problems), "what is wrong with a recording is told: " + problems);
+  check(await page.$$eval("#job-table tbody tr", (all) => all.length) === jobs, "nothing is queued");
+  complaints.splice(silent);
+}
+
+// On a busy machine a short diagnosis may be asked for, too.
+async function startHoweverLong(page, form) {
+  await page.waitForFunction((id) => /The diagnosis takes about .* on this machine\.$/.test(document.querySelector(id).textContent), `#${form}-cost-words`);
+  if (await page.$(`#${form}-cost:not([hidden])`)) await page.click(`#${form}-anyway`);
+}
+
 async function diagnose(page) {
   await page.setInputFiles("#log", log);
   await page.setInputFiles("#sidecar", sidecar);
+  await askedBeforeALongDiagnosis(page, "#upload-form button[value=diagnose]", "upload", "**/api/diagnoses/cost");
   await page.click("#upload-form button[type=submit]");
+  await startHoweverLong(page, "upload");
   await page.waitForSelector(".verdict-card");
   const verdict = await text(page, ".verdict-card");
   check(/\d+%/.test(verdict) && verdict.length > 60, "the verdict is told: " + verdict.slice(0, 120));
@@ -172,6 +217,7 @@ async function openWholePages(browser) {
   check((await page.$$("main figure[data-figure] svg")).length > 2, "the diagnosis has its curves");
   await accessible(page, "the diagnosis, light");
   await page.screenshot({ path: join(folder, "service_diagnosis.png") });
+  await markSamples(page, "diagnosis", folder);
   for (const [width, dark] of [[390, false], [390, true]]) {
     await page.setViewportSize({ width, height: 844 });
     await page.emulateMedia({ colorScheme: dark ? "dark" : "light" });
@@ -180,6 +226,7 @@ async function openWholePages(browser) {
     check(await overflow(page) <= 0, "the diagnosis fits a telephone");
     const cut = await page.$$eval("main figure .chart", (all) => all.filter((each) => each.scrollWidth > each.clientWidth).map((each) => each.closest("figure").id));
     check(cut.length === 0, "no chart of the diagnosis is cut off on a telephone: " + cut);
+    await markSamples(page, `diagnosis 390${dark ? " dark" : ""}`, folder);
   }
   await page.screenshot({ path: join(folder, "service_diagnosis_390_dark.png") });
   await accessible(page, "the diagnosis, narrow, dark");
@@ -252,6 +299,12 @@ async function importALog(page) {
 
   // The text is the truth: what is changed there shows in the channels, and a mistake is told with its line.
   const before = await toml();
+  await page.route("**/api/import/diagnosis/cost", (route) => route.fulfill({ json: { known: true, studies: 1, seconds: 5 } }));
+  await page.click("#import-diagnose");
+  await page.waitForSelector("#import-cost:not([hidden])");
+  check(/^The numbers of the bench are still placeholders/.test(await text(page, "#import-cost-words")), "a diagnosis of placeholders is asked for, however short");
+  await page.click("#import-not");
+  await page.unroute("**/api/import/diagnosis/cost");
   await page.fill("#import-text", before.replace(", sign = -1", "").replace(/T0 = .*/g, "T0 = 20.0").replace(/^nominal = .*$/m, `nominal = ${nominalToml()}`));
   await page.waitForFunction(() => document.querySelector('[data-role="load_torque"] .role-sign').value === "1");
   const good = await toml();
@@ -269,7 +322,9 @@ async function importALog(page) {
   check(saved.suggestedFilename() === "import.toml" && readFileSync(await saved.path(), "utf8") === good, "the mapping is saved as it stands");
 
   const cards = (await page.$$(".verdict-card")).length;
+  await askedBeforeALongDiagnosis(page, "#import-diagnose", "import", "**/api/import/diagnosis/cost");
   await page.click("#import-diagnose");
+  await startHoweverLong(page, "import");
   await page.waitForFunction(() => /Job \d+ is queued/.test(document.querySelector("#import-run-status").textContent));
   await page.locator("#import").screenshot({ path: join(folder, "service_import_tried.png") });
   await page.emulateMedia({ colorScheme: "dark" });
@@ -318,6 +373,7 @@ try {
   await query(front);
   await refusedQuery(front);
   await query(front);
+  await refusedRecording(front);
   await diagnose(front);
   await importALog(front);
   check(await overflow(front) <= 0, "the front page has no horizontal scroll");

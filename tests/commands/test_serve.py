@@ -105,6 +105,15 @@ class Serve(ServiceTest):
         self.post("/api/studies/1/layout", {"nodes": [1], "method": "mean", "regime": "mass", "noise": 1}, expect=400)
         self.assert_same_bits(before, self.tables("served.db"))
 
+    def test_a_kept_script_is_asked_about_and_sent_once(self):
+        self.serve()
+        status, headers, script = self.ask("GET", "/web/service.js")
+        self.assertEqual((status, headers["Cache-Control"]), (200, "no-cache"))
+        status, again, body = self.ask("GET", "/web/service.js", headers={"If-None-Match": headers["ETag"]})
+        self.assertEqual((status, again["ETag"], body), (304, headers["ETag"], b""))
+        status, _, other = self.ask("GET", "/web/service.js", headers={"If-None-Match": 'W/"of another program"'})
+        self.assertEqual((status, other), (200, script))
+
     def test_stopped_and_resumed(self):
         toml = with_repetitions(LONG, 300)
         expected = self.at_the_shell(toml)

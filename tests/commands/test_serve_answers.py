@@ -79,6 +79,21 @@ class ServeAnswers(ServiceTest):
         place = self.post("/api/answers/cost", {"command": "place", "config": "quick.toml"})
         self.assertTrue(place["known"] and 0 < place["seconds"] < 600, place)
 
+    def test_cost_of_a_diagnosis_is_that_of_the_command(self):
+        self.serve("--configs", CONFIGS)
+        files = {part: (name, (CONFIGS / "recordings" / name).read_bytes()) for part, name in (("log", "viscous-pair.csv"), ("sidecar", "viscous-pair.json"))}
+        cost = self.upload(files, path="/api/diagnoses/cost", expect=200)
+        self.assertTrue(cost["known"] and 0 < cost["min_seconds"] < cost["seconds"], cost)
+        self.upload({"log": files["log"]}, path="/api/diagnoses/cost", expect=400)
+        unreadable = self.upload(files | {"sidecar": ("viscous-pair.json", b"{}")}, path="/api/diagnoses/cost", expect=200)
+        self.assertFalse(unreadable["known"])
+        self.assertRegex(unreadable["problems"], "viscous-pair.json: .*")
+        self.assertEqual((self.get("/api/jobs"), self.get("/api/diagnoses")), ([], []))
+        told = json.loads(self.run_capstan("diagnose", CONFIGS / "recordings" / "viscous-pair.csv", "--cost", "--json").stdout)
+        self.assertEqual((told["runs"], told["samples"]), (2, 1602))
+        words = self.run_capstan("diagnose", CONFIGS / "recordings" / "viscous-pair.csv", "--cost").stdout
+        self.assertRegex(words, "a diagnosis takes about .* to .* on this machine")
+
     def test_killed_and_started_again(self):
         toml = QUICK.replace("repetitions = ", "repetitions = 1")
         process = self.serve()

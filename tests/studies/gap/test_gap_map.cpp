@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "capstan/gap/candidate_cause.h"
@@ -52,6 +53,19 @@ TEST(GapMap, FractionsOfAKindSumToOne) {
         if (fraction.by == "direction") direction += fraction.fraction;
     }
     EXPECT_NEAR(direction, 1.0, 1e-12);
+}
+
+TEST(GapMap, SortsNoSampleBeforeTheFirstThatIsCompared) {
+    const Recording recording = measured_session(nominal_values(*make_twin(driven_session())));
+    std::vector<RunResiduals> runs = larger_in(recording, 0);
+    runs[1].first_sample = 30;
+    for (const SampleSorting& sorting : sample_sortings(recording, runs)) {
+        const std::vector<int>& part_of = sorting.part_of[1];
+        EXPECT_TRUE(std::all_of(part_of.begin(), part_of.begin() + 30, [](int part) { return part == -1; }))
+            << sorting.by;
+        EXPECT_TRUE(std::any_of(part_of.begin() + 30, part_of.end(), [](int part) { return part >= 0; }))
+            << sorting.by;
+    }
 }
 
 TEST(GapMap, IsEmptyWithoutAGap) {

@@ -30,6 +30,22 @@ TEST_F(Suggesting, TakesNoUnitInANameForAWord) {
     EXPECT_EQ(suggestion.mapping.time.unit, "ms");
 }
 
+TEST_F(Suggesting, TakesTheLetterOfTheMotorForNoUnit) {
+    std::string text = "t_ms,tau_m,phi_m_deg,tau_l,phi_l_deg\n";
+    for (int k = 0; k < 400; ++k) {
+        const double angle = 30.0 * std::sin(0.03 * k), friction = std::cos(0.03 * k) > 0.0 ? 0.02 : -0.02;
+        text += fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f}\n", 10 * k, 0.05 + friction, angle,
+                            0.08 + 0.0001 * k, 0.5 * angle);
+    }
+    const Suggestion suggestion = suggest_mapping({write("a.csv", text)}, {});
+    std::vector<std::string> channels;
+    for (const ChannelMapping& channel : suggestion.mapping.channels)
+        channels.push_back(channel.name + " = " + channel.from.column + " in " + channel.unit);
+    EXPECT_THAT(channels, testing::UnorderedElementsAre(
+                              "motor_angle = phi_m_deg in deg", "load_angle = phi_l_deg in deg",
+                              "motor_torque = tau_m in N m", "load_torque = tau_l in N m"));
+}
+
 TEST_F(Suggesting, TakesAColumnThatNumbersTheRuns) {
     std::string text = "run,t,motor_angle,load_angle,motor_torque,load_torque\n";
     for (int k = 0; k < 400; ++k) {
