@@ -107,6 +107,9 @@ std::optional<Hypothesis> CauseSearch::with_measured_numbers(const ScoredFit& fo
         const double coordinate = fit.coordinates[static_cast<Eigen::Index>(visible)];
         const CandidateCause* same = described_.same_cause(number.effect, number.variant);
         if (same == nullptr) return {};
+        // A cause may have widened what the same number already explains.
+        if (std::find(measured.causes.begin(), measured.causes.end(), same) != measured.causes.end())
+            continue;
         Eigen::VectorXd sizes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(same->numbers.size()));
         if (visible < nominal_coordinates) {
             measured.coordinates[static_cast<Eigen::Index>(visible)] = coordinate;
