@@ -2,6 +2,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -13,22 +14,32 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "the bytes of numbers are hashed as they are in memory");
 
+// Behind the number.
 template <class Number>
-void append_bytes(std::string& text, Number number) {
-    char bytes[sizeof number];
-    std::memcpy(bytes, &number, sizeof number);
-    text.append(bytes, sizeof number);
+char* write_bytes(char* to, Number number) {
+    std::memcpy(to, &number, sizeof number);
+    return to + sizeof number;
+}
+
+char* write_bytes(char* to, std::string_view text) {
+    return std::copy(text.begin(), text.end(), to);
 }
 
 void require_crypto(int is_done) {
     if (is_done != 1) throw Error("libcrypto does not provide SHA-256. Is it installed completely?");
 }
 
-void append_name(std::string& text, std::string_view column, int type) {
-    append_bytes(text, static_cast<std::uint32_t>(column.size()));
-    text += column;
-    text += static_cast<char>(type);
+std::size_t bytes_of_name(std::string_view column) {
+    return sizeof(std::uint32_t) + column.size() + 1;
 }
+
+char* write_name(char* to, std::string_view column, int type) {
+    to = write_bytes(write_bytes(to, static_cast<std::uint32_t>(column.size())), column);
+    *to = static_cast<char>(type);
+    return to + 1;
+}
+
+constexpr std::size_t usual_buffer = 32'768;  // [bytes] for one call of the library
 
 }  // namespace
 
@@ -46,7 +57,7 @@ void RowDigest::Closer::operator()(evp_md_ctx_st* context) const {
     EVP_MD_CTX_free(context);
 }
 
-RowDigest::RowDigest() : context_(EVP_MD_CTX_new()) {
+RowDigest::RowDigest() : context_(EVP_MD_CTX_new()), buffer_(usual_buffer) {
     begin();
 }
 
@@ -56,26 +67,25 @@ void RowDigest::begin() {
 }
 
 void RowDigest::add(std::string_view column, std::int64_t value) {
-    append_name(pending_, column, SQLITE_INTEGER);
-    append_bytes(pending_, value);
+    write_bytes(write_name(room(bytes_of_name(column) + sizeof value), column, SQLITE_INTEGER), value);
 }
 
 void RowDigest::add(std::string_view column, double value) {
-    append_name(pending_, column, SQLITE_FLOAT);
-    append_bytes(pending_, value + 0.0);  // SQLite keeps no negative zero
+    write_bytes(write_name(room(bytes_of_name(column) + sizeof value), column, SQLITE_FLOAT),
+                value + 0.0);  // SQLite keeps no negative zero
 }
 
 void RowDigest::add(std::string_view column, std::string_view value) {
-    append_name(pending_, column, SQLITE_TEXT);
-    append_bytes(pending_, static_cast<std::int64_t>(value.size()));
-    pending_ += value;
+    const auto size = static_cast<std::int64_t>(value.size());
+    char* const to =
+        write_name(room(bytes_of_name(column) + sizeof size + value.size()), column, SQLITE_TEXT);
+    write_bytes(write_bytes(to, size), value);
 }
 
 void RowDigest::end_row() {
-    constexpr std::size_t enough = 16'384;     // [bytes] for one call of the library
-    append_bytes(pending_, std::uint32_t{0});  // no name: the end of the row
+    constexpr std::uint32_t no_name = 0;  // the end of the row
+    write_bytes(room(sizeof no_name), no_name);
     has_rows_ = true;
-    if (pending_.size() >= enough) flush();
 }
 
 void RowDigest::add_row(const Statement& row, const std::vector<std::string>& columns) {
@@ -96,9 +106,19 @@ void RowDigest::add_row(const Statement& row, const std::vector<std::string>& co
     end_row();
 }
 
+char* RowDigest::room(std::size_t bytes) {
+    if (used_ + bytes > buffer_.size()) {
+        flush();
+        if (bytes > buffer_.size()) buffer_.resize(bytes);
+    }
+    char* const at = buffer_.data() + used_;
+    used_ += bytes;
+    return at;
+}
+
 void RowDigest::flush() {
-    require_crypto(EVP_DigestUpdate(context_.get(), pending_.data(), pending_.size()));
-    pending_.clear();
+    require_crypto(EVP_DigestUpdate(context_.get(), buffer_.data(), used_));
+    used_ = 0;
 }
 
 Sha256 RowDigest::finish() {

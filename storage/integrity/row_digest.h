@@ -47,9 +47,12 @@ class RowDigest {
     };
     void begin();
     void flush();
+    /// For so many bytes, which count as written.
+    char* room(std::size_t bytes);
 
     std::unique_ptr<evp_md_ctx_st, Closer> context_;
-    std::string pending_;
+    std::vector<char> buffer_;
+    std::size_t used_ = 0;
     bool has_rows_ = false;
 };
 
