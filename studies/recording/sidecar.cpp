@@ -125,7 +125,11 @@ void check_driven(const JsonObject& json, const RecordedRun& run, const Recordin
                              fmt::format("names '{}', which is not among the channels in `units`", channel));
         }
     }
-    if (known == 0) json.add_problem("driven", "names no channel; a model needs at least one input");
+    if (known == 0)
+        json.add_problem(
+            "driven",
+            "has none of the channels, but a model needs at least one input: name those that drive the "
+            "bench in this run, for example \"driven\": [\"motor_angle\", \"load_torque\"]");
     if (known == recording.channels.size())
         json.add_problem("driven", "names every channel, so nothing is left to compare a model with");
 }
