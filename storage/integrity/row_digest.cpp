@@ -14,7 +14,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "the bytes of numbers are hashed as they are in memory");
 
-// Behind the number.
+// Both return the place behind what they wrote.
 template <class Number>
 char* write_bytes(char* to, Number number) {
     std::memcpy(to, &number, sizeof number);

@@ -47,7 +47,7 @@ class RowDigest {
     };
     void begin();
     void flush();
-    /// For so many bytes, which count as written.
+    /// A place in the buffer for so many bytes; the caller writes them all.
     char* room(std::size_t bytes);
 
     std::unique_ptr<evp_md_ctx_st, Closer> context_;

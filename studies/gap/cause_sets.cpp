@@ -107,7 +107,7 @@ std::optional<Hypothesis> CauseSearch::with_measured_numbers(const ScoredFit& fo
         const double coordinate = fit.coordinates[static_cast<Eigen::Index>(visible)];
         const CandidateCause* same = described_.same_cause(number.effect, number.variant);
         if (same == nullptr) return {};
-        // A cause may have widened what the same number already explains.
+        // The built bench may have a cause and a floating number of the same kind, as two parts of a zero.
         if (std::find(measured.causes.begin(), measured.causes.end(), same) != measured.causes.end())
             continue;
         Eigen::VectorXd sizes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(same->numbers.size()));
@@ -131,12 +131,11 @@ void CauseSearch::add_measured_sets(const ScoredFit& built, Fits& all) {
     options.any_size = false;
     Fits sets = {fitted(described_, *start, options)};
     // Wrong numbers compensate one another, so that none of them can be dropped alone.
-    const Hypothesis stated =
+    Hypothesis stated =
         only_causes(*start, [](const CandidateCause& cause) { return !cause.numbers.empty(); });
     if (!stated.causes.empty() && stated.causes.size() < start->causes.size()) {
-        Hypothesis from = stated;
-        from.coordinates.head(nominal_coordinates).setZero();
-        sets.push_back(fitted(described_, from, options));
+        stated.coordinates.head(nominal_coordinates).setZero();
+        sets.push_back(fitted(described_, stated, options));
         sort_by_evidence(sets);
     }
     try_fewer(described_, sets);
