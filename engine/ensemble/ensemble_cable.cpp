@@ -80,16 +80,21 @@ void EnsembleCable::settle(std::span<const double> far_end_m) {
         if (!(highest_N[j] > 0.0) && !is_slack(static_cast<int>(j))) members_.make_slack(static_cast<int>(j));
     take_numbers();
     take_displacements(far_end_m);
+    const auto proximal_m = members_.displacement_m(0);
+    for (std::size_t j = 0; j < proximal_m.size(); ++j)
+        if (is_slack(static_cast<int>(j))) proximal_m[j] = rest_m(j) + moved_m_;
 }
 
 // E2 from the distal end to the proximal one, less where the motor has put it.
 void EnsembleCable::find_off_motor_m(std::span<double> off_m) const {
     const auto proximal_m = members_.displacement_m(0);
-    const auto compliance = members_.compliance_m_per_N();
-    for (std::size_t j = 0; j < off_m.size(); ++j) {
-        const double rest_m = -members_.segments() * compliance[j] * pretension_N_[j];
-        off_m[j] = is_slack(static_cast<int>(j)) ? 0.0 : proximal_m[j] - rest_m - moved_m_;
-    }
+    for (std::size_t j = 0; j < off_m.size(); ++j)
+        off_m[j] = is_slack(static_cast<int>(j)) ? 0.0 : proximal_m[j] - rest_m(j) - moved_m_;
+}
+
+// The proximal end under pretension, the distal end at 0.
+double EnsembleCable::rest_m(std::size_t member) const {
+    return -members_.segments() * members_.compliance_m_per_N()[member] * pretension_N_[member];
 }
 
 void EnsembleCable::stretch(std::span<const double> far_end_by_m, std::span<const double> proximal_by_m) {
@@ -119,6 +124,14 @@ void EnsembleCable::stretch(std::span<const double> far_end_by_m, std::span<cons
 double EnsembleCable::tension_N(const SensorSpot& spot, int member) const {
     return (1.0 - spot.fraction) * members_.tension_N(spot.node)[member] +
            spot.fraction * members_.tension_N(spot.node + 1)[member];
+}
+
+double EnsembleCable::pushing_tension_N(int member, std::span<const double> far_end_m) const {
+    const auto j = static_cast<std::size_t>(member);
+    const double stiffness = support_.spring_stiffness_N_per_m;
+    const double spring_m_per_N = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
+    const double all_m_per_N = members_.segments() * members_.compliance_m_per_N()[j] + spring_m_per_N;
+    return pretension_N_[j] + (far_end_m[j] - moved_m_) / all_m_per_N;
 }
 
 double EnsembleCable::beyond_wall_m(int member) const {

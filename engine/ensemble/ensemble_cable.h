@@ -41,12 +41,15 @@ class EnsembleCable {
     int nodes() const { return members_.nodes(); }
     bool is_slack(int member) const { return members_.is_slack(member); }
     double tension_N(const SensorSpot& spot, int member) const;
+    /// The tension of a slack member if a cable could push: negative, the same everywhere (E2).
+    double pushing_tension_N(int member, std::span<const double> far_end_m) const;
     /// By how much the distal end is beyond the spring's wall; 0 without a spring.
     double beyond_wall_m(int member) const;
     RowMoments tension_moments_N(int node) const { return moments_of_row(members_.tension_N(node)); }
     RowMoments log_friction() const { return moments_of_row(log_friction_); }
 
   private:
+    double rest_m(std::size_t member) const;
     void take_numbers();
     void add_wrap(int bend, std::span<const double> factor);
     void take_displacements(std::span<const double> far_end_m);

@@ -15,6 +15,11 @@ namespace {
 // 95%. A tension sensor tells of the sum, and the stronger screening would then cost accuracy.
 constexpr double chance_variances_without_sum = 2.0 * chance_variances;
 
+// A slack member reads 0 however far it is from becoming taut, so where most members are slack and the cable
+// is not, a reading tells them nothing and the filter loses the cable. From this many standard deviations of
+// an innovation on, slack members count as if they could push.
+constexpr double surprising_deviations = 5.0;
+
 }  // namespace
 
 EnsembleFilter::EnsembleFilter(const UncertainCable& cable, const CableBelief& belief,
@@ -107,10 +112,16 @@ void EnsembleFilter::hold_motor() {
     oppose_far_end();
 }
 
+double EnsembleFilter::tension_N(std::size_t cable, const SensorSpot& spot, int member) const {
+    const EnsembleCable& own = cables_[cable];
+    if (pushes_[cable] && own.is_slack(member)) return own.pushing_tension_N(member, far_end_m(cable));
+    return own.tension_N(spot, member);
+}
+
 // E16 over the pulley's radius, or the tension of a single cable's end.
 double EnsembleFilter::end_tension_N(const SensorSpot& spot, int member) const {
-    const double of_a_N = cables_.front().tension_N(spot, member);
-    return cables_.size() == 1 ? of_a_N : of_a_N - cables_.back().tension_N(spot, member);
+    const double of_a_N = tension_N(0, spot, member);
+    return cables_.size() == 1 ? of_a_N : of_a_N - tension_N(1, spot, member);
 }
 
 double EnsembleFilter::sensed(const Fitted& sensor, int member) const {
@@ -118,7 +129,7 @@ double EnsembleFilter::sensed(const Fitted& sensor, int member) const {
     double value = 0.0;
     switch (sensor.offer.kind) {
         case SensorKind::tension:
-            value = cables_[static_cast<std::size_t>(sensor.offer.cable)].tension_N(sensor.spot, member);
+            value = tension_N(static_cast<std::size_t>(sensor.offer.cable), sensor.spot, member);
             break;
         case SensorKind::motor_torque:
         case SensorKind::load_torque:
@@ -131,12 +142,9 @@ double EnsembleFilter::sensed(const Fitted& sensor, int member) const {
     return value * (1.0 + sensor.gain[j]) + sensor.zero[j];
 }
 
-// E37 for one reading, over the state and all numbers.
-void EnsembleFilter::correct(Fitted& sensor, double reading) {
-    const std::size_t count = sensed_.size();
-    for (std::size_t j = 0; j < count; ++j) sensed_[j] = sensed(sensor, static_cast<int>(j));
+EnsembleFilter::Innovation EnsembleFilter::innovation(const Fitted& sensor, double reading) {
+    for (std::size_t j = 0; j < sensed_.size(); ++j) sensed_[j] = sensed(sensor, static_cast<int>(j));
     const RowMoments before = moments_of_row(sensed_);
-    if (!(before.deviation > 0.0)) return;
     const double variance = before.deviation * before.deviation;
     const SensorErrors& errors = sensor.offer.errors;
     // Expected over the members: a small mean does not promise a small noise.
@@ -144,14 +152,40 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
     // A sensor without noise still has rounding: a millionth of what the members spread.
     const double noise_variance =
         std::max(proportional * proportional + errors.additive * errors.additive, 1e-12 * variance);
-    const double total = variance + noise_variance;
-    const double fraction = 1.0 / (1.0 + std::sqrt(noise_variance / total));
+    return {before.mean, reading - before.mean, variance, noise_variance};
+}
+
+// The cables whose slack members cannot follow a reading that is off by so much.
+bool EnsembleFilter::find_pushes(const Fitted& sensor, const Innovation& found) {
+    const double surprising = surprising_deviations * std::sqrt(found.variance + found.noise_variance);
+    const bool is_above = found.off > surprising;
+    const bool is_below = found.off < -surprising;
+    if (sensor.offer.kind == SensorKind::tension) {
+        pushes_[static_cast<std::size_t>(sensor.offer.cable)] = is_above;
+    } else if (sensor.offer.kind != SensorKind::load_displacement) {
+        pushes_ = {is_above, is_below};
+    }
+    return pushes_[0] || pushes_[1];
+}
+
+// E37 for one reading, over the state and all numbers.
+void EnsembleFilter::correct(Fitted& sensor, double reading) {
+    const std::size_t count = sensed_.size();
+    Innovation found = innovation(sensor, reading);
+    if (find_pushes(sensor, found)) {
+        oppose_far_end();
+        found = innovation(sensor, reading);
+    }
+    pushes_ = {false, false};
+    if (!(found.variance > 0.0)) return;
+    const double total = found.variance + found.noise_variance;
+    const double fraction = 1.0 / (1.0 + std::sqrt(found.noise_variance / total));
     for (std::size_t j = 0; j < count; ++j) {
-        sensed_[j] -= before.mean;
-        pull_[j] = reading - before.mean - fraction * sensed_[j];
+        sensed_[j] -= found.mean;
+        pull_[j] = found.off - fraction * sensed_[j];
     }
     const double degrees = static_cast<double>(count) - 1.0;
-    RowCorrection correction{sensed_, tension_pull_, variance * degrees, total * degrees,
+    RowCorrection correction{sensed_, tension_pull_, found.variance * degrees, total * degrees,
                              tells_sum_ ? chance_variances : chance_variances_without_sum};
     for (EnsembleCable& cable : cables_) {
         for (std::size_t j = 0; j < count; ++j)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,16 @@ class EnsembleFilter {
     std::span<const double> far_end_m(std::size_t cable) const {
         return cable == 0 ? far_end_m_ : opposite_m_;
     }
+    /// What the members would read, in `sensed_`, and how far the reading is off their mean.
+    struct Innovation {
+        double mean = 0.0;
+        double off = 0.0;
+        double variance = 0.0;  ///< of the members
+        double noise_variance = 0.0;
+    };
+    Innovation innovation(const Fitted& sensor, double reading);
+    bool find_pushes(const Fitted& sensor, const Innovation& found);
+    double tension_N(std::size_t cable, const SensorSpot& spot, int member) const;
     double end_tension_N(const SensorSpot& spot, int member) const;
     void oppose_far_end();
     void hold_motor();
@@ -64,7 +75,8 @@ class EnsembleFilter {
     const EnsembleDraws& draws_;
     std::vector<EnsembleCable> cables_;
     FarEndProcess far_end_;
-    bool tells_sum_ = true;  ///< of a pair: a sensor tells of the sum of both tensions
+    bool tells_sum_ = true;         ///< of a pair: a sensor tells of the sum of both tensions
+    std::array<bool, 2> pushes_{};  ///< of each cable: slack members read as if they could push
     int sample_ = 0;
     std::vector<double> far_end_m_;        // members
     std::vector<double> far_end_m_per_s_;  // members

@@ -90,6 +90,29 @@ TEST(EnsembleFilter, LearnsTheFrictionFromSensorsAtBothEnds) {
     EXPECT_LT(filter.log_friction().deviation, 0.08);
 }
 
+// Slack members all read 0. The motor rests, so only the far end can have pulled the cable taut.
+TEST(EnsembleFilter, FindsACableAgainThatBecameTautWhileEveryMemberIsSlack) {
+    const UncertainCable cable(arm());
+    CableBelief belief;
+    belief.interval_s = interval_s;
+    belief.uncertainty = {.pretension = 0.05};
+    belief.far_end = {.range_m = 0.0005};
+    SensorErrors errors{.additive = 0.1, .zero = 0.2};
+    const std::vector<SensorOffer> offers = {{SensorKind::tension, 0.0, errors},
+                                             {SensorKind::motor_torque, 0.0, errors}};
+    for (const int sensor : {0, 1}) {
+        const EnsembleDraws draws({1, 0}, 64, 3 + cable.bends(), 2, samples);
+        const int used[] = {sensor};
+        EnsembleFilter filter(cable, belief, offers, used, draws);
+        const double slack_N[] = {0.0};
+        for (int n = 0; n < 20; ++n) filter.step(0.0003, slack_N);  // 6 mm, where 2 mm take up the pretension
+        ASSERT_EQ(filter.mean_N().front(), 0.0);
+        const double taut_N[] = {5.0};
+        for (int n = 0; n < 20; ++n) filter.step(0.0, taut_N);
+        EXPECT_NEAR(filter.mean_N().front(), 5.0, 0.5) << "sensor " << sensor;
+    }
+}
+
 TEST(EnsembleFilter, AnEncoderAtTheLoadTellsWhereTheFarEndIs) {
     const UncertainCable cable(arm());
     CableBelief belief;
