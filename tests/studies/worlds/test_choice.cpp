@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "capstan/worlds/choice.h"
 #include "capstan/worlds/stored_worlds.h"
 #include "same_answer.h"
 #include "world_plans.h"
@@ -25,6 +26,32 @@ TEST(SensorChoice, NothingThatIsRecommendedIsWorseThanNoSensor) {
         EXPECT_LT(answer.best().expected.objective.value_N, answer.no_sensor.objective.value_N);
         EXPECT_GT(answer.gain_over_none.low_N, 0.0);
     }
+}
+
+// What is recommended where no sensor, one and three have these errors.
+int recommended_sensors(double one_N, double three_N) {
+    StudyPlan plan = arm_plan();
+    plan.layout_families = {"distal"};
+    plan.sensor_counts = {1, 3};
+    plan.worthwhile_gain_N = 0.02;
+    ErrorTable table(plan, {});
+    const double errors_N[] = {1.0, one_N, three_N};
+    for (int candidate = 0; candidate < 3; ++candidate) {
+        for (int world = 0; world < 2 * plan.repetitions; ++world) {
+            WorldError error;
+            error.mean_abs_N = errors_N[candidate] * (1.0 + 0.01 * std::sin(world));
+            table.take({Condition::as_stated, candidate, world, error});
+        }
+    }
+    Choice choice(table);
+    const WorldAnswer answer = choose_of_each_price(choice);
+    return answer.recommended ? answer.set(answer.best().expected.candidate).count() : 0;
+}
+
+TEST(SensorChoice, EachOfSeveralFurtherSensorsMustBeWorthItsPrice) {
+    EXPECT_EQ(recommended_sensors(0.5, 0.45), 3);  // 0.025 N each, where 0.02 N are asked
+    EXPECT_EQ(recommended_sensors(0.5, 0.47), 1);  // 0.015 N each
+    EXPECT_EQ(recommended_sensors(1.01, 0.95), 0);
 }
 
 TEST(SensorChoice, ASensorThatTellsNothingIsNotRecommended) {
