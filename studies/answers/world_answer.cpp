@@ -19,14 +19,37 @@ namespace {
 using reports::Data;
 using reports::Table;
 
-std::string grid_words(const WorldAnswer& found) {
+// Errors are compared with their discretisation errors; above this fraction the grid is too coarse.
+constexpr double max_discretisation_fraction = 0.1;
+
+double discretisation_fraction(const Expected& expected) {
+    return std::abs(expected.discretisation_N) / std::max(expected.objective.value_N, 1e-12);
+}
+
+std::string grid_words(const StudyPlan& plan, const WorldAnswer& found) {
     const GridError& grid = found.grid;
-    const double share = std::abs(grid.error_N) / std::max(grid.coarse_N, 1e-12);
+    double largest = discretisation_fraction(found.no_sensor);
+    for (const Expected& baseline : found.baselines)
+        largest = std::max(largest, discretisation_fraction(baseline));
+    for (const PriceBest& best : found.prices)
+        largest = std::max(largest, discretisation_fraction(best.expected));
+    const CableSpecification& cable = plan.transmission.cable;
+    std::string remedy;
+    if (largest > max_discretisation_fraction)
+        remedy =
+            fmt::format(" That is more than a tenth: raise transmission.segments{}.",
+                        cable.static_friction > cable.dynamic_friction
+                            ? ", or state no more static than dynamic friction, because what is beyond it "
+                              "delays each segment by itself and counts less with more segments"
+                            : "");
     return fmt::format(
-        "Discretisation error of the expected error with {} segments: {:+.4f} N, {:.0f}% of it (Richardson's "
-        "extrapolation, order {:.2f}, on a tenth of the worlds).{}",
-        grid.segments, grid.error_N, 100.0 * share, grid.order,
-        share > 0.1 ? " That is more than a tenth: raise transmission.segments." : "");
+        "Discretisation: how much the error would fall with infinitely many segments (Richardson's extrapolation "
+        "from {0} and {1} segments on {3} of the worlds; order {4:.2f}, measured on the {5} with {2} segments too). It is "
+        "{6:+.4f} N or {7:.0f}% of the error of the {5}, and at most {8:.0f}% in this table.{9}",
+        grid.segments, 2 * grid.segments, 4 * grid.segments, grid.worlds, grid.order,
+        found.recommended ? "recommended set" : "set without a sensor", grid.error_N,
+        100.0 * discretisation_fraction(found.recommended ? found.best().expected : found.no_sensor),
+        100.0 * largest, remedy);
 }
 
 std::string target_words(const StudyPlan& plan, const WorldAnswer& found) {
@@ -72,6 +95,7 @@ std::vector<reports::Column> price_columns(const WorldAnswer& found) {
                                             {"load_end_error_N", "load end", "N", ".3f"},
                                             {"worst_place_error_N", "worst place", "N", ".3f"},
                                             {"covered_fraction", "in band", "", ".1%"},
+                                            {"discretisation_error_N", "discretisation", "N", "+.3f"},
                                             {"not_distinguished", "as good"}};
     if (found.bound) columns.push_back({"at_most_worse_N", "at most worse", "N", ".3f"});
     return columns;
@@ -178,7 +202,8 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
             "All numbers are from {} worlds that had no part in choosing the set of a price; the price was chosen on them. Error: {}. 95% of worlds: the error stays below this in "
             "95% of them. In band: true tensions within the estimator's 95% band; 95% if it is honest. As good: other sets of "
             "the price that a paired t test does not tell from the best (5% over all sets and looks).{} {}",
-            found.worlds, objective_words(plan.placement.objective), bound_note(found), grid_words(found))};
+            found.worlds, objective_words(plan.placement.objective), bound_note(found),
+            grid_words(plan, found))};
     reports::AnswerSection gains{
         .id = "gains",
         .heading = "What else would help",

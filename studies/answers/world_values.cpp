@@ -47,7 +47,9 @@ Data expected_data(const StudyPlan& plan, const WorldAnswer& found, const Expect
             {"whole_cable_error_N", expected.whole_cable_N},
             {"load_end_error_N", expected.load_end_N},
             {"worst_place_error_N", expected.worst_place_N},
-            {"covered_fraction", expected.covered_fraction}};
+            {"covered_fraction", expected.covered_fraction},
+            {"discretisation_error_N", expected.discretisation_N},
+            {"load_end_discretisation_error_N", expected.load_end_discretisation_N}};
 }
 
 std::string title_of_condition(Condition condition) {
@@ -120,7 +122,6 @@ Data recommendation_data(const StudyPlan& plan, const WorldAnswer& found) {
     data["beats_no_sensor"] = found.recommended.has_value();
     data["gain_over_no_sensor"] = gain_data("the recommended sensors", found.gain_over_none);
     data["gains"] = gains_data(plan, found);
-    data["discretisation_error_N"] = found.grid.error_N;
     Data ties = Data::list();
     if (found.recommended)
         for (const int tie : found.best().ties) ties.push_back(found.words(tie));

@@ -163,23 +163,57 @@ void add_bound(Choice& choice, WorldAnswer& answer) {
     for (const PriceBest& best : answer.prices) bound.of_prices.push_back(gap_of(best.expected.candidate));
 }
 
-// Richardson: coarse - exact = (coarse - finer) / (1 - 2^-order).
+// All sets whose errors are stated.
+std::vector<Expected*> stated_errors(WorldAnswer& answer) {
+    std::vector<Expected*> stated = {&answer.no_sensor};
+    for (Expected& baseline : answer.baselines) stated.push_back(&baseline);
+    for (PriceBest& best : answer.prices) stated.push_back(&best.expected);
+    if (answer.bound) stated.push_back(&answer.bound->all);
+    return stated;
+}
+
+double mean_load_end_N(Choice& choice, Condition condition, int candidate, int first, int last) {
+    double sum_N = 0.0;
+    for (int world = first; world < last; ++world)
+        sum_N += choice.table().at(condition, candidate, world).load_end_N;
+    return sum_N / (last - first);
+}
+
+// Richardson: coarse - exact = (coarse - finer) / (1 - 2^-order). The order is that of the recommended set.
 void add_grid(Choice& choice, WorldAnswer& answer) {
-    const int candidate = answer.best().expected.candidate;
+    using enum Condition;
+    const int candidate = (answer.recommended ? answer.best().expected : answer.no_sensor).candidate;
     const int first = choice.worlds();
     const int last = first + std::max(std::min(choice.worlds(), fewest_worlds), choice.worlds() / 10);
+    const auto error_N = [&](Condition condition, int set) {
+        return mean_of(choice.values(condition, set, first, last)).value_N;
+    };
+    const std::vector<Expected*> stated = stated_errors(answer);
+    std::vector<int> sets;
+    for (const Expected* expected : stated) sets.push_back(expected->candidate);
+    std::sort(sets.begin(), sets.end());
+    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+    choice.fill(as_stated, sets, first, last, "finer grids");
+    choice.fill(finer_grid, sets, first, last, "finer grids");
+    choice.fill(finest_grid, std::vector{candidate}, first, last, "finer grids");
+
     GridError& grid = answer.grid;
     grid.segments = choice.table().plan().transmission.cable.segments;
-    double* const errors[] = {&grid.coarse_N, &grid.finer_N, &grid.finest_N};
-    const Condition conditions_of_grid[] = {Condition::as_stated, Condition::finer_grid,
-                                            Condition::finest_grid};
-    for (int k = 0; k < 3; ++k) {
-        choice.fill(conditions_of_grid[k], std::vector{candidate}, first, last, "finer grids");
-        *errors[k] = mean_of(choice.values(conditions_of_grid[k], candidate, first, last)).value_N;
-    }
+    grid.worlds = last - first;
+    grid.coarse_N = error_N(as_stated, candidate);
+    grid.finer_N = error_N(finer_grid, candidate);
+    grid.finest_N = error_N(finest_grid, candidate);
     const double ratio = (grid.coarse_N - grid.finer_N) / (grid.finer_N - grid.finest_N);
     grid.order = ratio > 0.0 ? std::clamp(std::log2(ratio), 0.5, 2.0) : 1.0;
-    grid.error_N = (grid.coarse_N - grid.finer_N) / (1.0 - std::exp2(-grid.order));
+    const double extrapolation = 1.0 / (1.0 - std::exp2(-grid.order));
+    grid.error_N = extrapolation * (grid.coarse_N - grid.finer_N);
+    for (Expected* expected : stated) {
+        const int set = expected->candidate;
+        expected->discretisation_N = extrapolation * (error_N(as_stated, set) - error_N(finer_grid, set));
+        expected->load_end_discretisation_N =
+            extrapolation * (mean_load_end_N(choice, as_stated, set, first, last) -
+                             mean_load_end_N(choice, finer_grid, set, first, last));
+    }
 }
 
 void add_paper(Choice& choice, WorldAnswer& answer) {

@@ -25,6 +25,9 @@ struct Expected {
     double whole_cable_N = 0.0;
     double worst_place_N = 0.0;
     double covered_fraction = 0.0;  ///< of the true tensions within the 95% band
+    /// Richardson's estimate of the objective's error - its exact value, on part of the worlds.
+    double discretisation_N = 0.0;
+    double load_end_discretisation_N = 0.0;  ///< the same of `load_end_N`
 };
 
 /// The best candidate of a price.
@@ -66,9 +69,11 @@ struct Robustness {
     bool flips = false;  ///< another set of that price is better by more than the resolution (paired t, 5%)
 };
 
-/// The discretisation error of the recommended set's expected error.
+/// The discretisation error of the recommended set's expected error (of no sensor where none is recommended),
+/// and the order that the other sets' errors are extrapolated with.
 struct GridError {
     int segments = 0;
+    int worlds = 0;
     double coarse_N = 0.0;  ///< the same worlds with these segments, twice and four times as many
     double finer_N = 0.0;
     double finest_N = 0.0;
