@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/estimation/fusion_method.h"
+#include "capstan/placement/prepared_study.h"
 #include "capstan/sensing/layout.h"
 
 namespace capstan::answers {
@@ -167,17 +169,31 @@ std::string note_of(const StudyPlan& plan, const PlacementAnswer& found) {
         plan.worthwhile_gain_N, found.repetitions, reliability);
 }
 
-std::string headline_of(const PlacementAnswer& found) {
+// The error without any sensor over the duty cycle, of the objective that it is known for.
+std::optional<double> no_sensor_N(const StudyPlan& plan) {
+    if (plan.placement.objective != PlacementObjective::all_nodes || !plan.placement.required_nodes.empty())
+        return std::nullopt;
+    return no_sensor_errors_N(plan).at("duty_cycle");
+}
+
+std::string headline_of(const PlacementAnswer& found, std::optional<double> none_N) {
     const ScopeAnswer& scope = found.scopes.back();  // the duty cycle
     for (const CountAnswer& count : scope.counts) {
         if (count.sensors != scope.recommended_count) continue;
+        if (none_N && count.optimum.independent.high_N >= *none_N)
+            return fmt::format(
+                "use no sensor. Expected tension error over the duty cycle without any: {:.3f} N; with {} at {} {}: {:.3f} N.",
+                *none_N, counted(static_cast<std::size_t>(count.sensors), "sensor"),
+                count.sensors == 1 ? "node" : "nodes", nodes_as_people_count(count.optimum.nodes),
+                count.optimum.independent.value_N);
         return fmt::format(
             "use {} at {} {}, fused by {}. Expected tension error over the duty cycle: {:.3f} N "
-            "(95% interval {:.3f} to {:.3f} N).",
+            "(95% interval {:.3f} to {:.3f} N{}).",
             counted(static_cast<std::size_t>(count.sensors), "sensor"), count.sensors == 1 ? "node" : "nodes",
             nodes_as_people_count(count.optimum.nodes), title_of_method(count.optimum.method),
             count.optimum.independent.value_N, count.optimum.independent.low_N,
-            count.optimum.independent.high_N);
+            count.optimum.independent.high_N,
+            none_N ? fmt::format("; without any sensor {:.3f} N", *none_N) : std::string());
     }
     return "no count of sensors satisfies the constraints.";
 }
@@ -226,11 +242,12 @@ Table node_table(const PlacementAnswer& found) {
 
 reports::Answer place_answer(const StudyPlan& plan, const PlacementAnswer& found) {
     const bool exhaustive = found.search == SearchKind::exhaustive;
+    const std::optional<double> none_N = no_sensor_N(plan);
     reports::Answer answer{
         .id = "place",
         .kind = exhaustive ? "Exhaustive search of all layouts" : "Greedy search on a long cable",
         .title = plan.name,
-        .headline = headline_of(found)};
+        .headline = headline_of(found, none_N)};
     answer.values = {{"name", plan.name},
                      {"seed", plan.seed},
                      {"search", exhaustive ? "exhaustive" : "greedy"},
@@ -239,6 +256,7 @@ reports::Answer place_answer(const StudyPlan& plan, const PlacementAnswer& found
                      {"layouts", found.layouts},
                      {"candidates", found.candidates},
                      {"repetitions", found.repetitions},
+                     {"no_sensor_error_N", none_N ? Data(*none_N) : Data()},
                      {"scopes", Data::list()}};
     reports::AnswerSection numbers{
         .id = "numbers",

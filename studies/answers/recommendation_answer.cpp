@@ -134,9 +134,15 @@ reports::AnswerSection comparison_section(const Data& rows) {
             .note = storage::paper_agreement_words()};
 }
 
-std::string headline_of(const Conclusions& conclusions) {
+std::string headline_of(const Conclusions& conclusions, const std::map<std::string, double>& no_sensor_N) {
     if (conclusions.recommendations.empty()) return "no recommendation was made.";
     const RecommendationRecord& last = conclusions.recommendations.back();  // the duty cycle, the last noise
+    const std::optional<double> none_N = no_sensor_error_N(no_sensor_N, last);
+    if (none_N && !beats_no_sensor(last, *none_N))
+        return fmt::format(
+            "use no sensor. Expected tension error over the duty cycle without any: {:.3f} N; with {}, {}: {:.3f} N.",
+            *none_N, counted(static_cast<std::size_t>(last.sensor_count), "sensor"),
+            place_words(conclusions.study, nodes_of(conclusions.study, last.set_index)), last.error_N);
     return fmt::format(
         "use {}, {}, fused by {}. Expected tension error over the duty cycle with sensor noise {}: {:.3f} N.",
         counted(static_cast<std::size_t>(last.sensor_count), "sensor"),
@@ -160,24 +166,10 @@ std::string assumption_words(const StudyPlan& plan) {
         "a complete motion. On a rig none of this holds; with [uncertainty] a study drops these assumptions.",
         1e3 * plan.largest_distal_increment_m,
         plan.motion.distal.kind == EndKind::position && plan.motion.distal.amplitude == 0.0
-            ? ", and in truth it is blocked"
+            ? ", and in truth it is blocked, so that its guess without any sensor is centred on the truth and this range "
+              "decides what sensors are worth"
             : "",
         samples_words(plan));
-}
-
-// Of a choice whose error can be set beside the error without any sensor.
-std::optional<double> no_sensor_error_N(const std::map<std::string, double>& errors_N,
-                                        const RecommendationRecord& r) {
-    const auto found = errors_N.find(r.scope == "regime" ? r.regime : r.scope);
-    return found == errors_N.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::string no_sensor_words(const std::optional<double>& none_N, const RecommendationRecord& r) {
-    if (!none_N) return {};
-    if (*none_N <= r.interval_high_N)
-        return fmt::format(" This is not better than no sensor at all, with which the error is {:.3f} N.",
-                           *none_N);
-    return fmt::format(" Without any sensor the error is {:.3f} N.", *none_N);
 }
 
 }  // namespace
@@ -217,10 +209,11 @@ Conclusions read_conclusions(storage::Database& database, std::int64_t study_id)
 
 reports::Answer recommendation_answer(const Conclusions& conclusions, const StudyPlan& plan) {
     const auto& study = conclusions.study.study;
+    const std::map<std::string, double> errors_N = no_sensor_errors_N(plan);
     reports::Answer answer{.id = "recommendation",
                            .kind = "Sensor placement",
                            .title = fmt::format("Study {} ({})", conclusions.study_id, study.name),
-                           .headline = headline_of(conclusions)};
+                           .headline = headline_of(conclusions, errors_N)};
     answer.values = {{"study_id", conclusions.study_id},
                      {"name", study.name},
                      {"status", study.status},
@@ -228,12 +221,11 @@ reports::Answer recommendation_answer(const Conclusions& conclusions, const Stud
                      {"repetitions", study.repetitions},
                      {"recommendations", Data::list()},
                      {"paper_comparison", comparison_data(conclusions.paper_comparison)}};
-    const std::map<std::string, double> errors_N = no_sensor_errors_N(plan);
     for (const auto& each : conclusions.recommendations) {
         Data data = recommendation_data(conclusions.study, each);
         const std::optional<double> none_N = no_sensor_error_N(errors_N, each);
         data["no_sensor_error_N"] = none_N ? Data(*none_N) : Data();
-        data["beats_no_sensor"] = none_N ? Data(*none_N > each.interval_high_N) : Data();
+        data["beats_no_sensor"] = none_N ? Data(beats_no_sensor(each, *none_N)) : Data();
         answer.values["recommendations"].push_back(std::move(data));
     }
     answer.values["assumptions"] = assumption_words(plan);
@@ -254,10 +246,8 @@ reports::Answer recommendation_answer(const Conclusions& conclusions, const Stud
                                     answer.values["recommendations"]}},
                         .note = assumption_words(plan)}};
     for (const auto& each : conclusions.recommendations)
-        answer.sections.push_back({.id = "sentence",
-                                   .prose = each.sentence +
-                                            no_sensor_words(no_sensor_error_N(errors_N, each), each) +
-                                            alternatives_words(conclusions.study, each)});
+        answer.sections.push_back(
+            {.id = "sentence", .prose = each.sentence + alternatives_words(conclusions.study, each)});
     if (!conclusions.paper_comparison.empty())
         answer.sections.push_back(comparison_section(answer.values["paper_comparison"]));
     return answer;

@@ -4,6 +4,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/placement/prepared_study.h"
 #include "capstan/placement/recommendation.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/storage/study_store.h"
@@ -25,7 +26,7 @@ ExitCode run_recommend(const Invocation& invocation) {
     answers::Conclusions conclusions = answers::read_conclusions(database, id);
     if (invocation.has("worthwhile-gain")) {
         conclusions.recommendations = recommend(
-            database, id, {invocation.number("worthwhile-gain")},
+            database, id, {invocation.number("worthwhile-gain"), no_sensor_errors_N(stored.plan)},
             independent_errors(database, id, stored.plan, static_cast<int>(invocation.integer("jobs"))));
     }
     deliver_answer(invocation, answers::recommendation_answer(conclusions, stored.plan));

@@ -91,7 +91,32 @@ Choice choose(int noise_index, const std::vector<PlacementCandidate>& candidates
     return choice;
 }
 
+// The largest excess without any sensor over the best candidate of each regime, on independent draws.
+RecommendationPolicy with_excess_of_none(RecommendationPolicy policy,
+                                         const std::vector<PlacementQuestion>& judged,
+                                         const std::vector<storage::RegimeRecord>& regimes,
+                                         const std::vector<int>& reference) {
+    if (policy.no_sensor_N.empty()) return policy;
+    double excess_N = 0.0;
+    for (std::size_t r = 0; r < regimes.size(); ++r)
+        excess_N = std::max(
+            excess_N, policy.no_sensor_N.at(regimes[r].regime) - judged[r].scores[reference[r]].objective_N);
+    policy.no_sensor_N["minimax_regret"] = excess_N;
+    return policy;
+}
+
 }  // namespace
+
+std::optional<double> no_sensor_error_N(const std::map<std::string, double>& no_sensor_N,
+                                        const storage::RecommendationRecord& recommendation) {
+    const auto found =
+        no_sensor_N.find(recommendation.scope == "regime" ? recommendation.regime : recommendation.scope);
+    return found == no_sensor_N.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool beats_no_sensor(const storage::RecommendationRecord& recommendation, double no_sensor_N) {
+    return recommendation.interval_high_N < no_sensor_N;
+}
 
 double searched_error_N(const storage::RecommendationRecord& recommendation) {
     for (const storage::RecommendationCountRecord& count : recommendation.counts) {
@@ -126,13 +151,15 @@ std::vector<storage::RecommendationRecord> recommend(storage::Database& database
         }
         const auto judged =
             placement_questions(independent_errors(noise, chosen), study, fractions, chosen_reference);
+        const RecommendationPolicy full_policy =
+            with_excess_of_none(policy, judged, study.regimes, chosen_reference);
         for (std::size_t q = 0; q < choices.size(); ++q) {
             storage::RecommendationRecord& record = choices[q].record;
             const IntervalEstimate error = interval_of(judged[q].scores[q]);
             record.error_N = error.value_N;
             record.interval_low_N = error.low_N;
             record.interval_high_N = error.high_N;
-            record.sentence = recommendation_sentence(study, record, policy.worthwhile_gain_N);
+            record.sentence = recommendation_sentence(study, record, full_policy);
             recommendations.push_back(std::move(record));
         }
     }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,17 @@ namespace capstan {
 /// One more sensor must lower the error by this much [N] to be recommended.
 struct RecommendationPolicy {
     double worthwhile_gain_N;
+    /// The error [N] without any sensor, by regime and of "duty_cycle"; empty: not known.
+    std::map<std::string, double> no_sensor_N{};
 };
+
+/// Of a recommendation's regime or of the duty cycle; none for regrets, or where it is not known.
+std::optional<double> no_sensor_error_N(const std::map<std::string, double>& no_sensor_N,
+                                        const storage::RecommendationRecord& recommendation);
+
+/// Whether sensors are better than none: not where the error without any lies within the interval of theirs
+/// or below it.
+bool beats_no_sensor(const storage::RecommendationRecord& recommendation, double no_sensor_N);
 
 /// Reads the cells of a study and recommends, per noise level, for each regime, by minimax regret across
 /// regimes and for the duty cycle: the number of sensors, their nodes and the fusion method, with the
@@ -33,9 +45,9 @@ std::string place_words(const storage::StudyDescription& study, const std::vecto
 
 /// The recommendation in sentences: first which sensors to use and the expected error, then the settings, the
 /// interval, the optimism of the search, the gain of one more sensor, and which other
-/// choices were compared by which test.
+/// choices were compared by which test. Where sensors are not better than none, it says so first.
 std::string recommendation_sentence(const storage::StudyDescription& study,
                                     const storage::RecommendationRecord& recommendation,
-                                    double worthwhile_gain_N);
+                                    const RecommendationPolicy& policy);
 
 }  // namespace capstan

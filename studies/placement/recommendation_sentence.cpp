@@ -94,18 +94,19 @@ std::string layout_words(const storage::StudyDescription& study, int set_index) 
     return "";
 }
 
-std::string use_words(const storage::StudyDescription& study, const storage::RecommendationRecord& r) {
+std::string use_words(const storage::StudyDescription& study, const storage::RecommendationRecord& r,
+                      bool mount) {
     const auto method = std::find_if(study.fusion_methods.begin(), study.fusion_methods.end(),
                                      [&](const auto& m) { return m.method == r.method; });
     const std::vector<int>& nodes = study.sensor_sets[r.set_index].nodes;
     std::vector<std::string> numbers;
     for (const int node : nodes) numbers.push_back(std::to_string(node));
     return "This holds for " + scope_words(r) + " with sensor noise " +
-           study.noise_levels[r.noise_index].label + ". Mount the " +
+           study.noise_levels[r.noise_index].label + ". " + (mount ? "Mount the " : "The ") +
            (nodes.size() == 1 ? "sensor at node " : "sensors at nodes ") + listed(numbers) +
-           layout_words(study, r.set_index) + " and fuse the readings by " + method->title +
-           ". The 95% interval of the " + (r.scope == "minimax_regret" ? "excess" : "error") + " is " +
-           with_digits(r.interval_low_N, 3) + " to " + newtons(r.interval_high_N) + ".";
+           layout_words(study, r.set_index) + (mount ? " and fuse the readings by " : " would be fused by ") +
+           method->title + ". The 95% interval of the " + (r.scope == "minimax_regret" ? "excess" : "error") +
+           " is " + with_digits(r.interval_low_N, 3) + " to " + newtons(r.interval_high_N) + ".";
 }
 
 // The draws that chose the best of many make it look better than it is.
@@ -129,6 +130,16 @@ std::string gain_words(const storage::RecommendationRecord& r, double worthwhile
     const std::string each = added == 1 ? "" : ", " + newtons(gain_N / added) + " for each";
     return more + " would lower the " + objective + " by " + newtons(gain_N) + each +
            " (threshold for adding a sensor: " + newtons(worthwhile_gain_N) + ").";
+}
+
+// Where the recommended number of sensors is not better than none, but a larger one is.
+std::string better_count_words(const storage::RecommendationRecord& r, double none_N) {
+    const auto better = std::find_if(r.counts.begin(), r.counts.end(), [&](const auto& count) {
+        return count.sensor_count > r.sensor_count && count.interval_high_N < none_N;
+    });
+    if (better == r.counts.end()) return " No studied number of sensors is.";
+    return " With " + sensors(better->sensor_count) + " it would be " + newtons(better->error_N) +
+           ", but each adds less than the threshold.";
 }
 
 // How many sets of `chosen` of `nodes` nodes there are.
@@ -204,9 +215,22 @@ std::string place_words(const storage::StudyDescription& study, const std::vecto
 }
 
 std::string recommendation_sentence(const storage::StudyDescription& study,
-                                    const storage::RecommendationRecord& r, double worthwhile_gain_N) {
-    return headline(study, r) + " " + use_words(study, r) + " " + optimism_words(r) + " " +
-           gain_words(r, worthwhile_gain_N) + " " + alternative_words(study, r);
+                                    const storage::RecommendationRecord& r,
+                                    const RecommendationPolicy& policy) {
+    const std::optional<double> none_N = no_sensor_error_N(policy.no_sensor_N, r);
+    const bool is_better = !none_N || beats_no_sensor(r, *none_N);
+    std::string first = headline(study, r);
+    if (!is_better)
+        first = "Use no sensor: the " +
+                std::string(r.scope == "minimax_regret" ? "largest excess" : "expected tension error") +
+                " without any is " + newtons(*none_N) +
+                ", and the sensors that the draws chose are not better: " + newtons(r.error_N) + " with " +
+                sensors(r.sensor_count) + ", " + place_words(study, study.sensor_sets[r.set_index].nodes) +
+                "." + better_count_words(r, *none_N);
+    else if (none_N)
+        first += " Without any sensor it is " + newtons(*none_N) + ".";
+    return first + " " + use_words(study, r, is_better) + " " + optimism_words(r) + " " +
+           gain_words(r, policy.worthwhile_gain_N) + " " + alternative_words(study, r);
 }
 
 }  // namespace capstan

@@ -87,8 +87,9 @@ RunOutcome resume_study(storage::Database& database, std::int64_t study_id, cons
 void conclude_study(storage::Database& database, std::int64_t study_id, const StudyPlan& plan,
                     const RunOptions& options, StudyTimes& times) {
     double start_s = wall_time_s();
-    const auto recommendations = recommend(database, study_id, {plan.worthwhile_gain_N},
-                                           independent_errors(database, study_id, plan, options.jobs));
+    const auto recommendations =
+        recommend(database, study_id, {plan.worthwhile_gain_N, no_sensor_errors_N(plan)},
+                  independent_errors(database, study_id, plan, options.jobs));
     std::vector<storage::PaperComparisonRecord> paper;
     if (plan.compare_with_paper && options.compare_with_paper) {
         paper = options.compare_with_paper(database, study_id);

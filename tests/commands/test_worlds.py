@@ -131,6 +131,27 @@ class Worlds(CapstanTest):
         self.assertTrue(by_noise["1 %"]["beats_no_sensor"])
         self.assertFalse(by_noise["20 %"]["beats_no_sensor"])
         self.assertIn("knows friction", answer["assumptions"])
+        for each in answer["recommendations"]:
+            if each["beats_no_sensor"] is not None:
+                self.assertEqual(each["sentence"].startswith("Use no sensor: "), not each["beats_no_sensor"])
+
+    def test_what_is_advised_beats_no_sensor_or_the_advice_is_none(self):
+        """Poor sensors, few segments, a far end that moves little or much; few repetitions."""
+        sweep = (CONFIGS / "noise-sweep.toml").read_text().replace("samples = 200", "samples = 60")
+        for old, new in (("", ""), ("noise_ratio = 0.05", "noise_ratio = 0.2"), ("segments = 10", "segments = 4"),
+                         ("far_end_range_m = 0.001", "far_end_range_m = 0.0002"),
+                         ("far_end_range_m = 0.001", "far_end_range_m = 0.006"), ("noise_N = 0.02", "noise_N = 50")):
+            self.assertIn(old, sweep)
+            self.write("sweep.toml", sweep.replace(old, new))
+            for repetitions in (20, 40):
+                with self.subTest(new, repetitions=repetitions):
+                    answer = json.loads(self.run_capstan("place", "sweep.toml", "--repetitions", repetitions, "--json").stdout)
+                    advice = answer["recommendations"][0]
+                    self.assertEqual(advice["beats_no_sensor"], new != "noise_N = 50")
+                    if advice["beats_no_sensor"]:
+                        self.assertLess(advice["monte_carlo_interval_N"][1], advice["no_sensor_error_N"])
+                    else:
+                        self.assertEqual(advice["sensors"], [])
 
     def test_a_recommendation_says_what_a_buyer_asks(self):
         answer = json.loads(self.run_capstan("place", "arm.toml", "--json").stdout)

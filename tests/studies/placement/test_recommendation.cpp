@@ -196,7 +196,7 @@ TEST(Recommendation, SentenceNamesWhatWasNotCompared) {
     study.sensor_sets = {study.sensor_sets[2]};
     record.set_index = 0;
     record.alternatives.clear();
-    expect_parts(recommendation_sentence(study, record, 0.02),
+    expect_parts(recommendation_sentence(study, record, {0.02}),
                  {"No other choice with 2 sensors was compared."});
 }
 
@@ -205,9 +205,24 @@ TEST(Recommendation, SentenceGivesTheGainOfSeveralSensorsAndOfEach) {
     ASSERT_EQ(record.counts.back().sensor_count, 3);
     record.counts.back().sensor_count = 5;  // the next count after 2
     record.counts.back().error_N = 0.44;
-    expect_parts(recommendation_sentence(description(), record, 0.02),
+    expect_parts(recommendation_sentence(description(), record, {0.02}),
                  {"3 more sensors would lower the error by 0.060 N, 0.020 N for each (threshold for adding a "
                   "sensor: 0.020 N)."});
+}
+
+TEST(Recommendation, SaysWhereNoSensorIsAsGood) {
+    const storage::RecommendationRecord record = find("regime", "mass");  // 0.503 N, 0.507 N at most
+    EXPECT_TRUE(beats_no_sensor(record, 0.51));
+    EXPECT_FALSE(beats_no_sensor(record, 0.505));
+    expect_parts(recommendation_sentence(description(), record, {0.02, {{"mass", 0.51}}}),
+                 {"Use 2 sensors, at", "Without any sensor it is 0.510 N."});
+    expect_parts(
+        recommendation_sentence(description(), record, {0.02, {{"mass", 0.505}}}),
+        {"Use no sensor: the expected tension error without any is 0.505 N, and the sensors that the "
+         "draws chose are not better: 0.503 N with 2 sensors",
+         "With 3 sensors it would be 0.495 N, but each adds less than the threshold."});
+    expect_parts(recommendation_sentence(description(), record, {0.02, {{"mass", 0.3}}}),
+                 {"No studied number of sensors is."});
 }
 
 TEST(Recommendation, SentenceOfMinimaxRegretGivesTheExcessError) {
