@@ -1,6 +1,7 @@
 #include "capstan/cli/watched_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX's own names are in no <csignal>
 
 #include <charconv>
@@ -208,9 +209,15 @@ void take_diagnosis(const Invocation& invocation, StudyPlan& plan) {
     if (!plan.uncertainty.is_stated)
         throw UsageError(
             "capstan: --from-diagnosis needs a CONFIG with [uncertainty], whose worlds it changes");
-    const DiagnosedWorld found = world_of(named_diagnosis(invocation));
+    const DiagnosedWorld found = world_of(named_diagnosis(invocation), plan.transmission.arrangement);
     for (const std::string& cause : found.left_out)
         say(fmt::format("Note: {} is not of the cable and is left out.", cause));
+    if (found.truth.has_effects() && plan.motion.distal.kind == EndKind::spring)
+        throw UsageError(fmt::format(
+            "capstan: the diagnosis found {}, and effects are simulated between ends whose positions are given, but "
+            "[motion.distal] is a spring. Make it kind = \"position\" and state how far the far end itself moves as "
+            "uncertainty.far_end_range_m, or give a diagnosis without effects",
+            fmt::join(effects_there(found.truth.effects), ", ")));
     plan.truth = found.truth;
     plan.uncertainty.truth_probability = found.probability;
 }

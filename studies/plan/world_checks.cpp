@@ -34,10 +34,6 @@ std::vector<KeyProblem> problems_of_worlds(const StudyPlan& plan) {
             problems.push_back(
                 {"motion.distal.kind",
                  "must be \"position\" with arrangement = \"pull_pull\": the load pulley is moved"});
-        if (plan.truth.has_effects())
-            problems.push_back({"truth",
-                                "effects are simulated for a single cable only; leave them out, or use "
-                                "arrangement = \"single\""});
     }
     if (plan.uncertainty.members % 8 != 0)
         problems.push_back({"uncertainty.members", "is " + std::to_string(plan.uncertainty.members) +

@@ -139,10 +139,11 @@ reports::Answer placed_about(const DiagnosedWorld& found, ReadConfig config, con
 }
 
 // What a diagnosis says of the worlds; a warning names what it cannot say.
-std::optional<DiagnosedWorld> world_about(const std::shared_ptr<PythonDiagnosis>& found) {
+std::optional<DiagnosedWorld> world_about(const std::shared_ptr<PythonDiagnosis>& found,
+                                          CableArrangement arrangement) {
     if (found == nullptr) return {};
     const auto& split = found->runs.split;
-    DiagnosedWorld world = world_of(answers::diagnosis_record(split.diagnosed, split.diagnosis));
+    DiagnosedWorld world = world_of(answers::diagnosis_record(split.diagnosed, split.diagnosis), arrangement);
     for (const std::string& cause : world.left_out) {
         const std::string words = cause + " is not of the cable and is left out.";
         if (PyErr_WarnEx(PyExc_UserWarning, words.c_str(), 3) != 0) throw py::error_already_set();
@@ -171,7 +172,7 @@ std::shared_ptr<reports::Answer> place(const ReadConfig& config,
     if (!resolve_to_N.is_none()) options.resolve_to_N = number_of(resolve_to_N, "resolve_to_N");
     if (options.resolve_to_N && !(*options.resolve_to_N >= 1e-6 && *options.resolve_to_N <= 1e6))
         throw InvalidInput({"resolve_to_N: must be 1e-6 to 1e6 N"});
-    const std::optional<DiagnosedWorld> world = world_about(found);
+    const std::optional<DiagnosedWorld> world = world_about(found, config.plan.transmission.arrangement);
     run_long_call(on_progress, [=](CallWatch& watch) mutable {
         options.on_progress = [&](const std::string& activity) { watch.tell(activity, 0.0); };
         if (world) {

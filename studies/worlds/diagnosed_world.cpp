@@ -35,7 +35,7 @@ double present_probability(const storage::DiagnosisRecord& diagnosis, const std:
 
 }  // namespace
 
-DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis) {
+DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis, CableArrangement arrangement) {
     DiagnosedWorld world;
     world.truth.friction_ratio = diagnosis.friction_ratio;
     world.truth.stiffness_ratio = diagnosis.stiffness_ratio;
@@ -50,7 +50,8 @@ DiagnosedWorld world_of(const storage::DiagnosisRecord& diagnosis) {
     for (const storage::DiagnosisCauseRecord& cause : diagnosis.causes) {
         if (is_a_wrong_ratio(cause)) continue;
         // What one cable of a pair has, a single cable can have.
-        const std::string variant = cause.variant == "cable B" ? "cable A" : cause.variant;
+        const bool is_of_b = cause.variant == "cable B" && arrangement == CableArrangement::single;
+        const std::string variant = is_of_b ? "cable A" : cause.variant;
         const auto effect = std::find_if(catalogue.begin(), catalogue.end(), [&](const Effect& each) {
             return each.name == cause.effect && each.variant == variant && each.changes_the_cable;
         });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -58,6 +59,21 @@ EffectValues draw_effects(const WorldQuestion& question, std::uint32_t index) {
                 standard_normals({question.seed, RandomPurpose::world_cable, 2, index, which})[0];
             effects[e][p] += question.uncertainty.worlds_ratio * deviations[p] * normal;
             effects[e][p] = std::clamp(effects[e][p], parameter.low, parameter.high);
+        }
+    }
+    return effects;
+}
+
+// What each cable of a pair has of the effects: those of both, and its own.
+EffectValues effects_of_cable(EffectValues effects, int cable) {
+    const auto& catalogue = effect_catalogue();
+    for (std::size_t of_a = 0; of_a < catalogue.size(); ++of_a) {
+        if (catalogue[of_a].variant != "cable A") continue;
+        for (std::size_t of_b = 0; of_b < catalogue.size(); ++of_b) {
+            if (catalogue[of_b].variant != "cable B" || catalogue[of_b].name != catalogue[of_a].name)
+                continue;
+            if (cable == 1) effects[of_a] = effects[of_b];  // it is simulated by itself, as a cable A
+            effects[of_b] = catalogue[of_b].absent;
         }
     }
     return effects;
@@ -120,12 +136,17 @@ std::vector<double> far_end_of(const WorldQuestion& question, std::uint32_t inde
     return displacement_m;
 }
 
-// The true transmission of a world over time: by the closed-form step, a single cable with effects by the
-// bench.
+// The true transmission of a world over time: by the closed-form step, with effects by the bench. Both
+// pulleys of a pair are moved, so that its cables do not act on each other and each has a bench of its own.
 class TrueMover {
   public:
     TrueMover(const WorldQuestion& question, const World& world, std::uint32_t index)
         : stiffness_N_per_m_(question.belief.support.spring_stiffness_N_per_m) {
+        const bool has_effects = question.truth.has_effects() && is_as_truth_says(question, index);
+        for (int cable = 0; cable < cables_of(question.belief.arrangement) && has_effects; ++cable)
+            effects_.push_back(std::make_unique<CableWithEffects>(
+                specification_of(question, world.factors[static_cast<std::size_t>(cable)], index),
+                effects_of_cable(draw_effects(question, index), cable), question.motion.sample_rate_Hz));
         const Cable first(specification_of(question, world.factors[0], index));
         if (question.belief.arrangement == CableArrangement::pull_pull) {
             const Cable second(specification_of(question, world.factors[1], index));
@@ -136,24 +157,27 @@ class TrueMover {
         step_.emplace(first, ModelRules::consistent());
         pair_state_.cable_a = pretensioned(first);
         begun_m_ = pair_state_.cable_a.displacement_m.front();
-        if (!question.truth.has_effects() || !is_as_truth_says(question, index)) return;
-        effects_.emplace(specification_of(question, world.factors[0], index), draw_effects(question, index),
-                         question.motion.sample_rate_Hz);
     }
 
-    bool has_effects() const { return effects_.has_value(); }
+    bool has_effects() const { return !effects_.empty(); }
     int unsolved_steps() const { return unsolved_steps_; }
     int cables() const { return pair_ ? 2 : 1; }
     const CableState& state(int cable) const {
-        if (effects_) return effects_->state();
+        if (has_effects()) return effects_[static_cast<std::size_t>(cable)]->state();
         return cable == 0 ? pair_state_.cable_a : pair_state_.cable_b;
     }
 
     // Both ends (of a pair those of cable A) as they moved since the start; of a spring its wall.
     void advance(int sample, double proximal_m, double far_end_m) {
-        const bool is_solved = effects_ ? effects_->advance(sample, proximal_m, far_end_m)
-                               : pair_  ? advance_pair(proximal_m, far_end_m)
-                                        : advance_cable(proximal_m, far_end_m);
+        bool is_solved = true;
+        if (has_effects()) {
+            for (std::size_t cable = 0; cable < effects_.size(); ++cable) {
+                const double way = cable == 0 ? 1.0 : -1.0;  // E15
+                is_solved = effects_[cable]->advance(sample, way * proximal_m, way * far_end_m) && is_solved;
+            }
+        } else {
+            is_solved = pair_ ? advance_pair(proximal_m, far_end_m) : advance_cable(proximal_m, far_end_m);
+        }
         unsolved_steps_ += is_solved ? 0 : 1;
     }
 
@@ -181,7 +205,7 @@ class TrueMover {
     std::optional<PullPull> pair_;
     PullPullState pair_state_;  // of a single cable its cable A
     double begun_m_ = 0.0;
-    std::optional<CableWithEffects> effects_;
+    std::vector<std::unique_ptr<CableWithEffects>> effects_;  // cables; empty without effects
     int unsolved_steps_ = 0;
 };
 

@@ -145,6 +145,17 @@ class BenchModel(CapstanTest):
         self.assertIn("a model.toml", self.run_capstan(*words, "pair", expect=2).stderr)
         self.assertIn("is not a model of a bench", self.run_capstan(*words, "arm.toml", expect=2).stderr)
 
+    def test_a_pair_is_the_world_of_a_study_of_a_pair(self):
+        self.run_capstan("diagnose", PAIR, "--runs", "1", "--save", "model.toml", "--progress", "none")
+        self.write("pair.toml", (CONFIGS / "pull-pull-wrist.toml").read_text().replace("samples = 150", "samples = 40"))
+        words = ("--from-diagnosis", "model.toml", "--repetitions", "20")
+        about = json.loads(self.run_capstan("place", "pair.toml", *words, "--json").stdout)
+        self.assertIn("viscous_friction", json.dumps(about))
+        self.assertNotEqual(*[row["expected_error_N"] for row in about["recommendations"]])
+        spring = self.run_capstan("place", CONFIGS / "wrist-exosuit.toml", *words, expect=2)
+        self.assertIn("the diagnosis found viscous_friction", spring.stderr)
+        self.assertIn('Make it kind = "position"', spring.stderr)
+
     def test_wrong_models_are_rejected_with_file_line_and_key(self):
         text, _ = self.saved_model(PAIR, "1")
         line = 1 + text[:text.index("motor_radius_m")].count("\n")

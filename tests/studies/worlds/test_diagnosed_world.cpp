@@ -123,6 +123,62 @@ TEST(DiagnosedWorld, IsAsProbableAsItsLeastProbableCauseIsPresent) {
     EXPECT_EQ(world_of(diagnosis).probability, 0.96);
 }
 
+StudyPlan pair_about(const storage::DiagnosisRecord& diagnosis) {
+    StudyPlan plan = testing::pair_plan();
+    plan.transmission.cable.static_friction = plan.transmission.cable.dynamic_friction;
+    plan.transmission.cable.segments = 40;
+    plan.motion.samples = 40;
+    plan.truth = world_of(diagnosis, CableArrangement::pull_pull).truth;
+    return plan;
+}
+
+// Mean over worlds, samples and nodes of how far the tensions of one cable differ between two plans.
+double difference_N(const StudyPlan& a, const StudyPlan& b, int cable) {
+    const WorldQuestion questions[] = {world_question(a), world_question(b)};
+    double sum_N = 0.0;
+    int count = 0;
+    for (std::uint32_t index = 0; index < 5; ++index) {
+        const World worlds[] = {draw_world(questions[0], index), draw_world(questions[1], index)};
+        EXPECT_EQ(worlds[0].unsolved_steps, 0);
+        const int nodes = worlds[0].nodes / 2;
+        for (int sample = 0; sample < worlds[0].samples(); ++sample) {
+            for (int node = cable * nodes; node < (cable + 1) * nodes; ++node, ++count)
+                sum_N += std::abs(worlds[0].tensions_N(sample)[static_cast<std::size_t>(node)] -
+                                  worlds[1].tensions_N(sample)[static_cast<std::size_t>(node)]);
+        }
+    }
+    return sum_N / count;
+}
+
+storage::DiagnosisRecord pair_diagnosis(const std::string& effect, const std::string& variant,
+                                        const std::string& number, double value) {
+    storage::DiagnosisRecord diagnosis;
+    diagnosis.confidence_fraction = 1.0;
+    diagnosis.causes = {
+        {effect, variant, "conduit", "", {}, {{number, value, "", {}, {}}, {"middle", 0.5, "m", {}, {}}}}};
+    return diagnosis;
+}
+
+TEST(DiagnosedWorld, OfAPairWithNextToNoDragIsThePairWithoutEffects) {
+    const StudyPlan slight = pair_about(pair_diagnosis("viscous_friction", "", "drag", 1e-6));
+    const StudyPlan strong = pair_about(pair_diagnosis("viscous_friction", "", "drag", 5000.0));
+    const StudyPlan none = pair_about({});
+    for (const int cable : {0, 1}) {
+        EXPECT_LT(difference_N(slight, none, cable), 0.2);
+        EXPECT_GT(difference_N(strong, none, cable), 0.5);
+    }
+}
+
+TEST(DiagnosedWorld, OfAPairHasABendOfOneCableOnThatCableAlone) {
+    const StudyPlan none = pair_about(pair_diagnosis("local_bend", "cable A", "angle", 1e-9));
+    const StudyPlan of_a = pair_about(pair_diagnosis("local_bend", "cable A", "angle", 2.0));
+    const StudyPlan of_b = pair_about(pair_diagnosis("local_bend", "cable B", "angle", 2.0));
+    EXPECT_GT(difference_N(of_a, none, 0), 0.1);
+    EXPECT_LT(difference_N(of_a, none, 1), 1e-6);
+    EXPECT_LT(difference_N(of_b, none, 0), 1e-6);
+    EXPECT_GT(difference_N(of_b, none, 1), 0.1);
+}
+
 TEST(DiagnosedWorld, DoesNotLeaveOutAWrongFrictionThatItsRatioHolds) {
     storage::DiagnosisRecord diagnosis = drag_diagnosis();
     diagnosis.causes = {{"param_mu", "", "parameter", "", {}, {}},
