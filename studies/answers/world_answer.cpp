@@ -72,6 +72,23 @@ std::string flips_words(const WorldAnswer& found) {
                        fmt::join(flips, "; "));
 }
 
+// What the band is worth where the estimator is told too little uncertainty.
+std::string narrow_band_words(const WorldAnswer& found) {
+    // A hundredth is what the worlds leave open.
+    constexpr double honest_fraction = 0.94;
+    for (const Robustness& each : found.robustness) {
+        if (each.condition != Condition::wider_worlds) continue;
+        return fmt::format(
+            " If the cables are twice as uncertain as stated and the estimator is not told, its error is {:.3f} N and its 95% band "
+            "holds {:.0f}% of the true tensions{}.",
+            each.error.value_N, 100.0 * each.covered_fraction,
+            each.covered_fraction < honest_fraction
+                ? ": it is too narrow then, so state the uncertainty rather too large"
+                : "");
+    }
+    return {};
+}
+
 std::string bound_note(const WorldAnswer& found) {
     if (!found.bound) return {};
     return fmt::format(
@@ -219,7 +236,7 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
             "estimator the exact value."};
     reports::AnswerSection robustness{.id = "robustness",
                                       .heading = "If the stated uncertainty is wrong",
-                                      .prose = flips_words(found),
+                                      .prose = flips_words(found) + narrow_band_words(found),
                                       .tables = {{"robustness",
                                                   "",
                                                   {{"widths", ""},

@@ -164,6 +164,7 @@ TEST(SlowFurtherSensor, RaisesTheSquaredErrorOfAParticleFilterNowhere) {
     plan.motion.samples = 200;
     plan.sensors.front().errors.multiplicative_ratio = 0.2;
     plan.transmission.cable.segments = 4;
+    plan.transmission.cable.static_friction = 3.0 * plan.transmission.cable.dynamic_friction;
     place_nodes(plan);
     Seen seen;
     expect_the_law(plan, 200, seen);
