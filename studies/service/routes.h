@@ -94,6 +94,9 @@ std::string config_named(const ServiceOptions& options, const std::string& name)
 /// The studies of the configuration that a body names or holds. A BadRequest with everything that is wrong.
 std::vector<StudyPlan> studies_in(const RouteContext& context, const nlohmann::json& body);
 
+/// What these studies cost, as cost_estimate.h says it.
+nlohmann::ordered_json cost_of_studies_in(const RouteContext& context, const nlohmann::json& body);
+
 /// The job that the path names; a BadRequest (404) if there is none.
 Job job_in_path(const RouteContext& context, const http::Request& request);
 
