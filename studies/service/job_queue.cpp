@@ -301,6 +301,7 @@ void JobQueue::run(Job job) {
         child_.reset();
         each.result_id = job.result_id;
         each.progress.seconds_left.reset();
+        each.progress.max_seconds_left.reset();
         if (ended.exit_code == 0) {
             each.state = JobState::done;
             each.progress.fraction = 1.0;
