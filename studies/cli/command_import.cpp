@@ -52,6 +52,9 @@ class LateProgress {
 };
 
 ExitCode suggest(const Invocation& invocation, LateProgress& display) {
+    if (invocation.has("mapping"))
+        throw UsageError(
+            "capstan import: --suggest proposes a mapping anew and would not read --mapping; give one of the two");
     const std::filesystem::path file = invocation.text("output");
     if (std::filesystem::is_regular_file(file)) {
         throw UsageError(fmt::format(
