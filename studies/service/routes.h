@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capstan/http/server.h"
+#include "capstan/reports/answer.h"
 #include "capstan/service/layout_scorer.h"
 #include "capstan/service/report_shelf.h"
 #include "capstan/service/service.h"
@@ -99,6 +100,10 @@ nlohmann::ordered_json cost_of_studies_in(const RouteContext& context, const nlo
 
 /// The job that the path names; a BadRequest (404) if there is none.
 Job job_in_path(const RouteContext& context, const http::Request& request);
+
+/// What the database holds of a diagnosis, which lacks the curves and the experiments that would distinguish
+/// its explanations; a BadRequest (404) if there is none.
+reports::Answer stored_answer_of(const RouteContext& context, std::int64_t diagnosis_id);
 
 /// The parts `log` and `sidecar` of a request. A BadRequest if one is missing or no recording.
 struct UploadedRecording {
