@@ -311,7 +311,9 @@ void JobQueue::run(Job job) {
             each.state = JobState::stopped;
         } else {
             each.state = JobState::failed;
-            each.message = messages.empty() ? fmt::format("ended with code {}", ended.exit_code) : messages;
+            each.message = messages.empty()
+                               ? fmt::format("ended with code {}", ended.exit_code)
+                               : plain_messages(messages, file_of(folder_, job, "").parent_path().string());
         }
     });
 }

@@ -173,6 +173,9 @@ class Serve(ServiceTest):
         self.serve()
         done = self.run_capstan("serve", "--db", "served.db", "--port", 0, expect=1)
         self.assertIn("another `capstan serve` has", done.stderr)
+        (self.folder / "link.db").symlink_to("served.db")
+        done = self.run_capstan("serve", "--db", "link.db", "--port", 0, expect=1)
+        self.assertIn("another `capstan serve` has", done.stderr)
         done = self.run_capstan("serve", "--db", "other.db", "--port", self.port, expect=1)
         self.assertIn("Try another --port", done.stderr)
 
