@@ -24,16 +24,17 @@ std::string number_text(double value, const std::string& format) {
     return fmt::format(fmt::runtime("{:" + format + "}"), value);
 }
 
-std::string cell_text(const Data& value, const std::string& format) {
-    if (const std::string* text = value.text()) return text->empty() ? "-" : *text;
-    if (const double* number = value.number()) return number_text(*number, format);
+std::string cell_text(const Data& value, const Column& column) {
+    if (const std::string* text = value.text())
+        return text->empty() ? "-" : column.words != nullptr ? column.words(*text) : *text;
+    if (const double* number = value.number()) return number_text(*number, column.format);
     if (const std::int64_t* integer = value.integer()) return std::to_string(*integer);
     if (const bool* boolean = value.boolean()) return *boolean ? "yes" : "no";
     const std::vector<Data>& items = value.items();
     const bool is_interval = items.size() == 2 && items[0].number() != nullptr;
     std::string text;
     for (const Data& item : items)
-        text += (text.empty() ? "" : is_interval ? " to " : ", ") + cell_text(item, format);
+        text += (text.empty() ? "" : is_interval ? " to " : ", ") + cell_text(item, column);
     return text.empty() ? "-" : text;
 }
 
@@ -122,7 +123,7 @@ std::vector<std::vector<std::string>> cells_of(const AnswerTable& table) {
         auto& line = cells.emplace_back();
         for (const Column& column : table.columns) {
             const Data* value = row.find(column.path);
-            line.push_back(value == nullptr ? "-" : cell_text(*value, column.format));
+            line.push_back(value == nullptr ? "-" : cell_text(*value, column));
         }
     }
     return cells;

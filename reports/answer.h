@@ -16,6 +16,7 @@ struct Column {
     std::string title;     ///< for people
     std::string unit{};    ///< empty: none
     std::string format{};  ///< of a number: ".3f", "+.3f", ".1%", else four digits; "wrap": long texts
+    std::string (*words)(const std::string& name) = nullptr;  ///< a name as people read it; CSV has the name
 };
 
 /// Rows to read. A value that is missing reads "-"; a list of two numbers "0.1 to 0.2".

@@ -73,6 +73,10 @@ struct Comparison {
     std::string second_title;
     std::vector<Table> tables;
 
+    const std::string& title_of(std::string_view series) const {
+        return series == "first" ? first_title : second_title;
+    }
+
     const Table& operator[](std::string_view name) const {
         return *std::find_if(tables.begin(), tables.end(),
                              [&](const Table& each) { return each.name == name; });
@@ -173,13 +177,19 @@ std::string verdict(const Comparison& comparison) {
         rows.size(), smaller, larger);
 }
 
+std::string question_title(const Row& recommendation) {
+    const std::string scope = recommendation.text("scope");
+    if (scope == "minimax_regret") return "safe in every regime";
+    if (scope == "duty_cycle") return "duty cycle";
+    return regime_title(recommendation.text("regime"));
+}
+
 Data recommendation_rows(const Comparison& comparison) {
     Data rows = Data::list();
     for (const Row& row : comparison["compared_recommendation"].each()) {
-        const std::string regime = row.text("regime");
         rows.push_back(
-            {{"study", row.text("series") == "first" ? comparison.first_title : comparison.second_title},
-             {"for", regime.empty() ? row.text("scope") : regime_title(regime)},
+            {{"study", comparison.title_of(row.text("series"))},
+             {"for", question_title(row)},
              {"noise", row.text("noise")},
              {"nodes", row.text("nodes")},
              {"method", row.text("method_title")},
@@ -187,6 +197,18 @@ Data recommendation_rows(const Comparison& comparison) {
              {"interval_95_N", Data::list({row.number("interval_low_N"), row.number("interval_high_N")})}});
     }
     return rows;
+}
+
+// As the figure names its panels and its series, in words.
+Table best_in_words(const Comparison& comparison) {
+    Table best = comparison["compared_best"];
+    for (std::vector<Value>& row : best.rows) {
+        const std::string question = std::get<std::string>(row[0]);
+        const std::size_t comma = question.find(", ");
+        row[0] = regime_title(question.substr(0, comma)) + "; noise " + question.substr(comma + 2);
+        row[1] = comparison.title_of(std::get<std::string>(row[1]));
+    }
+    return best;
 }
 
 // The common errors that differ most, in units of their uncertainty.
@@ -265,6 +287,8 @@ Answer study_comparison(const ComparedStudy& first, const ComparedStudy& second)
          .note = "The intervals treat the draws of the two studies as independent."}};
     answer.csv_table = "compared_error";
     answer.drawn = comparison.tables;
+    for (Table& table : answer.drawn)
+        if (table.name == "compared_best") table = best_in_words(comparison);
     return answer;
 }
 

@@ -134,10 +134,11 @@ std::int64_t find_study(Database& database, std::string_view id_or_name_or_lates
     for (const StudySummary& study : studies) {
         if (id && study.study_id == *id) return *id;
     }
+    // Before the names: it is what a command takes that is given none.
+    if (id_or_name_or_latest == "latest" && !studies.empty()) return studies.back().study_id;
     for (auto study = studies.rbegin(); study != studies.rend(); ++study) {
         if (study->name == id_or_name_or_latest) return study->study_id;
     }
-    if (id_or_name_or_latest == "latest" && !studies.empty()) return studies.back().study_id;
     throw Error(database.path().string() +
                 (shelf == Shelf::trash ? " has no deleted study '" : " has no study '") +
                 std::string(id_or_name_or_latest) + "'. " +

@@ -74,17 +74,6 @@ inline double moving_tension_N(const StepView& view, const Candidate& candidate,
                : candidate.distal.tension_N *
                      view.tables.distal(sign(pattern.distal_direction)).tension_ratio[node];
 }
-/// Displacement of a node under a candidate in which it moves.
-inline double moving_displacement_m(const StepView& view, const Candidate& candidate, int node) {
-    const MotionPattern& pattern = candidate.pattern;
-    return node < pattern.proximal_moving_nodes
-               ? candidate.proximal.displacement_m +
-                     candidate.proximal.tension_N *
-                         view.tables.proximal(sign(pattern.proximal_direction)).elongation_m_per_N[node]
-               : candidate.distal.displacement_m -
-                     candidate.distal.tension_N *
-                         view.tables.distal(sign(pattern.distal_direction)).elongation_m_per_N[node];
-}
 
 /// Relative rounding of a tension against the friction cone.
 inline constexpr double tension_rounding = 1e-10;

@@ -45,11 +45,6 @@ bool neighbour_gives_way(const CableEnd<which>& end, Direction direction, int mo
                                                  : last_tension_N >= resting_tension_N * ratio;
 }
 
-template <End which>
-SideMotion side_motion(const CableEnd<which>& end, Direction direction, int moving_nodes) {
-    return {direction, moving_nodes, end.partial_motion(end.table(direction), moving_nodes)};
-}
-
 /// Moves a side's front on until its resting neighbour holds; `nodes` when nothing holds.
 template <End which>
 SideMotion find_front(const CableEnd<which>& end, Direction direction, int first_count, int& patterns_tried) {

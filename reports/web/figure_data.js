@@ -8,6 +8,8 @@
   const field = (value) => /[",\r\n]/.test(value) ? '"' + String(value).replaceAll('"', '""') + '"' : value ?? "";
   const csv = (columns, rows) => [columns, ...rows.map((row) => columns.map((column) => row[column]))].map((line) => line.map(field).join(",")).join("\r\n") + "\r\n";
 
+  const counted = (rows) => rows + (rows === 1 ? " row" : " rows");
+
   function download(name, columns, rows) {
     const link = document.createElement("a");
     link.textContent = name + ".csv";
@@ -93,7 +95,7 @@
       const { columns, meaning } = tableOf(name);
       const rows = rowsOf(figure, name);
       const words = document.createElement("p");
-      words.append(meaning + " – ", rows.length + " rows: ", download(figure.id + "-" + name, columns, () => rows));
+      words.append(meaning + " – ", counted(rows.length) + ": ", download(figure.id + "-" + name, columns, () => rows));
       const scroll = document.createElement("div");
       scroll.className = "scroll tall";
       scroll.tabIndex = 0;
@@ -132,7 +134,7 @@
       const table = tableOf(name);
       if (!downloads || table.rows === 0) continue;
       const item = downloads.appendChild(document.createElement("li"));
-      item.append(download(name, table.columns, () => tables()[name]), " " + table.meaning + " (" + table.rows + " rows)");
+      item.append(download(name, table.columns, () => tables()[name]), " " + table.meaning + " (" + counted(table.rows) + ")");
     }
     for (const box of document.querySelectorAll('input[name="noise"]')) box.addEventListener("change", drawAll);
   }

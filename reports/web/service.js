@@ -64,7 +64,13 @@
   const words = (study) => [study.name, study.note, study.tags].join(" ").toLowerCase();
   const isWanted = (study) => at("study-filter").value.toLowerCase().split(/\s+/).every((word) => words(study).includes(word));
 
-  const rerun = async (id) => post("/api/studies", { config_toml: await (await ask(`/api/studies/${id}/config`)).text() });
+  // What begins anew tells its cost as at its first start.
+  const again = async (what, path, costPath, body) => {
+    if (await capstanPage.accepted("again", what, async () => (await post(costPath, body)).json())) await post(path, body);
+  };
+  const rerun = async (id) => again("Study " + id, "/api/studies", "/api/studies/cost", { config_toml: await (await ask(`/api/studies/${id}/config`)).text() });
+  // A study goes on with what is stored; anything else has stored nothing.
+  const resume = (job) => job.study_id ? post(`/api/jobs/${job.job}/resume`) : again(`The ${job.kind} of ${job.title}`, `/api/jobs/${job.job}/resume`, `/api/jobs/${job.job}/cost`);
   async function remove(id) {
     await post(`/api/studies/${id}/delete`);
     chosen.delete(id);
@@ -115,15 +121,19 @@
     return { shown: [...under_way.slice(0, 30), ...ended.slice(0, 20)], under_way: under_way.length };
   };
   const has_page = new Set(["place", "sensitivity", "estimate"]);
+  function timeLeft({ seconds_left: shortest, max_seconds_left: longest }) {
+    if (longest == null) return shortest > 0 ? "about " + seconds(shortest) + " left" : "";
+    return (shortest > 0 ? "about " + seconds(shortest) + " to " : "at most ") + seconds(longest) + " left";
+  }
   function showJobs(jobs) {
     at("job-none").hidden = jobs.length > 0;
     const { shown, under_way } = ofInterest(jobs);
     at("stop-all").hidden = under_way < 2;
     at("stop-all").textContent = `Stop all ${under_way} jobs`;
     at("job-table").tBodies[0].replaceChildren(...shown.map((job) => {
-      const activity = [job.activity, job.seconds_left > 0 ? "about " + seconds(job.seconds_left) + " left" : ""].filter(Boolean).join(", ");
-      const does = ["queued", "running"].includes(job.state) ? "stop" : ["stopped", "failed"].includes(job.state) ? "resume" : "";
-      const button = plainButton(does === "stop" ? "Stop" : "Resume", does + " job " + job.job, () => act(post("/api/jobs/" + job.job + "/" + does)));
+      const activity = [job.activity, timeLeft(job)].filter(Boolean).join(", ");
+      const does = ["queued", "running"].includes(job.state) ? "Stop" : ["stopped", "failed"].includes(job.state) ? (job.study_id ? "Resume" : "Run again") : "";
+      const button = plainButton(does, does + ": job " + job.job, () => act(does === "Stop" ? post(`/api/jobs/${job.job}/stop`) : resume(job)));
       const result = job.study_id ? link("/studies/" + job.study_id, "study " + job.study_id) : job.diagnosis_id ? link("/diagnoses/" + job.diagnosis_id, "diagnosis " + job.diagnosis_id) : job.state === "done" && has_page.has(job.kind) ? link("/jobs/" + job.job, "answer " + job.job) : "";
       const row = element("tr", {}, element("th", { scope: "row", textContent: "Job " + job.job }), cell(job.kind + " " + job.title), cell(job.state),
         cell(...(job.state === "running" ? bar(job.fraction, activity) : job.message ? [element("ul", { className: "problem-list" }, ...problemList(job.message))] : [])), cell(result), cell(...(does ? [button] : [])));

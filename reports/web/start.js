@@ -31,7 +31,7 @@
     if (!is_wanted) at(form + "-cost-words").textContent = "";
     return is_wanted;
   };
-  for (const form of ["start", "upload", "import"]) {
+  for (const form of ["start", "again", "upload", "import"]) {
     at(form + "-anyway").addEventListener("click", () => decide?.(true));
     at(form + "-not").addEventListener("click", () => decide?.(false));
   }

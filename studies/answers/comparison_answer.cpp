@@ -101,7 +101,7 @@ reports::AnswerTable run_error_table(const OutputComparison& output) {
 reports::Table error_table(const ModelComparison& comparison) {
     reports::Table table{"model_error", "RMS of each model", {"channel", "model", "runs", "rms"}, {}};
     for (const OutputComparison& output : comparison.outputs) {
-        const std::string channel = fmt::format("{} [{}]", output.channel, output.unit);
+        const std::string channel = fmt::format("{} [{}]", channel_words(output.channel), output.unit);
         for (const ModelErrors& model : output.models) {
             if (const auto fitted = rms_over_runs(model.fitted))
                 table.rows.push_back({channel, model.title, "fitted", *fitted});
@@ -123,7 +123,7 @@ void add_comparison(reports::Answer& answer, const ModelComparison& comparison) 
         .prose = split_sentence(comparison),
         .tables = {{"models",
                     "RMS of measured minus modelled, from one second into each run; every run counts alike",
-                    {{"channel", "channel"},
+                    {worded_column("channel"),
                      {"title", "model"},
                      {"rms_fitted", "fitted", "", ".4g"},
                      {"rms_held_out", "held out", "", ".4g"},

@@ -4,6 +4,7 @@
 
 #include "capstan/answers/recording_answers.h"
 #include "capstan/effects/known_causes.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::answers {
 
@@ -25,16 +26,21 @@ Data text_or_nothing(const std::string& text) {
     return text.empty() ? Data() : Data(text);
 }
 
-std::string name_of(const DiagnosisCauseRecord& cause) {
-    return cause.effect + (cause.variant.empty() ? "" : ", " + cause.variant);
-}
-
 // The load's torque, else the first channel.
 const DiagnosisChannelRecord* judged_channel(const DiagnosisRecord& diagnosis) {
     for (const DiagnosisChannelRecord& each : diagnosis.channels) {
         if (each.channel == "load_torque") return &each;
     }
     return diagnosis.channels.empty() ? nullptr : &diagnosis.channels.front();
+}
+
+// Of titles, from "sensor_offset, motor_torque".
+reports::Column cause_column(const std::string& path) {
+    return {path, path, "", "", [](const std::string& name) {
+                const std::size_t comma = name.find(", ");
+                return cause_words(name.substr(0, comma),
+                                   comma == std::string::npos ? "" : name.substr(comma + 2));
+            }};
 }
 
 Data interval_or_nothing(const std::optional<double>& low, const std::optional<double>& high) {
@@ -135,7 +141,7 @@ Data fitted_data(const DiagnosisRecord& diagnosis) {
     Data rows = Data::list();
     for (const DiagnosisCauseRecord& cause : diagnosis.causes) {
         for (const auto& number : cause.numbers)
-            rows.push_back({{"of", name_of(cause)},
+            rows.push_back({{"of", cause.effect + (cause.variant.empty() ? "" : ", " + cause.variant)},
                             {"number", number.name},
                             {"value", number.value_in_unit},
                             {"interval_95", interval_or_nothing(number.low_in_unit, number.high_in_unit)},
@@ -167,11 +173,11 @@ std::size_t likely_effects(const DiagnosisRecord& diagnosis) {
 std::string where_sentence(const DiagnosisRecord& diagnosis) {
     std::string text = diagnosis.gap_sentence;
     if (diagnosis.component.empty() || diagnosis.component == "none") return text;
-    text += fmt::format(" The cause is in the component {}", diagnosis.component);
+    text += fmt::format(" The cause is in the component {}", channel_words(diagnosis.component));
     if (!diagnosis.cable_end.empty()) text += fmt::format(", at the {} end", diagnosis.cable_end);
     if (diagnosis.position_m) text += fmt::format(", about {:.2f} m from the motor", *diagnosis.position_m);
-    return text + fmt::format(". Relative to its noise the gap is largest in run {}, channel {}.",
-                              diagnosis.worst_run, diagnosis.worst_channel);
+    return text + fmt::format(". Relative to its noise the gap is largest in the {} of run {}.",
+                              channel_words(diagnosis.worst_channel), diagnosis.worst_run);
 }
 
 reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const Data& values) {
@@ -184,22 +190,22 @@ reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const D
             "their probability; \"present at all\" is the probability that a cause is there, whatever else is.",
         .tables = {{"probability",
                     "Probability of each cause",
-                    {{"effect", "effect"},
+                    {cause_column("effect"),
                      {"probability", "probability", "", ".2f"},
                      {"present", "present at all", "", ".2f"}},
                     *values.find("ranked"),
                     likely_effects(diagnosis)},
                    {"fitted",
                     "Fitted numbers",
-                    {{"of", "of"},
-                     {"number", "number"},
+                    {cause_column("of"),
+                     worded_column("number"),
                      {"value", "value"},
                      {"interval_95", "95% interval", "", ".4g"},
                      {"unit", "unit"}},
                     fitted_data(diagnosis)},
                    {"channels",
                     "RMS of measured minus modelled, over all samples",
-                    {{"channel", "channel"},
+                    {worded_column("channel"),
                      {"unit", "unit"},
                      {"noise", "noise", "", ".3g"},
                      {"rms_before", "before", "", ".3g"},
@@ -240,7 +246,11 @@ Table map_table(const DiagnosisRecord& diagnosis) {
 std::string next_experiment_sentence(const gap::NonIdentifiable& open) {
     if (open.group.size() < 2) return "";
     std::vector<std::string> group;
-    for (const auto& effects : open.group) group.push_back(fmt::format("{}", fmt::join(effects, " with ")));
+    for (const auto& effects : open.group) {
+        std::vector<std::string> titles;
+        for (const std::string& effect : effects) titles.push_back(cause_title(effect));
+        group.push_back(fmt::format("{}", fmt::join(titles, " with ")));
+    }
     const std::string text = (open.is_unknown ? "Known effects do not explain the whole gap. Closest come: "
                                               : "This recording cannot distinguish: ") +
                              fmt::format("{}.", fmt::join(group, "; "));
@@ -289,8 +299,21 @@ reports::AnswerSection next_section(const gap::NonIdentifiable& open, const Data
 
 }  // namespace
 
+std::string cause_words(const std::string& effect, const std::string& variant) {
+    const std::string title = cause_title(effect);
+    return variant.empty() ? title : title + " (" + channel_words(variant) + ")";
+}
+
+std::string drawn_name(const Channel& channel) {
+    return channel_words(channel.name) + " [" + channel.unit + "]";
+}
+
+reports::Column worded_column(const std::string& path) {
+    return {path, path, "", "", [](const std::string& name) { return channel_words(name); }};
+}
+
 std::string part_name(const std::string& divided_by, const std::string& part) {
-    return divided_by + ": " + part;
+    return divided_by + ": " + (divided_by == "channel" ? channel_words(part) : part);
 }
 
 Answer stored_diagnosis_answer(const DiagnosisRecord& diagnosis) {

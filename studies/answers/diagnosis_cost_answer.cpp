@@ -12,9 +12,8 @@ reports::Answer diagnosis_cost_answer(const std::string& recording,
         .id = "diagnosis_cost",
         .kind = "Estimated cost of a diagnosis",
         .title = recording,
-        .headline =
-            fmt::format("a diagnosis takes about {} to {} on this machine, depending on what it finds.",
-                        duration_words(cost.min_seconds), duration_words(cost.max_seconds))};
+        .headline = fmt::format("a diagnosis takes {} on this machine, depending on what it finds.",
+                                duration_range_words(cost.min_seconds, cost.max_seconds))};
     answer.values = {{"recording", recording},
                      {"runs", cost.runs},
                      {"samples", cost.samples},

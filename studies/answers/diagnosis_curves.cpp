@@ -33,10 +33,6 @@ struct Curves {
     Table part_channel{"part_channel", "The channel of a part of the gap's map", {"part", "channel"}, {}};
 };
 
-std::string drawn_name(const Channel& channel) {
-    return fmt::format("{} [{}]", channel.name, channel.unit);
-}
-
 void add_channel(Curves& curves, const Recording& recording, const Diagnosis& diagnosis, std::size_t run,
                  std::size_t channel, std::size_t limit) {
     const RecordedRun& recorded = recording.runs[run];

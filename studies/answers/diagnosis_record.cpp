@@ -6,7 +6,6 @@
 #include "capstan/answers/recording_answers.h"
 #include "capstan/blind_trial/sealed_labels.h"
 #include "capstan/effects/effect_catalogue.h"
-#include "capstan/effects/known_causes.h"
 #include "capstan/gap/gap_map.h"
 #include "capstan/platform/files.h"
 #include "capstan/reports/page_frame.h"
@@ -94,10 +93,8 @@ std::string verdict_name(const gap::Diagnosis& diagnosis) {
     return fmt::format("{}", fmt::join(effects, " + "));
 }
 
-// "motor cogging", "sensor offset (motor torque)"
-std::string cause_words(const gap::FittedCause& cause) {
-    const std::string title = cause_title(cause.effect);
-    return cause.variant.empty() ? title : fmt::format("{} ({})", title, channel_words(cause.variant));
+std::string words_of(const gap::FittedCause& cause) {
+    return cause_words(cause.effect, cause.variant);
 }
 
 double present_probability(const gap::Diagnosis& diagnosis, const std::string& effect) {
@@ -113,8 +110,9 @@ std::string bounds_sentence(const gap::Diagnosis& diagnosis) {
     for (const gap::FittedCause& cause : diagnosis.causes) {
         for (const gap::FittedNumber& number : cause.numbers) {
             if (number.is_at_bound)
-                at_bounds.push_back(fmt::format("{} of {} ({:.4g}{}{})", number.name, cause_words(cause),
-                                                number.value, number.unit.empty() ? "" : " ", number.unit));
+                at_bounds.push_back(fmt::format("{} of {} ({:.4g}{}{})", channel_words(number.name),
+                                                words_of(cause), number.value, number.unit.empty() ? "" : " ",
+                                                number.unit));
         }
     }
     for (const std::string& ratio : diagnosis.at_bounds) at_bounds.push_back(ratio + " of the bench");
@@ -137,7 +135,7 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
         std::vector<std::string> beside;
         for (const gap::FittedCause& cause : diagnosis.causes) {
             const double present = present_probability(diagnosis, cause.effect);
-            if (present > likely) beside.push_back(fmt::format("{} ({:.2f})", cause_words(cause), present));
+            if (present > likely) beside.push_back(fmt::format("{} ({:.2f})", words_of(cause), present));
         }
         const std::string part =
             beside.empty() ? "" : fmt::format(" A part of it is probably {}.", fmt::join(beside, " and "));
@@ -147,7 +145,7 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
             beside.empty() ? "" : " completely", first.present, part, bounds_sentence(diagnosis));
     }
     std::vector<std::string> causes;
-    for (const gap::FittedCause& cause : diagnosis.causes) causes.push_back(cause_words(cause));
+    for (const gap::FittedCause& cause : diagnosis.causes) causes.push_back(words_of(cause));
     std::string text =
         causes.size() == 1
             ? fmt::format("The cause is {} (probability {:.2f}).", causes.front(), first.present)

@@ -63,7 +63,7 @@ void add_left_over(reports::Answer& answer, const std::vector<LeftOver>& left, c
          .prose = prose,
          .tables = {{"left_over",
                      "RMS that the corrected model leaves, from one second into each run",
-                     {{"channel", "channel"},
+                     {worded_column("channel"),
                       {"unit", "unit"},
                       {"rms", "corrected", "", ".3g"},
                       {"rms_left_out", "with law", "", ".3g"},

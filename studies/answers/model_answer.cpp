@@ -142,7 +142,7 @@ void add_curves(ModelCurves& curves, const ModelPrediction& prediction, const Re
                 const ChannelError& error, std::size_t limit) {
     const RecordedRun& run = recording.runs[error.run];
     const Channel& described = recording.channels[error.channel];
-    const std::string name = fmt::format("{} [{}]", described.name, described.unit);
+    const std::string name = drawn_name(described);
     const auto number = std::int64_t{run.number};
     const auto driven = driven_channel(recording, run);
     const std::vector<double>& measured = run.values[error.channel];
@@ -160,9 +160,7 @@ void add_curves(ModelCurves& curves, const ModelPrediction& prediction, const Re
                     {number, name, run.time_s[k], series, measured[k] - (*values)[k]});
             if (driven)
                 curves.loop.rows.push_back(
-                    {number,
-                     fmt::format("{} over {} [{}]", name, recording.channels[*driven].name,
-                                 recording.channels[*driven].unit),
+                    {number, fmt::format("{} over {}", name, drawn_name(recording.channels[*driven])),
                      run.time_s[k], series, run.values[*driven][k], (*values)[k]});
         }
     }
@@ -218,9 +216,9 @@ reports::Answer model_answer(const Recording& recording, const BenchModel& model
          .tables =
              {table("channels",
                     "RMS of measured minus predicted, from one second into each run; every run counts alike",
-                    {{"channel", "channel"}, {"fitted_words", "runs"}, {"runs", "numbers"}}, rows),
+                    {worded_column("channel"), {"fitted_words", "runs"}, {"runs", "numbers"}}, rows),
               table("runs", "The same for each run",
-                    {{"run", "run"}, {"channel", "channel"}, {"fitted_words", "runs"}}, each_run)},
+                    {{"run", "run"}, worded_column("channel"), {"fitted_words", "runs"}}, each_run)},
          .note = fmt::format(
              "{}. With law: the model with the law of what the diagnosis left. The fraction of the span is that "
              "of the model, without a law; the span is the largest in a run.",

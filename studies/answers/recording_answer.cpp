@@ -48,7 +48,7 @@ struct Overlay {
 void add_channel(Overlay& overlay, const RecordedRun& run, const Channel& channel,
                  const std::vector<double>& measured, const std::vector<double>& model, std::size_t limit) {
     const auto number = std::int64_t{run.number};
-    const std::string name = fmt::format("{} [{}]", channel.name, channel.unit);
+    const std::string name = drawn_name(channel);
     const std::size_t every = reports::drawn_every(measured.size(), limit);
     for (const auto& [series, values] : {std::pair{"measured", &measured}, {"modelled", &model}}) {
         for (std::size_t k = 0; k < values->size(); k += every)
@@ -101,7 +101,7 @@ reports::Answer recording_answer(const Recording& recording, const std::vector<T
                   "noise. Long runs are thinned evenly for drawing; the numbers are of every sample.",
          .tables = {{"channels",
                      "Residual of each channel, over all samples",
-                     {{"channel", "channel"},
+                     {worded_column("channel"),
                       {"run", "run"},
                       {"unit", "unit"},
                       {"residual_rms", "RMS of residual", "", ".3g"},

@@ -22,6 +22,13 @@
 
 namespace capstan::answers {
 
+/// "sensor offset (motor torque)"; `variant`: empty if there is none.
+std::string cause_words(const std::string& effect, const std::string& variant);
+/// "load torque [N m]", as figures name a channel.
+std::string drawn_name(const Channel& channel);
+/// A column of names that people read in words, and programs as they are: "load torque", `load_torque`.
+reports::Column worded_column(const std::string& path);
+
 /// The verdict of a diagnosis in one sentence.
 std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 

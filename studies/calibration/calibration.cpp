@@ -95,7 +95,10 @@ std::vector<int> indices_of(const std::vector<TwinParameter>& parameters,
             std::find_if(parameters.begin(), parameters.end(),
                          [&](const TwinParameter& parameter) { return parameter.name == name; });
         if (found != parameters.end()) {
-            indices.push_back(static_cast<int>(found - parameters.begin()));
+            const auto index = static_cast<int>(found - parameters.begin());
+            if (std::find(indices.begin(), indices.end(), index) != indices.end())
+                problems.push_back("'" + name + "' is named twice to be fitted");
+            indices.push_back(index);
             continue;
         }
         std::string known;

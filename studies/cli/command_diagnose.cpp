@@ -11,6 +11,7 @@
 #include "capstan/export/series.h"
 #include "capstan/model_comparison/diagnosed_runs.h"
 #include "capstan/model_comparison/diagnosis_cost.h"
+#include "capstan/platform/clocks.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/driven_inputs.h"
@@ -76,6 +77,31 @@ void write_prediction(const std::filesystem::path& file, Recording recording, co
         write_file(file, samples_csv(recording));
 }
 
+// What a search finds decides how long it goes on, so that the bar is of the longest time, and the time left
+// is a range; neither is told of a search that takes longer.
+class DiagnosisProgress {
+  public:
+    DiagnosisProgress() = default;
+    explicit DiagnosisProgress(const model_comparison::DiagnosisCost& cost)
+        : min_s_(cost.min_seconds), max_s_(cost.max_seconds) {}
+
+    ProgressEvent event(const std::string& activity) const {
+        constexpr double almost_all = 0.95;
+        const double taken_s = wall_time_s() - begun_s_;
+        ProgressEvent event{.activity = activity, .is_steady = false};
+        event.fraction = max_s_ > 0.0 ? std::min(almost_all, taken_s / max_s_) : 0.0;
+        if (taken_s >= max_s_) return event;
+        event.seconds_left = std::max(0.0, min_s_ - taken_s);
+        event.max_seconds_left = max_s_ - taken_s;
+        return event;
+    }
+
+  private:
+    double min_s_ = 0.0;
+    double max_s_ = 0.0;
+    double begun_s_ = wall_time_s();
+};
+
 ExitCode run_diagnose(const Invocation& invocation) {
     if (invocation.has("save")) bench_model::require_model_name(invocation.text("save"));
     const Recording recorded = read_recording(invocation.argument("LOG"));
@@ -89,16 +115,16 @@ ExitCode run_diagnose(const Invocation& invocation) {
         return ExitCode::success;
     }
     ProgressDisplay display(progress_mode(invocation.text("progress")));
-    options.on_progress = [&](const std::string& activity, double fraction) {
-        ProgressEvent event;
-        event.activity = activity;
-        event.fraction = fraction;
-        display.show(event);
+    DiagnosisProgress progress;
+    options.on_progress = [&](const std::string& activity, double) {
+        display.show(progress.event(activity));
     };
-    const model_comparison::DiagnosedRuns diagnosed =
-        model_comparison::diagnose_runs(recorded, asked_runs(invocation), options);
+    const model_comparison::DiagnosedRuns diagnosed = model_comparison::diagnose_runs(
+        recorded, asked_runs(invocation), options,
+        [&](const model_comparison::DiagnosisCost& cost) { progress = DiagnosisProgress(cost); });
     const Recording& recording = diagnosed.split.diagnosed;
     const Diagnosis& diagnosis = diagnosed.split.diagnosis;
+    display.show({.activity = "the answer", .fraction = 1.0});
     display.end_line();
     if (diagnosis.cut_short)
         say("The time limit ended the search: further causes were not tried, and the answer is the best so far.");

@@ -64,7 +64,8 @@ DatabaseState state_of(const std::string& file) {
 }
 
 std::string database_sentence(const std::string& file, const DatabaseState& state) {
-    std::string text = fmt::format("Database {}: {}.", file, state.words);
+    std::string text =
+        fmt::format("Database {}: {}{}", file, state.words, state.words.ends_with('.') ? "" : ".");
     const storage::Health& health = state.health;
     if (state.is_there && health.studies + health.diagnoses > 0)
         text += fmt::format(" Studies: {}, diagnoses: {}, cells: {}.", health.studies, health.diagnoses,

@@ -10,11 +10,11 @@
 #include "capstan/cli/output.h"
 #include "capstan/import/column_list.h"
 #include "capstan/import/importer.h"
-#include "capstan/suggestion/suggestion.h"
 #include "capstan/platform/progress.h"
 #include "capstan/recording/json_object.h"
 #include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
+#include "capstan/suggestion/suggestion.h"
 
 namespace capstan::cli {
 
@@ -41,7 +41,7 @@ class LateProgress {
         return [this](const std::string& activity, double fraction) {
             const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
             if (taken.count() < 1.0 && display_.mode() != ProgressMode::json) return;
-            display_.show({.activity = activity, .fraction = fraction, .items = {}, .seconds_left = {}});
+            display_.show({.activity = activity, .fraction = fraction});
         };
     }
     void end_line() { display_.end_line(); }
@@ -52,6 +52,9 @@ class LateProgress {
 };
 
 ExitCode suggest(const Invocation& invocation, LateProgress& display) {
+    if (invocation.has("mapping"))
+        throw UsageError(
+            "capstan import: --suggest proposes a mapping anew and would not read --mapping; give one of the two");
     const std::filesystem::path file = invocation.text("output");
     if (std::filesystem::is_regular_file(file)) {
         throw UsageError(fmt::format(

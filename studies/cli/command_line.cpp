@@ -78,12 +78,13 @@ void check_number(const Command& command, const Option& option, const std::strin
     std::int64_t integer = 0;
     const bool is_integer = option.kind == OptionKind::integer;
     if (!(is_integer ? is_number(text, integer) : is_number(text, value))) {
-        refuse(command, fmt::format("--{} is '{}', but must be a {}number", option.name, text,
-                                    is_integer ? "integer" : "number"));
+        refuse(command, fmt::format("--{} is '{}', but must be {}", option.name, text,
+                                    is_integer ? "an integer" : "a number"));
     }
     if (is_integer) value = static_cast<double>(integer);
     if (value >= option.low && value <= option.high) return;
-    const std::string above = option.high >= 1e7 ? "" : fmt::format(" and at most {}", option.high);
+    const bool is_named = option.high < 1e7 || value > option.high;
+    const std::string above = is_named ? fmt::format(" and at most {:.12g}", option.high) : "";
     refuse(command,
            fmt::format("--{} is {}, but must be at least {}{}", option.name, text, option.low, above));
 }

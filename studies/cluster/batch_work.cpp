@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "capstan/cluster/shell_words.h"
 #include "capstan/platform/child_process.h"
 #include "capstan/storage/integrity/computed_with.h"
 
@@ -18,11 +19,6 @@ constexpr int refused = 2;  // exit code: the input is wrong
 
 std::string quoted_json(const std::string& text) {
     return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-std::string without_end_of_line(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-    return text;
 }
 
 }  // namespace
@@ -58,11 +54,11 @@ units::Result run_unit(const StudyDirectory& directory, int unit, const WorkOpti
     if (stop.load()) return {WorkEnd::stopped};
     if (done.exit_code == refused)
         return {WorkEnd::complete,
-                fmt::format("{{\"refused\": {}}}\n", quoted_json(without_end_of_line(done.messages)))};
+                fmt::format("{{\"refused\": {}}}\n", quoted_json(without_line_end(done.messages)))};
     if (done.exit_code == 0 && json::accept(done.output)) return {WorkEnd::complete, done.output};
     if (options.say)
         options.say(fmt::format("shard {} failed with exit code {}: {}", unit, done.exit_code,
-                                without_end_of_line(done.messages)));
+                                without_line_end(done.messages)));
     return {WorkEnd::failed};
 }
 

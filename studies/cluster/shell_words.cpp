@@ -36,4 +36,9 @@ std::string as_typed(const std::vector<std::string>& words) {
     return text;
 }
 
+std::string without_line_end(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+    return text;
+}
+
 }  // namespace capstan::cluster

@@ -6,16 +6,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "capstan/cluster/shell_words.h"
 #include "capstan/platform/child_process.h"
 
 namespace capstan::cluster {
 
 namespace {
-
-std::string without_line_end(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-    return text;
-}
 
 std::string run_or_throw(const std::vector<std::string>& words) {
     const CommandOutput done = run_command(words);

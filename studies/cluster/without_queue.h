@@ -7,9 +7,8 @@
 
 namespace capstan::cluster {
 
-/// Ways to run the shards of a study without a queue of jobs, by programs that distribute work themselves.
-/// Each calls `capstan study work`, whose leases keep two workers from the same shard.
-inline constexpr const char* ways_without_queue[] = {"ssh", "parallel", "snakemake"};
+// Ways to run the shards of a study without a queue of jobs, by programs that distribute work themselves.
+// Each calls `capstan study work`, whose leases keep two workers from the same shard.
 
 /// Starts a worker on a host that sees the folder under the same path, and returns.
 std::vector<std::string> ssh_call(const StudyDirectory& directory, const std::string& host);

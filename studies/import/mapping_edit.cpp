@@ -96,6 +96,16 @@ Mapping parsed(const std::string& toml, const std::string& file, const CommentRe
     return mapping;
 }
 
+// Guesses are a suggestion's, not a person's words. An edit answers those about its channel; which columns were not
+// used, and why a trial import failed, was said of the mapping before it.
+bool is_answered(const std::pair<std::string, std::string>& comment, const std::string& channel) {
+    const auto& [about, words] = comment;
+    const bool is_guess =
+        words.starts_with("DOUBTFUL: ") || words.starts_with("Likely: ") || words.starts_with("Note: ");
+    const bool is_of_trial = about == "file" && words.starts_with("DOUBTFUL: a trial import fails");
+    return (is_guess && (about == channel || about == "channels")) || is_of_trial;
+}
+
 void edit_channel(ChannelMapping& channel, const MappingEdit& edit) {
     if (edit.from) {
         const std::string unit = channel.unit;
@@ -125,6 +135,7 @@ std::string edited_mapping(const std::string& toml, const std::string& file, con
     Mapping mapping = parsed(toml, file, read);
     if (edit.remove || edit.from)
         std::erase_if(read.comments, [&](const auto& comment) { return comment.first == edit.channel; });
+    std::erase_if(read.comments, [&](const auto& comment) { return is_answered(comment, edit.channel); });
     const auto channel = std::find_if(mapping.channels.begin(), mapping.channels.end(),
                                       [&](const auto& each) { return each.name == edit.channel; });
     if (edit.channel == "time") {

@@ -22,8 +22,9 @@ struct MappingEdit {
     std::optional<double> torque_constant;  ///< N m per A
 };
 
-/// The text of a mapping with the change made. Its comments stay with the key that they stand at. A mapping
-/// without channels may be edited. Throws InvalidInput where the text is not a mapping.
+/// The text of a mapping with the change made. Its comments stay with the key that they stand at, except for
+/// the guesses of a suggestion that the change answers. A mapping without channels may be edited. Throws
+/// InvalidInput where the text is not a mapping.
 std::string edited_mapping(const std::string& toml, const std::string& file, const MappingEdit& edit);
 
 }  // namespace capstan::imports

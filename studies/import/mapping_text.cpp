@@ -106,6 +106,7 @@ std::string mapping_text(const Mapping& mapping,
         return text;
     };
     std::string text = comments("file");
+    if (!text.empty()) text += "\n";  // they are not those of the key that follows
     if (mapping.sample_rate_Hz) text += "sample_rate_Hz = " + number_text(*mapping.sample_rate_Hz) + "\n";
     if (mapping.thinning == Thinning::mean) text += "thinning = \"mean\"\n";
     if (mapping.run_column) text += "run_column = " + quoted(*mapping.run_column) + "\n";

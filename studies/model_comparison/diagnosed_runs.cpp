@@ -4,6 +4,7 @@
 #include <string>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/model_comparison/diagnosis_cost.h"
 
 namespace capstan::model_comparison {
 
@@ -47,12 +48,13 @@ std::vector<LeftOver> left_over_of(const DiagnosedSplit& split) {
 
 }  // namespace
 
-Recording runs_to_diagnose(const Recording& recording, const DiagnosisRequest& request) {
-    return prepared_split(recording, split_of(recording, request), request.calibrate_on).diagnosed;
+DiagnosedSplit prepared_runs(const Recording& recording, const DiagnosisRequest& request) {
+    return prepared_split(recording, split_of(recording, request), request.calibrate_on);
 }
 
 DiagnosedRuns diagnose_runs(const Recording& recording, const DiagnosisRequest& request,
-                            const gap::DiagnosisOptions& options) {
+                            const gap::DiagnosisOptions& options,
+                            const std::function<void(const DiagnosisCost&)>& on_cost) {
     const bool compares_halves = request.with_simple_models && !request.has_split();
     const double diagnoses =
         compares_halves ? 1.0 + static_cast<double>(alternating_splits(recording).size()) : 1.0;
@@ -61,8 +63,10 @@ DiagnosedRuns diagnose_runs(const Recording& recording, const DiagnosisRequest& 
     counted.on_progress = [&](const std::string& activity, double fraction) {
         options.on_progress(activity, (done + fraction) / diagnoses);
     };
-    DiagnosedRuns runs{
-        diagnose_split(recording, split_of(recording, request), counted, request.calibrate_on), {}, {}};
+    DiagnosedRuns runs{prepared_runs(recording, request), {}, {}};
+    constexpr double pilot_s = 0.1;
+    if (on_cost) on_cost(cost_of_prepared(runs.split.diagnosed, request, options, pilot_s));
+    runs.split.diagnosis = gap::diagnose(runs.split.diagnosed, counted);
     const Compared compared =
         request.with_simple_models ? Compared::with_simple_models : Compared::bench_alone;
     if (request.has_split()) add_split(runs.comparison, runs.split, compared, options);

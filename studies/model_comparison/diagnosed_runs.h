@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "capstan/model_comparison/model_comparison.h"
@@ -25,14 +26,17 @@ struct DiagnosedRuns {
     ModelComparison comparison;       ///< empty where nothing is held out and nothing compared
 };
 
-/// The runs that diagnose_runs fits, as the equivalent bench where the geometry is unknown. Throws as it
-/// does.
-Recording runs_to_diagnose(const Recording& recording, const DiagnosisRequest& request);
+/// The runs that diagnose_runs fits, not diagnosed yet. Throws as it does.
+DiagnosedSplit prepared_runs(const Recording& recording, const DiagnosisRequest& request);
+
+struct DiagnosisCost;
 
 /// Diagnoses the runs that are asked for, of all runs if none are. Without a split, a comparison with simple
-/// models diagnoses two halves of the runs as well; progress counts all of it. Throws InvalidInput where a
+/// models diagnoses two halves of the runs as well; progress counts all of it. `on_cost` is
+/// told how long all of it takes, once, before the first search. Throws InvalidInput where a
 /// run does not exist, is both fitted and held out, or where none is left to fit.
 DiagnosedRuns diagnose_runs(const Recording& recording, const DiagnosisRequest& request,
-                            const gap::DiagnosisOptions& options);
+                            const gap::DiagnosisOptions& options,
+                            const std::function<void(const DiagnosisCost&)>& on_cost = {});
 
 }  // namespace capstan::model_comparison

@@ -32,9 +32,8 @@ double simulation_s(const gap::CauseSearch& search, double pilot_s) {
 
 }  // namespace
 
-DiagnosisCost predict_diagnosis_cost(const Recording& recording, const DiagnosisRequest& request,
-                                     const gap::DiagnosisOptions& options, double pilot_s) {
-    const Recording diagnosed = runs_to_diagnose(recording, request);
+DiagnosisCost cost_of_prepared(const Recording& diagnosed, const DiagnosisRequest& request,
+                               const gap::DiagnosisOptions& options, double pilot_s) {
     const gap::CauseSearch search(diagnosed, options);
     DiagnosisCost cost;
     cost.runs = static_cast<int>(diagnosed.runs.size());
@@ -50,6 +49,11 @@ DiagnosisCost predict_diagnosis_cost(const Recording& recording, const Diagnosis
         cost.min_seconds = std::min(cost.min_seconds, cost.max_seconds);
     }
     return cost;
+}
+
+DiagnosisCost predict_diagnosis_cost(const Recording& recording, const DiagnosisRequest& request,
+                                     const gap::DiagnosisOptions& options, double pilot_s) {
+    return cost_of_prepared(prepared_runs(recording, request).diagnosed, request, options, pilot_s);
 }
 
 }  // namespace capstan::model_comparison

@@ -15,7 +15,12 @@ struct DiagnosisCost {
     double max_seconds = 0.0;   ///< where sets of causes are tried
 };
 
-/// Simulates the runs for about `pilot_s`, and at least once. Throws as diagnose_runs does.
+/// Of the runs that diagnose_runs fits, as the equivalent bench where the geometry is unknown. Simulates them
+/// for about `pilot_s`, and at least twice.
+DiagnosisCost cost_of_prepared(const Recording& diagnosed, const DiagnosisRequest& request,
+                               const gap::DiagnosisOptions& options, double pilot_s);
+
+/// Prepares the runs for that. Throws as diagnose_runs does.
 DiagnosisCost predict_diagnosis_cost(const Recording& recording, const DiagnosisRequest& request,
                                      const gap::DiagnosisOptions& options, double pilot_s = 0.5);
 

@@ -25,20 +25,21 @@ std::string bar(double fraction) {
 
 ProgressEvent counted_progress(std::string activity, int done, int total, std::string items) {
     const double fraction = total == 0 ? 1.0 : static_cast<double>(done) / total;
-    return {std::move(activity), fraction, done, total, std::move(items), std::nullopt};
+    return {std::move(activity), fraction, done, total, std::move(items), std::nullopt, std::nullopt, true};
 }
 
 std::string progress_json(const ProgressEvent& event) {
     using Json = nlohmann::ordered_json;
     const bool is_counted = !event.items.empty();
-    return Json{{"event", "progress"},
-                {"activity", event.activity},
-                {"fraction", event.fraction},
-                {"done", is_counted ? Json(event.done) : Json()},
-                {"total", is_counted ? Json(event.total) : Json()},
-                {"items", is_counted ? Json(event.items) : Json()},
-                {"seconds_left", event.seconds_left ? Json(*event.seconds_left) : Json()}}
-        .dump(-1, ' ', false, Json::error_handler_t::replace);
+    Json json{{"event", "progress"},
+              {"activity", event.activity},
+              {"fraction", event.fraction},
+              {"done", is_counted ? Json(event.done) : Json()},
+              {"total", is_counted ? Json(event.total) : Json()},
+              {"items", is_counted ? Json(event.items) : Json()},
+              {"seconds_left", event.seconds_left ? Json(*event.seconds_left) : Json()}};
+    if (event.max_seconds_left) json["max_seconds_left"] = *event.max_seconds_left;
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::optional<ProgressEvent> read_progress_json(const std::string& line) {
@@ -55,6 +56,8 @@ std::optional<ProgressEvent> read_progress_json(const std::string& line) {
             event.items = json.at("items").get<std::string>();
         }
         if (!json.at("seconds_left").is_null()) event.seconds_left = json.at("seconds_left").get<double>();
+        if (json.contains("max_seconds_left"))
+            event.max_seconds_left = json["max_seconds_left"].get<double>();
         return event;
     } catch (const nlohmann::json::exception&) {
         return std::nullopt;
@@ -68,12 +71,19 @@ std::string duration_words(double seconds) {
     return std::to_string(rounded / 3600) + " h " + std::to_string(rounded % 3600 / 60) + " min";
 }
 
+std::string duration_range_words(double min_seconds, double max_seconds) {
+    const std::string min = duration_words(min_seconds), max = duration_words(max_seconds);
+    if (min == max) return "about " + max;
+    return min_seconds > 0.0 ? "about " + min + " to " + max : "at most " + max;
+}
+
 std::string progress_words(const ProgressEvent& event) {
     std::string words = event.items.empty() ? std::to_string(std::lround(1e2 * event.fraction)) + "%"
                                             : std::to_string(event.done) + " of " +
                                                   std::to_string(event.total) + " " + event.items;
-    if (event.seconds_left.value_or(0.0) > 0.0)
-        words += ", about " + duration_words(*event.seconds_left) + " left";
+    const double max_left = event.max_seconds_left.value_or(event.seconds_left.value_or(0.0));
+    if (max_left > 0.0)
+        words += ", " + duration_range_words(event.seconds_left.value_or(max_left), max_left) + " left";
     return words;
 }
 
@@ -100,7 +110,7 @@ void ProgressDisplay::show(ProgressEvent event) {
     last_fraction_ = event.fraction;
     const double done_here = event.fraction - fraction_at_start_;
     if (!event.seconds_left && is_last) event.seconds_left = 0.0;
-    if (!event.seconds_left && done_here > 0.0)
+    if (!event.seconds_left && event.is_steady && done_here > 0.0)
         event.seconds_left =
             std::chrono::duration<double>(now - start_).count() * (1.0 - event.fraction) / done_here;
     if (mode_ == ProgressMode::none) return;

@@ -12,8 +12,10 @@ struct ProgressEvent {
     double fraction = 0.0;  ///< of the work that is done
     int done = 0;           ///< the same as a count of `items`
     int total = 0;          ///< 0: the work cannot be counted
-    std::string items;      ///< "units", "cases"
-    std::optional<double> seconds_left;
+    std::string items{};    ///< "units", "cases"
+    std::optional<double> seconds_left{};
+    std::optional<double> max_seconds_left{};  ///< where the time left is known as a range
+    bool is_steady = true;                     ///< the time left may be told from the time taken so far
 
     bool operator==(const ProgressEvent&) const = default;
 };
@@ -21,7 +23,7 @@ struct ProgressEvent {
 ProgressEvent counted_progress(std::string activity, int done, int total, std::string items);
 
 /// {"event":"progress","activity":...,"fraction":...,"done":...,"total":...,"items":...,"seconds_left":...},
-/// one line. What is not known is null.
+/// one line. What is not known is null; "max_seconds_left" is there where the time left is a range.
 std::string progress_json(const ProgressEvent& event);
 
 /// The event in a line of such JSON; nothing if the line is anything else.
@@ -30,7 +32,10 @@ std::optional<ProgressEvent> read_progress_json(const std::string& line);
 /// "12 s", "3 min", "2 h 5 min", rounded up to seconds.
 std::string duration_words(double seconds);
 
-/// "4 of 40 units, about 3 s left", or "10%, about 3 s left".
+/// "3 s to 2 min"; "at most 2 min" from nothing on.
+std::string duration_range_words(double min_seconds, double max_seconds);
+
+/// "4 of 40 units, about 3 s left", or "10%, about 3 s to 2 min left".
 std::string progress_words(const ProgressEvent& event);
 
 enum class ProgressMode { automatic, json, none };
@@ -38,7 +43,7 @@ enum class ProgressMode { automatic, json, none };
 ProgressMode progress_mode(const std::string& name);  ///< of the option --progress
 
 /// Shows progress on standard error: a bar on a terminal, a line every few seconds elsewhere, or JSON. The
-/// time left follows from the time taken so far, where the event does not give it.
+/// time left follows from the time taken so far, where the event does not give it and the work is steady.
 class ProgressDisplay {
   public:
     /// Work that takes less than `quiet_for` shows nothing, but as JSON.

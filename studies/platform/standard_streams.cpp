@@ -14,6 +14,17 @@
 
 namespace capstan {
 
+namespace {
+
+// Marks of Unicode after which a terminal shows letters from right to left: U+202A to U+202E, U+2066 to
+// U+2069.
+bool turns_the_line(std::string_view mark) {
+    return (mark >= "\xe2\x80\xaa" && mark <= "\xe2\x80\xae") ||
+           (mark >= "\xe2\x81\xa6" && mark <= "\xe2\x81\xa9");
+}
+
+}  // namespace
+
 std::string printable(std::string_view text) {
     std::string shown;
     shown.reserve(text.size());
@@ -29,6 +40,9 @@ std::string printable(std::string_view text) {
         } else if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {  // U+0080 to U+009F in UTF-8
             escape(next);
             ++k;
+        } else if (turns_the_line(text.substr(k, 3))) {
+            for (const char each : text.substr(k, 3)) escape(static_cast<unsigned char>(each));
+            k += 2;
         } else {
             shown += text[k];
         }

@@ -5,8 +5,8 @@
 
 namespace capstan {
 
-/// The text with every control character but line ends and tabs as \\x1b, so that no name that a file holds
-/// can steer a terminal.
+/// The text with every control character but line ends and tabs, and every mark that turns the direction of
+/// writing, as \\x1b, so that no name that a file holds can steer a terminal.
 std::string printable(std::string_view text);
 
 /// Writes a message to standard error, printable, and ends its line if the message does not. Never throws and

@@ -12,6 +12,10 @@ namespace capstan {
 
 namespace {
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // of UTF-8, as spreadsheets write it
+
+constexpr double largest_reading = 1e12;  // a counter has less; loggers write 1e30 and more for "none"
+
 std::string_view trimmed(std::string_view text) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
@@ -53,6 +57,14 @@ bool numbers_of(std::string_view line, const CsvNumbers& table, const std::strin
                                           table.columns[column], field));
             return false;
         }
+        if (std::abs(number) > largest_reading) {
+            problems.add_line(
+                "reading " + table.columns[column], place,
+                fmt::format("column '{}' has {}, which no sensor reads in SI units; leave samples "
+                            "without a reading out",
+                            table.columns[column], field));
+            return false;
+        }
         numbers.push_back(number);
     }
     return true;
@@ -65,6 +77,7 @@ CsvNumbers read_csv_numbers(const std::filesystem::path& path, ProblemList& prob
     CsvNumbers table;
     std::vector<double> numbers;
     std::string_view rest = text;
+    if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
     for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
         const std::size_t end = rest.find('\n');
         const std::string_view line = trimmed(rest.substr(0, end));

@@ -115,8 +115,8 @@ void check_next_time(const RecordedRun& run, double time_s, double sample_rate_H
 void check_recording(const Recording& recording, const std::string& place, ProblemList& problems) {
     for (const RecordedRun& run : recording.runs) {
         if (run.time_s.size() < min_run_samples)
-            problems.add(place, fmt::format("run {} has {} samples; at least {} are needed", run.number,
-                                            run.samples(), min_run_samples));
+            problems.add(place, fmt::format("run {} has {} sample{}; at least {} are needed", run.number,
+                                            run.samples(), run.samples() == 1 ? "" : "s", min_run_samples));
     }
     if (!problems.empty()) return;
     check_constant_channels(recording, place, problems);

@@ -154,7 +154,10 @@ std::vector<RecordedRun> runs_of(const JsonObject& sidecar, const Recording& rec
     if (sidecar.has("runs")) {
         bool any_driven_is_taken = false;
         for (const JsonObject& run : sidecar.objects("runs")) {
-            runs.push_back(run_of(run, usual, pretension_spread));
+            RecordedRun read = run_of(run, usual, pretension_spread);
+            if (std::ranges::count(runs, read.number, &RecordedRun::number) > 0)
+                run.add_problem("run", fmt::format("is {}, as of an earlier run", read.number));
+            runs.push_back(std::move(read));
             any_driven_is_taken |= !run.has("driven");
             check_driven(run, runs.back(), recording);
         }

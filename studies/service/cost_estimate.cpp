@@ -10,6 +10,7 @@
 #include "capstan/platform/files.h"
 #include "capstan/platform/progress.h"
 #include "capstan/service/import_folder.h"
+#include "capstan/service/job_results.h"
 
 namespace capstan::service {
 
@@ -96,7 +97,10 @@ ordered_json cost_of_diagnosis(const JobCommands& commands, const std::string& l
                     {.nice_increment = pilot_nice_increment, .processor_s = 60},
                     {plan_limit, max_output, commands.ending});
     constexpr int wrong_input = 2;
-    if (ended.exit_code == wrong_input) return {{"known", false}, {"problems", ended.messages}};
+    if (ended.exit_code == wrong_input)
+        return {
+            {"known", false},
+            {"problems", plain_messages(ended.messages, std::filesystem::path(log).parent_path().string())}};
     if (ended.exit_code != 0) return unknown();
     const auto cost = nlohmann::json::parse(ended.output, nullptr, false);
     if (!cost.is_object()) return unknown();

@@ -17,21 +17,22 @@ Job start(RouteContext& context, const http::Request& request) {
     return context.queue.add_recording(JobKind::diagnosis, recording.title, recording.log, recording.sidecar);
 }
 
-// What the command wrote, if the diagnosis was made here. Otherwise what the database holds, which lacks the
-// experiments that would distinguish its explanations.
+// What the command wrote, if the diagnosis was made here.
 std::string answer_of(RouteContext& context, std::int64_t diagnosis_id) {
     if (std::string answer = context.queue.answer_of(diagnosis_id, answer_file); !answer.empty())
         return answer;
-    storage::Database database = context.open();
-    for (const auto& each : storage::list_diagnoses(database)) {
-        if (each.diagnosis_id == diagnosis_id)
-            return reports::answer_json(
-                answers::stored_diagnosis_answer(storage::load_diagnosis(database, diagnosis_id)));
-    }
-    throw BadRequest("there is no diagnosis " + std::to_string(diagnosis_id), 404);
+    return reports::answer_json(stored_answer_of(context, diagnosis_id));
 }
 
 }  // namespace
+
+reports::Answer stored_answer_of(const RouteContext& context, std::int64_t diagnosis_id) {
+    storage::Database database = context.open();
+    for (const auto& each : storage::list_diagnoses(database))
+        if (each.diagnosis_id == diagnosis_id)
+            return answers::stored_diagnosis_answer(storage::load_diagnosis(database, diagnosis_id));
+    throw BadRequest("there is no diagnosis " + std::to_string(diagnosis_id), 404);
+}
 
 UploadedRecording recording_of(const http::Request& request) {
     for (const char* part : {"log", "sidecar"}) {

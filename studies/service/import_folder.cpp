@@ -8,6 +8,7 @@
 
 #include "capstan/platform/child_process.h"
 #include "capstan/platform/files.h"
+#include "capstan/service/job_results.h"
 
 namespace capstan::service {
 
@@ -17,7 +18,6 @@ constexpr std::chrono::seconds import_limit{120};
 constexpr ChildLimits import_process{.nice_increment = 5, .memory_bytes = 2UL << 30, .processor_s = 240};
 constexpr std::size_t max_import_output = 16 << 20;
 constexpr std::size_t longest_name = 120;
-constexpr std::size_t max_message_bytes = 20000;
 
 // Runs a command and ends it after `import_limit`.
 CommandOutput run_limited(const std::vector<std::string>& words, const std::atomic<bool>* ending) {
@@ -30,16 +30,6 @@ CommandOutput run_limited(const std::vector<std::string>& words, const std::atom
             408);
     if (output.is_long) throw BadRequest("the import wrote more than a page can show", 413);
     return output;
-}
-
-// As a person reads them: without the program's name and the folder.
-std::string plain_messages(std::string text, const std::string& folder) {
-    for (const std::string& unwanted : {folder + "/", std::string("capstan: ")}) {
-        for (std::size_t at = 0; (at = text.find(unwanted, at)) != std::string::npos;)
-            text.erase(at, unwanted.size());
-    }
-    while (text.ends_with('\n')) text.pop_back();
-    return text.size() > max_message_bytes ? text.substr(0, max_message_bytes) + " ..." : text;
 }
 
 }  // namespace

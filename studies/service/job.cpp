@@ -75,6 +75,8 @@ ordered_json job_json(const Job& job) {
                          : fmt::format("{} of {} {}", progress.done, progress.total, progress.items)},
         {"fraction", progress.fraction},
         {"seconds_left", progress.seconds_left ? ordered_json(*progress.seconds_left) : ordered_json()},
+        {"max_seconds_left",
+         progress.max_seconds_left ? ordered_json(*progress.max_seconds_left) : ordered_json()},
         {"message", job.message}};
     if (stores_result(job.kind))
         json[job.kind == JobKind::study ? "study_id" : "diagnosis_id"] =

@@ -301,6 +301,7 @@ void JobQueue::run(Job job) {
         child_.reset();
         each.result_id = job.result_id;
         each.progress.seconds_left.reset();
+        each.progress.max_seconds_left.reset();
         if (ended.exit_code == 0) {
             each.state = JobState::done;
             each.progress.fraction = 1.0;
@@ -310,7 +311,9 @@ void JobQueue::run(Job job) {
             each.state = JobState::stopped;
         } else {
             each.state = JobState::failed;
-            each.message = messages.empty() ? fmt::format("ended with code {}", ended.exit_code) : messages;
+            each.message = messages.empty()
+                               ? fmt::format("ended with code {}", ended.exit_code)
+                               : plain_messages(messages, file_of(folder_, job, "").parent_path().string());
         }
     });
 }

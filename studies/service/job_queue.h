@@ -60,6 +60,9 @@ class JobQueue {
     /// How many that waited or ran; the running one ends after its unit.
     int stop_all();
 
+    /// The configuration or the log that a job was given; it may be gone.
+    std::string input_of(const Job& job) const { return (folder_.path() / job.file).string(); }
+
     /// What a job wrote beside its input, under one of the names of job_results.h. Empty if it is not done,
     /// or its files are gone.
     std::string written_by(const Job& job, const std::string& name) const;

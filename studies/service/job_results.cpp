@@ -83,4 +83,14 @@ bool is_complete(const JobFolder& folder, const JobCommands& commands, const Job
     return storage::load_study(database, *job.result_id).study.status == "complete";
 }
 
+std::string plain_messages(std::string text, const std::string& folder) {
+    constexpr std::size_t max_message_bytes = 20000;
+    for (const std::string& unwanted : {folder + "/", std::string("capstan: ")}) {
+        for (std::size_t at = 0; (at = text.find(unwanted, at)) != std::string::npos;)
+            text.erase(at, unwanted.size());
+    }
+    while (text.ends_with('\n')) text.pop_back();
+    return text.size() > max_message_bytes ? text.substr(0, max_message_bytes) + " ..." : text;
+}
+
 }  // namespace capstan::service

@@ -28,4 +28,7 @@ std::optional<std::int64_t> result_of(const JobFolder& folder, const JobCommands
 /// Nothing is left to be done.
 bool is_complete(const JobFolder& folder, const JobCommands& commands, const Job& job);
 
+/// What a command said, as a person reads it: without the program's name and the folder, at most 20 kB.
+std::string plain_messages(std::string text, const std::string& folder);
+
 }  // namespace capstan::service

@@ -6,6 +6,7 @@
 #include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
 #include "capstan/platform/files.h"
+#include "capstan/service/cost_estimate.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
 #include "capstan/storage/study_store.h"
@@ -83,6 +84,18 @@ ordered_json resume_study(RouteContext& context, std::int64_t study_id) {
     return job_json(context.queue.add_resume(record.name, study_id));
 }
 
+// Of a job that begins anew. Of a stored study that goes on it is not known.
+ordered_json cost_of(const RouteContext& context, const Job& job) {
+    const JobCommands& commands = context.options.commands;
+    const std::string input = context.queue.input_of(job);
+    if (job.result_id) return {{"known", false}};
+    if (job.kind == JobKind::study) return cost_of_studies_in(context, {{"config_toml", read_file(input)}});
+    if (job.kind == JobKind::diagnosis) return cost_of_diagnosis(commands, input);
+    std::vector<std::string> words{std::string(name_of(job.kind)), input};
+    words.insert(words.end(), job.options.begin(), job.options.end());
+    return cost_of_command(commands, words);
+}
+
 void require(bool holds, const char* what) {
     if (!holds) throw BadRequest(what, 409);
 }
@@ -152,6 +165,9 @@ std::vector<Route> job_routes(RouteContext& context) {
         require(context.queue.resume(job.number), "only a stopped or failed job can be resumed");
         send_json(response, job_json(*context.queue.find(job.number)), 202);
     };
+    const auto tell_cost = [&](const http::Request& request, http::Response& response) {
+        send_json(response, cost_of(context, job_in_path(context, request)));
+    };
     return {
         {"get", "/api/configs", "listConfigs",
          "Names of the configurations in the folder that `capstan serve --configs` named", "Names",
@@ -219,6 +235,18 @@ std::vector<Route> job_routes(RouteContext& context) {
          resume_job,
          202,
          {409}},
+        {"post",
+         "/api/jobs/{job}/cost",
+         "jobCost",
+         "What resumeJob would cost on this machine where the job begins anew; it is not known of a stored study",
+         "The cost",
+         json_of("object"),
+         tell_cost,
+         200,
+         {503},
+         {},
+         "application/json",
+         Lane::imports},
     };
 }
 

@@ -30,6 +30,8 @@ const std::vector<std::pair<std::string, std::vector<ApiField>>>& components() {
           {"activity", "string", "What is being done"},
           {"fraction", "number", "Of the work that is done"},
           {"seconds_left", "number?"},
+          {"max_seconds_left", "number?",
+           "Where the time left is known as a range, from seconds_left to this"},
           {"message", "string", "Why it failed"},
           {"study_id", "integer?", "Of a study, once it is stored", false},
           {"diagnosis_id", "integer?", "Of a diagnosis, once it is stored", false}}},

@@ -3,7 +3,6 @@
 #include <openssl/evp.h>
 
 #include "capstan/answers/glossary.h"
-#include "capstan/answers/recording_answers.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/reports/embedded_files.h"
 #include "capstan/reports/page_frame.h"
@@ -12,7 +11,6 @@
 #include "capstan/service/exchange.h"
 #include "capstan/service/job_results.h"
 #include "capstan/service/routes.h"
-#include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/error.h"
 
 namespace capstan::service {
@@ -72,16 +70,10 @@ void send_whole_page(http::Response& response, std::shared_ptr<const http::KeptT
     send_kept(response, std::move(page), html);
 }
 
-// As its job wrote it, with curves; otherwise what the database holds.
+// As its job wrote it, with curves.
 std::string diagnosis_page(RouteContext& context, std::int64_t id) {
     if (std::string page = context.queue.answer_of(id, page_file); !page.empty()) return page;
-    storage::Database database = context.open();
-    for (const auto& each : storage::list_diagnoses(database)) {
-        if (each.diagnosis_id == id)
-            return reports::answer_html(
-                answers::stored_diagnosis_answer(storage::load_diagnosis(database, id)));
-    }
-    throw BadRequest(fmt::format("there is no diagnosis {}", id), 404);
+    return reports::answer_html(stored_answer_of(context, id));
 }
 
 std::string comparison_page(RouteContext& context, std::int64_t first, std::int64_t second) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capstan/http/server.h"
+#include "capstan/reports/answer.h"
 #include "capstan/service/layout_scorer.h"
 #include "capstan/service/report_shelf.h"
 #include "capstan/service/service.h"
@@ -94,8 +95,15 @@ std::string config_named(const ServiceOptions& options, const std::string& name)
 /// The studies of the configuration that a body names or holds. A BadRequest with everything that is wrong.
 std::vector<StudyPlan> studies_in(const RouteContext& context, const nlohmann::json& body);
 
+/// What these studies cost, as cost_estimate.h says it.
+nlohmann::ordered_json cost_of_studies_in(const RouteContext& context, const nlohmann::json& body);
+
 /// The job that the path names; a BadRequest (404) if there is none.
 Job job_in_path(const RouteContext& context, const http::Request& request);
+
+/// What the database holds of a diagnosis, which lacks the curves and the experiments that would distinguish
+/// its explanations; a BadRequest (404) if there is none.
+reports::Answer stored_answer_of(const RouteContext& context, std::int64_t diagnosis_id);
 
 /// The parts `log` and `sidecar` of a request. A BadRequest if one is missing or no recording.
 struct UploadedRecording {

@@ -17,6 +17,11 @@ std::vector<std::pair<std::string, std::string>> safe_headers() {
             {"Cross-Origin-Resource-Policy", "same-origin"}};
 }
 
+// Beside the file itself, so that two names of one database are one queue.
+std::filesystem::path jobs_of(const std::string& database) {
+    return std::filesystem::weakly_canonical(database).string() + ".jobs";
+}
+
 http::Response problem(int status, const std::string& message) {
     http::Response response;
     send_error(response, status, message);
@@ -53,7 +58,7 @@ std::vector<http::LaneLimits> lane_limits() {
 struct Service::Parts {
     explicit Parts(ServiceOptions given)
         : options(std::move(given)),
-          queue(options.commands.database + ".jobs", options.commands),
+          queue(jobs_of(options.commands.database), options.commands),
           context{options, queue, {}},
           server({.gate = [this](const http::Request& head) { return entrance->judge(head); },
                   .problem = problem,

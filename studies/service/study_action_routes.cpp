@@ -49,7 +49,9 @@ void annotate(RouteContext& context, std::int64_t id, const nlohmann::json& body
     storage::annotate_study(database, id, note, tags);
 }
 
-ordered_json cost(const RouteContext& context, const nlohmann::json& body) {
+}  // namespace
+
+ordered_json cost_of_studies_in(const RouteContext& context, const nlohmann::json& body) {
     const std::vector<StudyPlan> plans = studies_in(context, body);
     const bool is_over_worlds = plans.front().uncertainty.is_stated;
     const auto toml = is_over_worlds ? config::config_text(plans.front(), config::Comments::none)
@@ -63,8 +65,6 @@ ordered_json cost(const RouteContext& context, const nlohmann::json& body) {
     }
     return told;
 }
-
-}  // namespace
 
 std::vector<Route> study_action_routes(RouteContext& context) {
     const auto list_deleted = [&](const http::Request&, http::Response& response) {
@@ -96,7 +96,7 @@ std::vector<Route> study_action_routes(RouteContext& context) {
                   "application/json");
     };
     const auto tell_cost = [&](const http::Request& request, http::Response& response) {
-        send_json(response, cost(context, body_of(request)));
+        send_json(response, cost_of_studies_in(context, body_of(request)));
     };
     const ApiField by_name{"config", "string", "A name of /api/configs; or", false};
     const ApiField by_text{"config_toml", "string", "the text of a configuration", false};

@@ -1,5 +1,6 @@
 #include "capstan/units/result_units.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -88,14 +89,21 @@ UnitWork::Merged ResultWork::merge() {
 std::vector<std::string> problems_of_results(const std::string& text) {
     std::vector<std::string> problems, inputs, hashes;
     const json results = json::parse(text, nullptr, false);
-    if (!results.is_object() || !results.contains("shards") || !results.contains("sha256"))
+    const auto has_text = [](const json& object, const char* key) {
+        return object.is_object() && object.contains(key) && object[key].is_string();
+    };
+    const auto is_shard = [&](const json& shard) {
+        return has_text(shard, "input") && has_text(shard, "sha256");
+    };
+    if (!has_text(results, "sha256") || !results.contains("shards") ||
+        !std::all_of(results["shards"].begin(), results["shards"].end(), is_shard))
         return {"it is not the merged result of a batch"};
     // The bytes of an answer stand between its head and the next one's.
     constexpr std::string_view begin = "\n\"answer\":\n";
     std::size_t at = text.find("\"shards\": [\n");
     for (const json& shard : results["shards"]) {
-        inputs.push_back(shard.value("input", ""));
-        hashes.push_back(shard.value("sha256", ""));
+        inputs.push_back(shard["input"]);
+        hashes.push_back(shard["sha256"]);
         const std::size_t from = text.find(begin, at);
         if (from == std::string::npos) return {"it is not the merged result of a batch"};
         const std::size_t first = from + begin.size();
@@ -106,7 +114,7 @@ std::vector<std::string> problems_of_results(const std::string& text) {
             problems.push_back("the answer to " + inputs.back() + " does not have its hash");
         at = end;
     }
-    if (hash_over(inputs, hashes) != results.value("sha256", ""))
+    if (hash_over(inputs, hashes) != results["sha256"])
         problems.emplace_back("the hashes of the answers do not have the hash over them");
     return problems;
 }

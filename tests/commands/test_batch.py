@@ -96,6 +96,9 @@ class Batch(BatchTest):
         results = self.folder / "batch/results.json"
         results.write_bytes(results.read_bytes().replace(b'"seed": 1', b'"seed": 3', 1))
         self.assertIn("does not have its hash", self.run_capstan("study", "status", "batch").stdout.replace("\n", " "))
+        for text in ('{"shards": [1], "sha256": "a"}', '{"shards": 1, "sha256": "a"}', '{"shards": [], "sha256": 3}', "["):
+            results.write_text(text)
+            self.assertIn("is not the merged result", self.run_capstan("study", "status", "batch").stdout.replace("\n", " "), text)
 
     def test_an_input_that_is_refused_has_the_refusal_as_its_answer(self):
         self.write("configs/c3.toml", "study = 1\n")

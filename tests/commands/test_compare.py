@@ -56,6 +56,7 @@ class Compare(CapstanTest):
         page = self.compare("--format", "html")
         self.assertIn('<figure id="figure-best"', page)
         self.assertIn("study 1 (quick) and study 2 (noisier)", page)
+        self.assertIn('"Mass motion; noise 5 %"', page)
         self.assertLess(len(page), 3e6)
         self.assertIn("no study 'nothing'", self.run_capstan("report", "--compare", "nothing", 2, expect=3).stderr)
 

@@ -58,6 +58,17 @@ class Help(CapstanTest):
             for event in events[1:]:
                 self.assertIsNotNone(event["seconds_left"], (words, event))
 
+    def test_a_search_of_causes_states_its_time_left_as_a_range(self):
+        said = self.run_capstan("diagnose", CONFIGS / "recordings" / "lumped-drive.csv", "--progress", "json", "-o", "answer").stderr
+        events = [json.loads(line) for line in said.splitlines() if '"progress"' in line]
+        fractions = [event["fraction"] for event in events]
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertEqual((fractions[0] < 0.1, fractions[-1]), (True, 1.0))
+        told = [event for event in events[:-1] if event["seconds_left"] is not None]
+        self.assertTrue(told)
+        for event in told:
+            self.assertLessEqual(event["seconds_left"], event["max_seconds_left"], event)
+
     def test_every_option_in_an_example_is_explained(self):
         for name in self.commands():
             text = self.run_capstan(*name.split(), "--help").stdout

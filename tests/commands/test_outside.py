@@ -12,7 +12,7 @@ from capstan_program import CONFIGS, PROGRAM, CapstanTest
 
 LONG = "\n".join("repetitions = 3000" if line.startswith("repetitions") else line
                  for line in (CONFIGS / "noise-instants.toml").read_text().splitlines()) + "\n"
-EVIL = "a\x1b]0;evil\x07\x9b2J"
+EVIL = "a\x1b]0;evil\x07\x9b2J\u202e"
 
 
 class Outside(CapstanTest):
@@ -92,7 +92,14 @@ class Outside(CapstanTest):
             self.assertNotIn(b"\x1b]", told, words)
             self.assertNotIn(b"\x07", told, words)
             self.assertNotIn("\x9b".encode(), told, words)
-        self.assertIn("\\x1b]0;evil\\x07\\x9b2J", self.run_capstan("study", "list", "--db", "evil.db").stdout)
+        self.assertIn("\\x1b]0;evil\\x07\\x9b2J\\xe2\\x80\\xae", self.run_capstan("study", "list", "--db", "evil.db").stdout)
+
+    def test_a_number_that_is_none_or_too_large_is_refused_in_words(self):
+        for text, told in (("1e3", "is '1e3', but must be an integer"), ("1", "must be at least 2"),
+                           ("999999999999", "must be at least 2 and at most 10000000")):
+            self.assertIn(told, self.run_capstan("place", CONFIGS / "quick.toml", "--repetitions", text, expect=2).stderr)
+        words = ("calibrate", CONFIGS / "recordings" / "viscous-pair.csv", "--fit", "pretension,pretension")
+        self.assertIn("named twice", self.run_capstan(*words, expect=2).stderr)
 
     def test_long_lists_of_problems_are_short(self):
         self.write("bad.toml", "[sweep]\nfriction_ratio = [" + ",".join(["-1.0"] * 100_000) + "]\n")

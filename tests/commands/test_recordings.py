@@ -132,6 +132,8 @@ class OneOwnLog(CapstanTest):
     def test_without_a_mapping_the_message_says_how_to_get_one(self):
         said = self.run_capstan("import", "run1.csv", "-o", "mine", expect=2).stderr
         self.assertIn("capstan import --suggest", said)
+        said = self.run_capstan("import", "--suggest", "run1.csv", "--mapping", "import.toml", expect=2).stderr
+        self.assertIn("give one of the two", said)
 
     def test_strict_repairs_nothing(self):
         text = (self.folder / "run1.csv").read_text().splitlines()

@@ -127,6 +127,8 @@ class Serve(ServiceTest):
         self.assertEqual(self.get("/api/studies")[0]["status"], "running")
         self.get("/api/studies/1/recommendation", expect=409)
         self.assertEqual(self.get(f"/api/jobs/{waiting}")["state"], "stopped")
+        self.assertTrue(self.post(f"/api/jobs/{waiting}/cost")["seconds"] > 0)  # it would begin anew
+        self.assertEqual(self.post(f"/api/jobs/{job}/cost"), {"known": False})  # it goes on
         self.post("/api/studies/1/resume", expect=202)
         self.assertEqual(self.await_job(job, "done")["study_id"], 1)
         self.assert_same_bits(expected, self.tables("served.db"))
@@ -170,6 +172,9 @@ class Serve(ServiceTest):
     def test_one_service_for_a_database(self):
         self.serve()
         done = self.run_capstan("serve", "--db", "served.db", "--port", 0, expect=1)
+        self.assertIn("another `capstan serve` has", done.stderr)
+        (self.folder / "link.db").symlink_to("served.db")
+        done = self.run_capstan("serve", "--db", "link.db", "--port", 0, expect=1)
         self.assertIn("another `capstan serve` has", done.stderr)
         done = self.run_capstan("serve", "--db", "other.db", "--port", self.port, expect=1)
         self.assertIn("Try another --port", done.stderr)

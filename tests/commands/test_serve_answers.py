@@ -87,7 +87,7 @@ class ServeAnswers(ServiceTest):
         self.upload({"log": files["log"]}, path="/api/diagnoses/cost", expect=400)
         unreadable = self.upload(files | {"sidecar": ("viscous-pair.json", b"{}")}, path="/api/diagnoses/cost", expect=200)
         self.assertFalse(unreadable["known"])
-        self.assertRegex(unreadable["problems"], "viscous-pair.json: .*")
+        self.assertRegex(unreadable["problems"], "^viscous-pair.json: .*")  # no folder of the service
         self.assertEqual((self.get("/api/jobs"), self.get("/api/diagnoses")), ([], []))
         told = json.loads(self.run_capstan("diagnose", CONFIGS / "recordings" / "viscous-pair.csv", "--cost", "--json").stdout)
         self.assertEqual((told["runs"], told["samples"]), (2, 1602))

@@ -90,11 +90,18 @@ class ServeImport(ServiceTest):
     def test_an_edit_changes_one_channel_and_keeps_comments(self):
         mapping = self.suggest(self.logs)["mapping"]
         by_hand = mapping.replace("[recording]\n", "# measured on Monday\n[recording]\n") + "# the end\n"
+        by_hand = by_hand.replace("load_torque = ", "# DOUBTFUL: the sign\n# of a cell by hand\nload_torque = ")
+        by_hand = by_hand.replace("\n\n", "\n# DOUBTFUL: a trial import fails: without a channel\n\n", 1)
         edited = self.edit(by_hand, channel="load_torque", sign=-1, zero=0.25)
         load = [channel for channel in edited["channels"] if channel["name"] == "load_torque"][0]
         self.assertEqual((load["column"], load["sign"], load["zero"]), ("Joint torque", -1, 0.25))
         changed = set(edited["mapping"].splitlines()) ^ set(by_hand.splitlines())
-        self.assertEqual({line.split(" = ")[0] for line in changed}, {"load_torque"})
+        gone = {line for line in changed if line.startswith("# ")}  # the guesses that it answers
+        self.assertEqual({line.split(" = ")[0] for line in changed - gone}, {"load_torque"})
+        self.assertTrue({"# DOUBTFUL: the sign", "# DOUBTFUL: a trial import fails: without a channel"} <= gone, gone)
+        self.assertTrue(all(line in by_hand and line not in edited["mapping"] for line in gone), gone)
+        self.assertIn("# of a cell by hand\nload_torque", edited["mapping"])
+        self.assertIn('the name "Motor position" fits', edited["mapping"])
         self.assertEqual(self.post("/api/import/mapping", {"mapping": edited["mapping"]}), edited)
 
         swapped = self.edit(by_hand, channel="motor_angle", column="Joint position", table="", file="")

@@ -99,6 +99,16 @@ TEST(Answer, CsvHasEveryValueOfEveryTableInFullPrecision) {
     EXPECT_TRUE(holds(csv, "numbers,1,interval,\"[0.25,0.5]\",N"));
 }
 
+TEST(Answer, PeopleReadANameInWordsAndProgramsTheName) {
+    Answer answer = answer_titled("load_torque");
+    answer.sections[0].tables[0].columns[0].words = [](const std::string& name) {
+        return "words of " + name;
+    };
+    EXPECT_TRUE(holds(answer_text(answer), "words of load_torque"));
+    EXPECT_TRUE(holds(answer_html(answer), "words of load_torque"));
+    EXPECT_TRUE(holds(answer_csv(answer), ",what,load_torque,"));
+}
+
 TEST(Answer, MarkdownEscapesWhatWouldEndATable) {
     EXPECT_TRUE(holds(answer_markdown(answer_titled("a|b")), "a\\|b"));
 }

@@ -220,6 +220,10 @@ TEST_F(StudyLife, AStudyIsFoundByIdByNameAndAsTheLatest) {
     EXPECT_EQ(find_study(database, "1"), 1);
     EXPECT_EQ(find_study(database, "example"), 2);
     EXPECT_EQ(find_study(database, "latest"), 3);
+    third.study.name = "latest";  // takes the word from nobody
+    begin_study(database, third);
+    begin_study(database, example_study());
+    EXPECT_EQ(find_study(database, "latest"), 5);
     const std::string message = error_of([&] { find_study(database, "forth"); });
     expect_says(message, "'forth'");
     expect_says(message, "1 (example, running), 2 (example, running), 3 (third, running)");

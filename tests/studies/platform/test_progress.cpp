@@ -33,6 +33,12 @@ TEST(Progress, SaysHowMuchIsDoneAndHowLongTheRestTakes) {
     EXPECT_EQ(progress_words(event), "1 of 4 units");
     event.seconds_left = 200;
     EXPECT_EQ(progress_words(event), "1 of 4 units, about 3 min left");
+    event.max_seconds_left = 400;
+    EXPECT_EQ(progress_words(event), "1 of 4 units, about 3 min to 7 min left");
+    EXPECT_EQ(read_progress_json(progress_json(event)), event);
+    event.seconds_left = 0;
+    EXPECT_EQ(progress_words(event), "1 of 4 units, at most 7 min left");
+    event.max_seconds_left.reset();
     event.items.clear();
     event.seconds_left = 4000;
     EXPECT_EQ(progress_words(event), "25%, about 67 min left");

@@ -140,6 +140,15 @@ const Fault faults[] = {
              with_line(f.samples_csv, 12, [](auto line) { return replaced(line, "1,0.1", "1,nan"); });
      },
      {"bench.csv:12", "column 't'", "'nan'", "not a finite number"}},
+    {"PlaceholderOfALogger",
+     [](RecordingFiles& f) {
+         f.samples_csv = with_line(f.samples_csv, 12,
+                                   [](auto line) { return line.substr(0, line.rfind(',')) + ",1e+30"; });
+     },
+     {"bench.csv:12", "1e+30", "no sensor reads"}},
+    {"RunListedTwice",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"run\": 2", "\"run\": 1"); },
+     {"runs[1].run", "is 1, as of an earlier run"}},
     {"TextInANumber",
      [](RecordingFiles& f) {
          f.samples_csv =
@@ -283,6 +292,14 @@ TEST(RecordingReader, RejectsANumberBeyondDoubleRange) {
     } catch (const InvalidInput& error) {
         EXPECT_NE(std::string(error.what()).find("1e999"), std::string::npos) << error.what();
     }
+}
+
+TEST(RecordingReader, ReadsTheFileOfASpreadsheet) {
+    const Recording measured = measured_session(true_parameters);
+    RecordingFiles files = as_files(measured);
+    files.samples_csv.insert(0, "\xEF\xBB\xBF");  // the byte-order mark of UTF-8
+    const TemporaryFolder folder;
+    EXPECT_EQ(read_recording(folder.write(files)).samples(), measured.samples());
 }
 
 TEST(RecordingReader, NamesTheMissingFile) {
