@@ -25,9 +25,13 @@ bool BenchPulleys::load_is_free(const BenchInputs& inputs) const {
            effects_.of<EnvironmentCoupling>().compliance_rad_per_Nm > 0.0;
 }
 
+// A load pulley that a compliant coupling holds moves with what is held.
 PulleyAngles BenchPulleys::start(const BenchInputs& inputs) const {
+    const auto* held = std::get_if<LoadAngle>(&inputs.load);
+    const bool follows = held != nullptr && effects_.of<Backlash>().load_half_gap_rad == 0.0;
+    const double load_rad = follows ? load_.angle_rad + held->angle_rad - load_.encoder_rad : load_.angle_rad;
     return {motor_is_free(inputs) ? motor_.angle_rad : std::get<MotorAngle>(inputs.motor).angle_rad,
-            load_is_free(inputs) ? load_.angle_rad : std::get<LoadAngle>(inputs.load).angle_rad};
+            load_is_free(inputs) ? load_rad : held->angle_rad};
 }
 
 // Inside a gap only its inertia holds a load pulley whose cables slide.

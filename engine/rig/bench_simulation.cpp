@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -16,8 +17,10 @@ constexpr double move_tolerance_m = 1e-9;
 // A free pulley turns no further than this in one iteration.
 constexpr double max_motor_turn_rad = 0.2;
 constexpr double max_load_turn_rad = 0.02;
-constexpr int max_iterations = 60;
-constexpr int iterations_at_full_step = 15;
+// A front can send Newton's method to and fro. Shorter steps end that, and complete ones then converge.
+constexpr double step_fractions[] = {1.0, 0.5, 0.25, 0.125, 1.0};
+constexpr int iterations_with_each = 15;
+constexpr int max_iterations = iterations_with_each * static_cast<int>(std::size(step_fractions));
 
 void demand_motion(const BenchInputs& inputs, bool pull_pull) {
     std::vector<std::string> problems;
@@ -139,8 +142,7 @@ void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, Lane
             if (!active.of[lane]) continue;
             const auto bench = static_cast<std::size_t>(lane);
             ++reports[bench].iterations;
-            // A front can send Newton's method to and fro; shorter steps end that.
-            double fraction = iteration <= iterations_at_full_step ? 1.0 : 0.5;
+            double fraction = step_fractions[(iteration - 1) / iterations_with_each];
             const Torque motor = pulleys_[bench].motor_balance(inputs, angles[bench].motor_rad);
             const Torque load = pulleys_[bench].load_balance(inputs, angles[bench].load_rad);
             const bool motor_turns = free.motor.of[lane];
@@ -189,6 +191,8 @@ void BenchSimulations::solve(const BenchInputs& inputs, const Free& free, int la
 void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from,
                                EachAngles& angles, EachReport& reports) {
     constexpr double first_load_width_rad = 0.005;
+    constexpr double min_width_rad = 1e-6;
+    constexpr double min_stiffness = 1e-9;  // N m/rad
     constexpr double angle_tolerance_rad = 1e-9;
     constexpr double balanced_Nm = 1e-7;
     constexpr double nearly_balanced_Nm = 1e-4;  // where the torque left leaps from one angle to the next
@@ -216,22 +220,32 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
         }
         return left_Nm;
     };
+    const auto stiffness_at = [&](double angle_rad) {
+        const Pull pull = linearise(only, angles, inputs.session_time_s);
+        return std::abs(of_load ? radii_.load_radius_m * pull.load.per_load_rad.of[lane] +
+                                      pulleys_[bench].load_balance(inputs, angle_rad).per_rad
+                                : radii_.motor_radius_m * pull.motor.per_motor_rad.of[lane] +
+                                      pulleys_[bench].motor_balance(inputs, angle_rad).per_rad);
+    };
     const auto give_up = [&] {
         torque_left(best_rad);
         reports[bench].converged = false;
     };
     const double first_width_rad =
         of_load ? first_load_width_rad : first_load_width_rad * radii_.load_radius_m / radii_.motor_radius_m;
-    double low = of_load ? pulleys_[bench].angles().load_rad : pulleys_[bench].angles().motor_rad;
+    double low = of_load ? from.load_rad : from.motor_rad;
     double at_low = torque_left(low);
-    double width = at_low > 0.0 ? first_width_rad : -first_width_rad;
+    // What the stiffness there promises, and a little more.
+    double width = std::clamp(1.1 * std::abs(at_low) / std::max(stiffness_at(low), min_stiffness),
+                              min_width_rad, first_width_rad);
+    if (at_low < 0.0) width = -width;
     double high = low + width;
     double at_high = torque_left(high);
     for (int trial = 0; at_low * at_high > 0.0; ++trial) {
         if (trial == max_trials || !std::isfinite(at_high)) return give_up();
         low = high;
         at_low = at_high;
-        width *= 1.6;
+        width *= std::abs(width) < first_width_rad ? 4.0 : 1.6;
         high += width;
         at_high = torque_left(high);
     }

@@ -56,6 +56,39 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
     return std::sqrt(squares / static_cast<double>(a.size()));
 }
 
+// Both pulleys find their angles, and at every return of the hand fronts begin in both cables. A search that
+// swings between two of their states needs thousands of iterations a step, or fails.
+TEST(BenchSimulation, AMotorTorqueAndACompliantCouplingAreSolvedWhereTheHandReturns) {
+    constexpr int steps = 1000;
+    constexpr double coarse_step_s = 0.01;
+    CableSpecification specification;
+    specification.curvature = {{2.39, 0.247}};
+    specification.segments = 50;
+    specification.axial_stiffness_N = 2000.0;
+    specification.dynamic_friction = specification.static_friction = 0.09;
+    specification.pretension_N = 18.0;
+    BenchEffects effects;
+    effects.of<EnvironmentCoupling>().compliance_rad_per_Nm = 1e-3;
+    effects.of<PulleyFriction>().motor.coulomb_Nm = 0.004;
+    BenchSimulation bench({Cable(specification), CableArrangement::pull_pull, {0.0141, 0.0786}, {}}, effects);
+    long iterations = 0;
+    int not_converged = 0;
+    for (int step = 1; step <= steps; ++step) {
+        const double time_s = step * coarse_step_s;
+        const auto wave = [&](double frequency_Hz) {
+            return std::sin(2.0 * std::numbers::pi * frequency_Hz * time_s);
+        };
+        const double angle = std::min(1.0, 4.0 * time_s) * (0.2 * wave(0.43) + 0.1 * wave(1.1));
+        const double torque_Nm = -0.6 * angle - 0.02 * wave(0.8);
+        const BenchReport report =
+            bench.advance({MotorTorque{torque_Nm}, LoadAngle{angle}, coarse_step_s, time_s});
+        iterations += report.iterations;
+        if (!report.converged) ++not_converged;
+    }
+    EXPECT_LT(iterations, 200 * steps);
+    EXPECT_LT(not_converged, steps / 50);
+}
+
 TEST(BenchSimulation, WithoutEffectsItIsThePullPullPair) {
     const Cable cable = cable_with(100);
     const PullPull pair(cable, cable, pulleys);
