@@ -54,6 +54,20 @@ Eigen::VectorXd jackknife_half_widths(const std::vector<Eigen::VectorXd>& withou
     return widths;
 }
 
+namespace {
+
+// The others then take their steps without those parameters (projected Gauss-Newton, D. Bertsekas, SIAM J.
+// Control Optim. 20, 1982, 221-246).
+void hold_at_bounds(const Eigen::VectorXd& lower_bounds, LeastSquaresFit& fit) {
+    if (lower_bounds.size() == 0) return;
+    const Eigen::VectorXd gradient = fit.jacobian.transpose() * fit.residuals;
+    for (Eigen::Index k = 0; k < gradient.size(); ++k) {
+        if (fit.parameters[k] <= lower_bounds[k] && gradient[k] > 0.0) fit.jacobian.col(k).setZero();
+    }
+}
+
+}  // namespace
+
 // Marquardt's scaling by the diagonal; the damping falls after a success and grows until one.
 LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
                                   const LeastSquaresOptions& options) {
@@ -73,7 +87,8 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     const double spread = options.dampings_at_once == 1 ? tighten : tighten * tighten;
     LeastSquaresFit fit;
     fit.parameters = start;
-    fit.residuals = residuals(start);
+    if (options.lower_bounds.size() > 0) fit.parameters = start.cwiseMax(options.lower_bounds);
+    fit.residuals = residuals(fit.parameters);
     fit.sum_of_squares = fit.residuals.squaredNorm();
     fit.evaluations = 1;
     double damping = start_damping;
@@ -81,6 +96,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     for (int iteration = 0; iteration < options.max_iterations && !fit.converged; ++iteration) {
         fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
         fit.evaluations += per_jacobian;
+        hold_at_bounds(options.lower_bounds, fit);
         const Eigen::MatrixXd normal = fit.jacobian.transpose() * fit.jacobian;
         const Eigen::VectorXd gradient = fit.jacobian.transpose() * fit.residuals;
         const double floor = flat * (1.0 + normal.diagonal().maxCoeff());
@@ -103,6 +119,8 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
                 dampings.push_back(damping * std::pow(spread, k));
                 tried.col(k) += step_with(dampings.back());
             }
+            if (options.lower_bounds.size() > 0)
+                tried = tried.cwiseMax(options.lower_bounds.replicate(1, tried.cols()));
             const Eigen::MatrixXd there = residuals(tried);
             fit.evaluations += options.dampings_at_once;
             Eigen::VectorXd sums = there.colwise().squaredNorm();

@@ -27,6 +27,9 @@ struct LeastSquaresOptions {
     /// Step of the differences. Fronts move by complete segments, so residuals are smooth only on a
     /// scale above this.
     double difference_step = 0.01;
+    /// The least value of each parameter; empty: none has one. A parameter that rests at it does not move as
+    /// long as the sum of squares would fall beyond it.
+    Eigen::VectorXd lower_bounds{};
     /// A step that changes no parameter by more than this ends the search.
     double parameter_tolerance = 1e-4;
     /// A search ends when a step promises to lower the sum of squares by less than this, or two in turn

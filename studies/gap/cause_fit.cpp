@@ -21,6 +21,24 @@ constexpr double rough_step = 0.1;
 // A search ends where a further step promises to change the evidence by less than this.
 constexpr double min_gain = 0.02;
 
+// A size below nothing changes nothing, and a search that left it there could not come back.
+Eigen::VectorXd lower_bounds_of(const Hypothesis& hypothesis) {
+    const double none = -std::numeric_limits<double>::infinity();
+    Eigen::VectorXd bounds = Eigen::VectorXd::Constant(hypothesis.coordinates.size(), none);
+    Eigen::Index next = 0;
+    for (const FloatingNumber& number : hypothesis.bench->numbers) {
+        if (number.kind == FloatingNumber::Kind::size) bounds[next] = 0.0;
+        ++next;
+    }
+    for (const CandidateCause* cause : hypothesis.causes) {
+        for (const OpenNumber& number : cause->numbers) {
+            if (number.kind == OpenNumber::Kind::size) bounds[next] = 0.0;
+            ++next;
+        }
+    }
+    return bounds;
+}
+
 }  // namespace
 
 CauseFitter::CauseFitter(const Recording& recording, const EffectsTwinOptions& options, int threads)
@@ -222,6 +240,19 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     return fit;
 }
 
+CauseFit CauseFitter::rough_fit(const Hypothesis& start, const SeriesWeights& weights) const {
+    constexpr int few_iterations = 3;
+    int evaluations = 0;
+    Hypothesis from = start;
+    from.coordinates = roughly_sized(start, {}, weights, evaluations);
+    CauseFit fit = fit_with(weights, from, {}, few_iterations, rough_step);
+    fit.evaluations += evaluations;
+    Eigen::VectorXd weighted = fit.residuals;
+    apply(weights, weighted);
+    fit.sum_of_squares = weighted.squaredNorm();
+    return fit;
+}
+
 CauseFit CauseFitter::fit_with(const SeriesWeights& weights, const Hypothesis& start,
                                const FitOptions& options, int iterations, double difference_step) const {
     CauseFit fit;
@@ -232,6 +263,7 @@ CauseFit CauseFitter::fit_with(const SeriesWeights& weights, const Hypothesis& s
     search.differences = Differences::forward;
     search.difference_step = difference_step;
     search.parameter_tolerance = 1e-3;
+    search.lower_bounds = lower_bounds_of(start);
     search.max_iterations = iterations;
     search.jacobian_at_end = false;
     search.dampings_at_once = dampings_at_once;

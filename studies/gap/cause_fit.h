@@ -95,6 +95,9 @@ class CauseFitter {
         bool balanced = false;
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
+    /// A few rough steps of a search, everything free, with these weights. The sum of squares has weights and
+    /// priors.
+    CauseFit rough_fit(const Hypothesis& start, const SeriesWeights& weights) const;
     /// Residuals of the data, a column a hypothesis.
     Eigen::MatrixXd data_residuals(std::span<const Hypothesis> hypotheses,
                                    std::optional<LeftOut> left_out = {}) const;

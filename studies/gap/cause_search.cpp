@@ -159,7 +159,9 @@ bool CauseSearch::is_better_when_built(const ScoredFit& best) {
     if (built.causes.empty()) built = with_cause(built, &built_.causes.front(), {});
     CauseFitter::FitOptions options;
     options.any_size = false;
-    return scored(fine_, fine_.fitter.fit(built, options)).evidence > best.evidence + clearly;
+    const ScoredFit fit = scored(fine_, fine_.fitter.fit(built, options));
+    built_numbers_ = fit.fit.coordinates.head(built_.bench.size());
+    return fit.evidence > best.evidence + clearly;
 }
 
 CauseSearch::Fits CauseSearch::search_one(const Level& level) {
@@ -170,21 +172,19 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
                                    ? start
                                    : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
-    const std::vector<Screened> screened =
-        screen(coarse_.fitter, level.causes, nothing, singles.front().fit.weights);
+    const std::vector<Further> all = screened(level, nothing, singles.front().fit.weights);
     std::size_t fitted = 0;
-    for (const Screened& each : screened) {
+    for (const Further& each : all) {
         // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
         // numbers.
         if (is_out_of_time()) break;
         const bool nominal_number = each.cause->numbers.empty();
         if (fitted == max_fitted && !nominal_number) continue;
         if (!nominal_number) ++fitted;
-        add_single(level, each, nothing, singles);
+        add_single(level, each, singles);
     }
     sort_by_evidence(singles);
-    if (!worth_a_further_cause(singles.front()) && !is_out_of_time())
-        add_confusable(level, screened, nothing, singles);
+    if (!worth_a_further_cause(singles.front()) && !is_out_of_time()) add_confusable(level, all, singles);
     return singles;
 }
 
@@ -234,6 +234,12 @@ ScoredFit CauseSearch::without_cause(const Level& level) {
                                               : nominal_hypothesis(level.bench),
                                           &level.causes.front(), {});
     ScoredFit best = fitted(level, nominal, {});
+    if (&level.bench == &built_.bench && built_numbers_.size() > 0) {
+        Hypothesis other = nominal;
+        other.coordinates = built_numbers_;
+        ScoredFit fit = fitted(level, other, {});
+        if (fit.evidence > best.evidence) best = std::move(fit);
+    }
     if (!is_undescribed(level.bench)) return best;
     constexpr double starts[][nominal_coordinates] = {{0.0, 0.0, -1.0}, {0.0, 0.5, -1.0}, {0.0, 0.0, 1.0}};
     for (const auto& from : starts) {
@@ -321,17 +327,37 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
     return scored;
 }
 
-void CauseSearch::add_single(const Level& level, const Screened& screened, const Hypothesis& nothing,
-                             Fits& singles) {
-    report("fitting " + in_words({screened.cause}));
-    CauseFitter::FitOptions options;
-    options.pruned_sum_of_squares = pruned_at(singles);
-    singles.push_back(fitted(level, with_cause(nothing, screened.cause, screened.start), options));
+// The screening is linear. Where the bench's numbers float widely they make up for most of what a cause does,
+// and what is left of it shows only after they have moved: there a first cause gets a few steps of a search
+// whatever the screening says, and a further one if it is among the most promising.
+std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, const Hypothesis& present,
+                                                        const SeriesWeights& weights) {
+    constexpr std::size_t most_promising = 12;
+    std::vector<Further> all;
+    for (const Screened& each : screen(coarse_.fitter, level.causes, present, weights)) {
+        if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
+        all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
+        if (level.bench.is_measured() || is_out_of_time()) continue;
+        const CauseFit rough = coarse_.fitter.rough_fit(all.back().start, weights);
+        evaluations_ += rough.evaluations;
+        all.back().start = rough.hypothesis();
+        all.back().sum_of_squares = rough.sum_of_squares;
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Further& a, const Further& b) { return a.sum_of_squares < b.sum_of_squares; });
+    return all;
 }
 
-// The screening is linear. Causes that are easily confused with the best one are fitted whatever it says.
-void CauseSearch::add_confusable(const Level& level, const std::vector<Screened>& screened,
-                                 const Hypothesis& nothing, Fits& singles) {
+void CauseSearch::add_single(const Level& level, const Further& further, Fits& singles) {
+    report("fitting " + in_words({further.cause}));
+    CauseFitter::FitOptions options;
+    options.pruned_sum_of_squares = pruned_at(singles);
+    options.any_size = level.bench.is_measured();
+    singles.push_back(fitted(level, further.start, options));
+}
+
+// Causes that are easily confused with the best one are fitted whatever the screening says.
+void CauseSearch::add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles) {
     const std::string best = singles.front().fit.causes.front()->effect;
     for (const std::string& rival : confusable_causes(best)) {
         if (std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& fit) {
@@ -339,8 +365,16 @@ void CauseSearch::add_confusable(const Level& level, const std::vector<Screened>
             }))
             continue;
         const auto found = std::find_if(screened.begin(), screened.end(),
-                                        [&](const Screened& each) { return each.cause->effect == rival; });
-        if (found != screened.end()) add_single(level, *found, nothing, singles);
+                                        [&](const Further& each) { return each.cause->effect == rival; });
+        if (found == screened.end()) continue;
+        Further from_best = *found;
+        if (!level.bench.is_measured()) {
+            const auto own = static_cast<Eigen::Index>(found->cause->numbers.size());
+            const Hypothesis bench =
+                only_causes(singles.front().fit.hypothesis(), [](const CandidateCause&) { return false; });
+            from_best.start = with_cause(bench, found->cause, found->start.coordinates.tail(own));
+        }
+        add_single(level, from_best, singles);
     }
     sort_by_evidence(singles);
 }

@@ -63,6 +63,12 @@ class CauseSearch {
         const CandidateCause* same_cause(const std::string& effect, const std::string& variant) const;
     };
     using Fits = std::vector<ScoredFit>;
+    // A cause beside those that are present, and where a fit with it starts.
+    struct Further {
+        const CandidateCause* cause = nullptr;
+        Hypothesis start;
+        double sum_of_squares = 0.0;
+    };
     struct Model {
         Model(const Recording& recording, const EffectsTwinOptions& options, int threads);
 
@@ -92,9 +98,10 @@ class CauseSearch {
     void try_others(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;
     void add_measured_sets(const ScoredFit& built, Fits& all);
-    void add_single(const Level& level, const Screened& screened, const Hypothesis& nothing, Fits& singles);
-    void add_confusable(const Level& level, const std::vector<Screened>& screened, const Hypothesis& nothing,
-                        Fits& singles);
+    std::vector<Further> screened(const Level& level, const Hypothesis& present,
+                                  const SeriesWeights& weights);
+    void add_single(const Level& level, const Further& further, Fits& singles);
+    void add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles);
     static double pruned_at(const Fits& fits);
     Fits larger_sets(const Level& level, const Fits& smaller);
     void add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
@@ -107,6 +114,7 @@ class CauseSearch {
     Evidence evidence_;
     Level described_;  // as the recording describes the bench
     Level built_;
+    Eigen::VectorXd built_numbers_;  // of the bench as built, beside the best causes of the measured bench
     double nominal_misfit_ = 0.0;
     int fitted_ = 0;
     int evaluations_ = 0;

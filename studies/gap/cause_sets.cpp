@@ -184,7 +184,7 @@ void CauseSearch::try_replacing(const Level& level, Fits& sets) {
 void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
                            std::size_t max_further, Fits& sets) {
     std::size_t further = 0;
-    for (const Screened& each : screen(coarse_.fitter, level.causes, hypothesis, weights)) {
+    for (const Further& each : screened(level, hypothesis, weights)) {
         if (further == max_further || is_out_of_time()) break;
         const bool known =
             std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), [&](const CandidateCause* cause) {
@@ -203,7 +203,8 @@ void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, con
         report("fitting " + in_words(set));
         CauseFitter::FitOptions options;
         options.pruned_sum_of_squares = pruned_at(sets);
-        sets.push_back(fitted(level, with_cause(hypothesis, each.cause, each.start), options));
+        options.any_size = level.bench.is_measured();
+        sets.push_back(fitted(level, each.start, options));
     }
 }
 

@@ -49,6 +49,22 @@ TEST(LeastSquares, CentralDifferencesAreExactForAParabolaAndForwardOnesOffByThei
     EXPECT_NEAR(fit_least_squares(square, one, only_the_jacobian).jacobian(0, 0), 2.05, 1e-12);
 }
 
+// The best slope is 1.9. With at least 2.5 the best line has that slope and goes through the mean point.
+TEST(LeastSquares, AParameterStopsAtItsBoundAndTheOthersAreTheBestThatGoWithIt) {
+    LeastSquaresOptions bounded;
+    bounded.lower_bounds = Eigen::VectorXd{{-100.0, 2.5}};
+    const LeastSquaresFit fit = fit_least_squares(Line(), far_away, bounded);
+    EXPECT_EQ(fit.parameters[1], 2.5);
+    EXPECT_NEAR(fit.parameters[0], Line().measured.mean() - 2.5 * 1.5, 1e-6);
+}
+
+TEST(LeastSquares, AParameterLeavesItsBoundWhenTheSumFallsInside) {
+    LeastSquaresOptions bounded;
+    bounded.lower_bounds = Eigen::VectorXd{{-100.0, 0.0}};
+    const LeastSquaresFit fit = fit_least_squares(Line(), Eigen::VectorXd{{40.0, -3.0}}, bounded);
+    EXPECT_LT((fit.parameters - Line().solution()).norm(), 1e-6);
+}
+
 TEST(LeastSquares, CountsEverySetOfParametersThatItEvaluates) {
     Eigen::Index evaluated = 0;
     const auto counting = [&](const Eigen::MatrixXd& parameters) {
