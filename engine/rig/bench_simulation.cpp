@@ -192,7 +192,8 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
                                EachAngles& angles, EachReport& reports) {
     constexpr double first_load_width_rad = 0.005;
     constexpr double min_width_rad = 1e-6;
-    constexpr double min_stiffness = 1e-9;  // N m/rad
+    constexpr double min_stiffness_Nm_per_rad = 1e-9;
+    constexpr double beyond_promise = 1.1;
     constexpr double angle_tolerance_rad = 1e-9;
     constexpr double balanced_Nm = 1e-7;
     constexpr double nearly_balanced_Nm = 1e-4;  // where the torque left leaps from one angle to the next
@@ -220,7 +221,7 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
         }
         return left_Nm;
     };
-    const auto stiffness_at = [&](double angle_rad) {
+    const auto stiffness_Nm_per_rad = [&](double angle_rad) {
         const Pull pull = linearise(only, angles, inputs.session_time_s);
         return std::abs(of_load ? radii_.load_radius_m * pull.load.per_load_rad.of[lane] +
                                       pulleys_[bench].load_balance(inputs, angle_rad).per_rad
@@ -236,8 +237,9 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
     double low = of_load ? from.load_rad : from.motor_rad;
     double at_low = torque_left(low);
     // What the stiffness there promises, and a little more.
-    double width = std::clamp(1.1 * std::abs(at_low) / std::max(stiffness_at(low), min_stiffness),
-                              min_width_rad, first_width_rad);
+    double width = std::clamp(
+        beyond_promise * std::abs(at_low) / std::max(stiffness_Nm_per_rad(low), min_stiffness_Nm_per_rad),
+        min_width_rad, first_width_rad);
     if (at_low < 0.0) width = -width;
     double high = low + width;
     double at_high = torque_left(high);

@@ -234,6 +234,7 @@ ScoredFit CauseSearch::without_cause(const Level& level) {
                                               : nominal_hypothesis(level.bench),
                                           &level.causes.front(), {});
     ScoredFit best = fitted(level, nominal, {});
+    // A search from the stated numbers may end far off; the best causes of the measured bench lead elsewhere.
     if (&level.bench == &built_.bench && built_numbers_.size() > 0) {
         Hypothesis other = nominal;
         other.coordinates = built_numbers_;
