@@ -10,10 +10,10 @@ namespace capstan::model_comparison {
 /// Which runs of a recording are diagnosed, by their numbers, and what is compared. A list without a number
 /// is one that was not given.
 struct DiagnosisRequest {
-    std::vector<int> runs;            ///< only these are diagnosed; not together with `fit` and `hold`
-    std::vector<int> calibrate_on;    ///< to which a drive of unknown geometry is calibrated
-    std::vector<int> fit;             ///< diagnosed; without it all that are not held out
-    std::vector<int> hold;            ///< held out; without it all that are not fitted, where `fit` is there
+    std::vector<int> runs{};          ///< only these are diagnosed; not together with `fit` and `hold`
+    std::vector<int> calibrate_on{};  ///< to which a drive of unknown geometry is calibrated
+    std::vector<int> fit{};           ///< diagnosed; without it all that are not held out
+    std::vector<int> hold{};          ///< held out; without it all that are not fitted, where `fit` is there
     bool with_simple_models = false;  ///< the errors of the simple models stand beside those of the bench
 
     bool has_split() const { return !fit.empty() || !hold.empty(); }
