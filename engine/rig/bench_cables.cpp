@@ -60,6 +60,7 @@ BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEff
     if (!std::all_of(cables.begin(), cables.end(), [](const Cable& cable) { return cable.is_evenly_cut(); }))
         throw InvalidInput(
             {"a bench with effects takes cables cut into equal segments; leave out node_places_m"});
+    group_.benches = static_cast<int>(cables.size());
     group_.nodes = cables.front().nodes();
     group_.cables = arrangement == CableArrangement::pull_pull ? 2 : 1;
     group_.segment_m = cables.front().mean_segment_length_m();
@@ -166,9 +167,9 @@ BenchCables::Ends BenchCables::linearise(const LaneFlags& active, const EndPlace
     return ends;
 }
 
-LaneValues BenchCables::move(const LaneValues& motor_rad, const LaneValues& load_rad,
+LaneValues BenchCables::move(const LaneFlags& active, const LaneValues& motor_rad, const LaneValues& load_rad,
                              const LaneValues& fraction) {
-    return move_cables(group_, motor_rad, load_rad, fraction);
+    return move_cables(group_, active, motor_rad, load_rad, fraction);
 }
 
 void BenchCables::store() {

@@ -37,7 +37,8 @@ class BenchCables {
     };
     Ends linearise(const LaneFlags& active, const EndPlaces (&motor)[max_cables],
                    const EndPlaces (&load)[max_cables]);
-    LaneValues move(const LaneValues& motor_rad, const LaneValues& load_rad, const LaneValues& fraction);
+    LaneValues move(const LaneFlags& active, const LaneValues& motor_rad, const LaneValues& load_rad,
+                    const LaneValues& fraction);
     /// Makes the present guess the step's outcome.
     void store();
 

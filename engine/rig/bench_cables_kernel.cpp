@@ -178,6 +178,7 @@ void linearise(const CablesGroup& group, const LaneFlags& active, const EndPlace
                const EndPlaces* load_end, EndTensions* at_motor, EndTensions* at_load) {
     for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
         const Which which = flags_at(active, lane);
+        if (none_of(which)) continue;
         if (group.cables == 2) {
             linearise_lanes<2>(group, which, lane, motor, load_end, at_motor, at_load);
         } else {
@@ -189,6 +190,7 @@ void linearise(const CablesGroup& group, const LaneFlags& active, const EndPlace
 void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& load_angle_rad) {
     for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
         const Which which = flags_at(active, lane);
+        if (none_of(which)) continue;
         const LaneCable mechanics(group, lane);
         const auto copy = [&](const LaneValues& from, LaneValues& to) HWY_ATTR {
             store(hn::IfThenElse(which, load(from, lane), load(to, lane)), to, lane);
@@ -222,12 +224,13 @@ void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& 
 // No node moves further in one iteration; a node between slack segments has no definite place.
 constexpr double max_move_m = 0.05;
 
-LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
-                const LaneValues& fraction_values) {
+LaneValues move(const CablesGroup& group, const LaneFlags& active, const LaneValues& motor_rad,
+                const LaneValues& load_rad, const LaneValues& fraction_values) {
     LaneValues largest;
     for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
         const Lanes fraction = load(fraction_values, lane);
         const Which moves = hn::Ne(fraction, lanes_of(0.0));
+        if (none_of(flags_at(active, lane))) continue;
         const Lanes motor = load(motor_rad, lane);
         const Lanes turned = load(load_rad, lane);
         Lanes largest_here = lanes_of(0.0);
@@ -252,7 +255,7 @@ LaneValues move(const CablesGroup& group, const LaneValues& motor_rad, const Lan
 }
 
 void keep(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N) {
-    for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
+    for (int lane = 0; lane < group.benches; lane += lanes_at_once) {
         const LaneCable mechanics(group, lane);
         const Which all = hn::Eq(lanes_of(0.0), lanes_of(0.0));
         const int last = group.nodes - 1;
@@ -320,11 +323,11 @@ void linearise_cables(const CablesGroup& group, const LaneFlags& active, const E
     chosen(group, active, motor, load, at_motor, at_load);
 }
 
-LaneValues move_cables(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
-                       const LaneValues& fraction) {
+LaneValues move_cables(const CablesGroup& group, const LaneFlags& active, const LaneValues& motor_rad,
+                       const LaneValues& load_rad, const LaneValues& fraction) {
     using namespace bench;
     static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(move); });
-    return chosen(group, motor_rad, load_rad, fraction);
+    return chosen(group, active, motor_rad, load_rad, fraction);
 }
 
 void store_cables(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N) {

@@ -97,6 +97,7 @@ struct FreePulleys {
 };
 
 struct CablesGroup {
+    int benches = 0;  ///< in the first lanes; nothing reads the others
     int nodes = 0;
     int cables = 0;
     double segment_m = 0.0;
@@ -119,8 +120,8 @@ void linearise_cables(const CablesGroup& group, const LaneFlags& active, const E
 
 /// Moves the nodes by `fraction` of the linear solution for these further turns. Returns the largest move of
 /// a node [m].
-LaneValues move_cables(const CablesGroup& group, const LaneValues& motor_rad, const LaneValues& load_rad,
-                       const LaneValues& fraction);
+LaneValues move_cables(const CablesGroup& group, const LaneFlags& active, const LaneValues& motor_rad,
+                       const LaneValues& load_rad, const LaneValues& fraction);
 
 /// Makes the present guess the step's outcome; writes the tension at both ends of each cable.
 void store_cables(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N);

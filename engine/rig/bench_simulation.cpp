@@ -164,7 +164,7 @@ void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, Lane
             angles[bench].motor_rad += fraction * motor_turn.of[lane];
             angles[bench].load_rad += fraction * load_turn.of[lane];
         }
-        const LaneValues largest_m = cables_.move(motor_turn, load_turn, fractions);
+        const LaneValues largest_m = cables_.move(active, motor_turn, load_turn, fractions);
         for (int lane = 0; lane < count_; ++lane) {
             if (!active.of[lane]) continue;
             reports[static_cast<std::size_t>(lane)].converged = largest_m.of[lane] < move_tolerance_m;

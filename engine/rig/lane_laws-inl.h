@@ -37,6 +37,9 @@ HWY_INLINE Which flags_at(const LaneFlags& flags, int lane) {
     for (int each = 0; each < bench_lanes; ++each) set.of[each] = flags.of[each] ? 1.0 : 0.0;
     return hn::Ne(load(set, lane), lanes_of(0.0));
 }
+HWY_INLINE bool none_of(Which which) {
+    return hn::AllFalse(BenchTag(), which);
+}
 
 // The operations of effects/law.h.
 namespace laws {
