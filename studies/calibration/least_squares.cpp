@@ -56,14 +56,42 @@ Eigen::VectorXd jackknife_half_widths(const std::vector<Eigen::VectorXd>& withou
 
 namespace {
 
-// The others then take their steps without those parameters (projected Gauss-Newton, D. Bertsekas, SIAM J.
-// Control Optim. 20, 1982, 221-246).
-void hold_at_bounds(const Eigen::VectorXd& lower_bounds, LeastSquaresFit& fit) {
-    if (lower_bounds.size() == 0) return;
-    const Eigen::VectorXd gradient = fit.jacobian.transpose() * fit.residuals;
-    for (Eigen::Index k = 0; k < gradient.size(); ++k) {
-        if (fit.parameters[k] <= lower_bounds[k] && gradient[k] > 0.0) fit.jacobian.col(k).setZero();
+// The normal equations of a step.
+struct Normal {
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd gradient;
+
+    Eigen::VectorXd step(double damping) const {
+        constexpr double flat = 1e-12;  // keeps a parameter that changes nothing from making it singular
+        Eigen::MatrixXd damped = matrix;
+        damped.diagonal().array() +=
+            damping * matrix.diagonal().array() + flat * (1.0 + matrix.diagonal().maxCoeff());
+        return -damped.ldlt().solve(gradient);
     }
+    /// By how much the linear model says that the sum of squares falls.
+    double decrease(const Eigen::VectorXd& step) const {
+        return -2.0 * gradient.dot(step) - step.dot(matrix * step);
+    }
+};
+
+// A parameter at its bound beyond which the sum would fall takes no part; the others take their steps without
+// it (projected Gauss-Newton, D. Bertsekas, SIAM J. Control Optim. 20, 1982, 221-246).
+Normal normal_equations(const LeastSquaresFit& fit, const Eigen::VectorXd& lower_bounds) {
+    Normal normal{fit.jacobian.transpose() * fit.jacobian, fit.jacobian.transpose() * fit.residuals};
+    for (Eigen::Index k = 0; k < lower_bounds.size(); ++k) {
+        if (!(fit.parameters[k] <= lower_bounds[k] && normal.gradient[k] > 0.0)) continue;
+        normal.matrix.row(k).setZero();
+        normal.matrix.col(k).setZero();
+        normal.gradient[k] = 0.0;
+    }
+    return normal;
+}
+
+// The derivative along a step that was made is known from the residuals before and after it (C. Broyden,
+// Math. Comp. 19, 1965, 577-593).
+void correct_along(const Eigen::VectorXd& step, const Eigen::VectorXd& change, Eigen::MatrixXd& jacobian) {
+    const double length = step.squaredNorm();
+    if (length > 0.0) jacobian += (change - jacobian * step) * (step.transpose() / length);
 }
 
 }  // namespace
@@ -76,10 +104,10 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     constexpr double max_damping = 1e9;
     constexpr double ease = 0.2;
     constexpr double tighten = 5.0;
-    constexpr double flat = 1e-12;  // keeps a parameter that changes nothing from making the matrix singular
     constexpr int min_iterations = 2;
     constexpr double slow_decreases = 5.0;
     constexpr int max_slow = 2;
+    constexpr double as_promised = 0.7;  // of a decrease: the linear model still holds
 
     const int per_jacobian =
         static_cast<int>(start.size()) * (options.differences == Differences::central ? 2 : 1);
@@ -93,21 +121,19 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     fit.evaluations = 1;
     double damping = start_damping;
     int slow = 0;  // steps in turn that lowered the sum little
+    bool holds = false;
     for (int iteration = 0; iteration < options.max_iterations && !fit.converged; ++iteration) {
-        fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
-        fit.evaluations += per_jacobian;
-        hold_at_bounds(options.lower_bounds, fit);
-        const Eigen::MatrixXd normal = fit.jacobian.transpose() * fit.jacobian;
-        const Eigen::VectorXd gradient = fit.jacobian.transpose() * fit.residuals;
-        const double floor = flat * (1.0 + normal.diagonal().maxCoeff());
-        const auto step_with = [&](double with) -> Eigen::VectorXd {
-            Eigen::MatrixXd damped = normal;
-            damped.diagonal().array() += with * normal.diagonal().array() + floor;
-            return -damped.ldlt().solve(gradient);
-        };
-        const double promised = fit.sum_of_squares + gradient.dot(step_with(0.0));
-        if (iteration >= min_iterations && promised > options.pruned_sum_of_squares) return fit;
-        if (fit.sum_of_squares - promised < options.min_decrease) {
+        const bool is_corrected = options.secant && holds;
+        if (!is_corrected) {
+            fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
+            fit.evaluations += per_jacobian;
+        }
+        holds = false;
+        const Normal normal = normal_equations(fit, options.lower_bounds);
+        const double promised = normal.decrease(normal.step(0.0));
+        if (iteration >= min_iterations && fit.sum_of_squares - promised > options.pruned_sum_of_squares)
+            return fit;
+        if (promised < options.min_decrease) {
             fit.converged = true;
             break;
         }
@@ -117,7 +143,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
             Eigen::MatrixXd tried = fit.parameters.replicate(1, options.dampings_at_once);
             for (int k = 0; k < options.dampings_at_once; ++k) {
                 dampings.push_back(damping * std::pow(spread, k));
-                tried.col(k) += step_with(dampings.back());
+                tried.col(k) += normal.step(dampings.back());
             }
             if (options.lower_bounds.size() > 0)
                 tried = tried.cwiseMax(options.lower_bounds.replicate(1, tried.cols()));
@@ -133,16 +159,20 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
             const bool small =
                 (tried.col(0) - fit.parameters).cwiseAbs().maxCoeff() <= options.parameter_tolerance;
             if (better) {
+                const Eigen::VectorXd step = tried.col(best) - fit.parameters;
+                holds = fit.sum_of_squares - sum > as_promised * normal.decrease(step);
+                if (options.secant) correct_along(step, there.col(best) - fit.residuals, fit.jacobian);
                 fit.parameters = tried.col(best);
                 fit.residuals = there.col(best);
                 fit.sum_of_squares = sum;
                 damping = std::max(min_damping, dampings[static_cast<std::size_t>(best)] * ease);
             }
             fit.converged = small;
-            if (better || small) break;
+            if (better || small || is_corrected) break;  // a corrected Jacobian may be wrong: once more
             damping = dampings.back() * tighten;
             if (damping > max_damping) return fit;
         }
+        if (is_corrected && fit.sum_of_squares == before) continue;
         slow = before - fit.sum_of_squares < slow_decreases * options.min_decrease ? slow + 1 : 0;
         fit.converged |= slow == max_slow;
     }

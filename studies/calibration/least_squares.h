@@ -37,6 +37,9 @@ struct LeastSquaresOptions {
     double min_decrease = 0.0;
     int max_iterations = 40;
     bool jacobian_at_end = true;  ///< computed again at the fit, for its covariance
+    /// After a step that lowers the sum about as far as promised, the Jacobian is corrected along that step
+    /// instead of computed again.
+    bool secant = false;
     /// The number of dampings that are tried in parallel after each Jacobian.
     int dampings_at_once = 1;
     /// After two iterations, a search is given up if its linear model promises more than this.

@@ -220,6 +220,7 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     constexpr int max_rounds = 4;
     constexpr int rough_iterations = 5;
     constexpr double clearly = 1.3;
+    constexpr double not_converged = 1.5;  // a rough search may still come down by this factor
     CauseFit fit;
     SeriesWeights weights = balancing_weights(data_residuals({&from, 1}, options.left_out));
     bool holds = false;
@@ -228,7 +229,7 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
         fit = is_last ? fit_with(weights, from, options, max_iterations, fine_step)
                       : fit_with(weights, from, options, rough_iterations, rough_step);
         evaluations += fit.evaluations;
-        if (is_last) break;
+        if (is_last || fit.sum_of_squares > not_converged * options.pruned_sum_of_squares) break;
         from.coordinates = fit.coordinates;
         const SeriesWeights next = balancing_weights(fit.residuals);
         holds = std::equal(next.begin(), next.end(), weights.begin(), [](double one, double other) {
@@ -266,6 +267,7 @@ CauseFit CauseFitter::fit_with(const SeriesWeights& weights, const Hypothesis& s
     search.lower_bounds = lower_bounds_of(start);
     search.max_iterations = iterations;
     search.jacobian_at_end = false;
+    search.secant = true;
     search.dampings_at_once = dampings_at_once;
     search.min_decrease = 2.0 * min_gain * prior_weight_ * prior_weight_;
     // Sums with weights say nothing of the best sum so far, which has none.

@@ -87,6 +87,7 @@ class CauseFitter {
         std::optional<LeftOut> left_out;  ///< residuals there count as zero
         /// The size of the last cause is unknown: a scan over decades comes before the search.
         bool any_size = true;
+        /// A search that will leave more than this, without weights, is given up.
         double pruned_sum_of_squares = std::numeric_limits<double>::infinity();
         SeriesWeights weights{};
         /// The weights follow what the fit leaves of each channel, where that is more than noise (E53).

@@ -268,6 +268,8 @@ void CauseSearch::report(const std::string& activity) {
 ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options) {
     Model& model = level.bench.is_measured() ? fine_ : coarse_;
     options.balanced = !level.bench.is_measured();
+    // There each channel has a scale of its own, and the sum of squares decides nothing.
+    if (is_undescribed(level.bench)) options.pruned_sum_of_squares = std::numeric_limits<double>::infinity();
     return scored(model, model.fitter.fit(start, options));
 }
 

@@ -71,6 +71,7 @@ void CauseSearch::try_fewer(const Level& level, Fits& all) {
             if (fewer.causes.empty()) fewer = with_cause(fewer, &level.causes.front(), {});
             CauseFitter::FitOptions options;
             options.any_size = false;
+            options.pruned_sum_of_squares = pruned_at(all);
             all.push_back(fitted(level, fewer, options));
         }
         sort_by_evidence(all);

@@ -76,6 +76,35 @@ TEST(LeastSquares, CountsEverySetOfParametersThatItEvaluates) {
     EXPECT_EQ(fit_least_squares(counting, far_away, options).evaluations, evaluated);
 }
 
+// A decay with three parameters: amplitude, rate and rest.
+Eigen::MatrixXd decay(const Eigen::MatrixXd& parameters) {
+    constexpr Eigen::Index samples = 20;
+    const auto value = [](const Eigen::VectorXd& of, double time) {
+        return of[0] * std::exp(-of[1] * time) + of[2];
+    };
+    const Eigen::VectorXd truth{{2.0, 1.5, 0.3}};
+    Eigen::MatrixXd residuals(samples, parameters.cols());
+    for (Eigen::Index column = 0; column < parameters.cols(); ++column) {
+        for (Eigen::Index sample = 0; sample < samples; ++sample) {
+            const double time = 0.1 * static_cast<double>(sample);
+            residuals(sample, column) = value(parameters.col(column), time) - value(truth, time);
+        }
+    }
+    return residuals;
+}
+
+TEST(LeastSquares, AJacobianThatIsCorrectedAlongTheStepsLeadsToTheSameFitWithFewerEvaluations) {
+    const Eigen::VectorXd start{{1.0, 0.8, 0.0}};
+    LeastSquaresOptions options;
+    options.jacobian_at_end = false;
+    const LeastSquaresFit plain = fit_least_squares(decay, start, options);
+    options.secant = true;
+    const LeastSquaresFit corrected = fit_least_squares(decay, start, options);
+    EXPECT_TRUE(corrected.converged);
+    EXPECT_LT((corrected.parameters - plain.parameters).norm(), 1e-3);
+    EXPECT_LT(corrected.evaluations, plain.evaluations);
+}
+
 // From 3 the undamped step leads to a negative argument of the logarithm.
 TEST(LeastSquares, AStepToResidualsThatAreNotFiniteIsShortened) {
     const auto logarithm = [](const Eigen::MatrixXd& parameters) -> Eigen::MatrixXd {
