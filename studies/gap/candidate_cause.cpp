@@ -290,6 +290,29 @@ double OpenNumber::prior_std() const {
     return 1.0;
 }
 
+double OpenNumber::prior_width(double coordinate) const {
+    const double root_two_pi = std::sqrt(2.0 * std::numbers::pi);
+    const double decades = std::log(100.0);
+    switch (kind) {
+        case Kind::size:
+        case Kind::step:
+            return std::abs(coordinate) * decades / root_two_pi;
+        case Kind::signed_size:
+            return 2.0 * std::abs(coordinate) * decades / root_two_pi;
+        case Kind::place:
+            return 1.0 / root_two_pi;  // anywhere along the cable
+        case Kind::shape:
+            return prior_std();
+        case Kind::periods:
+            return 0.0;
+    }
+    return 0.0;
+}
+
+double OpenNumber::log_choices() const {
+    return kind == Kind::periods ? std::log(high - low + 1.0) : 0.0;
+}
+
 std::vector<double> OpenNumber::starts() const {
     switch (kind) {
         case Kind::size:

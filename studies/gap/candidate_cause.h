@@ -38,6 +38,11 @@ struct OpenNumber {
     bool is_size() const { return kind == Kind::size || kind == Kind::signed_size || kind == Kind::step; }
     double prior_mean() const;
     double prior_std() const;
+    /// Standard deviation of a normal density as high as the prior's at this coordinate (E57). Of a size
+    /// nothing is known but its order: it is log-uniform over two decades.
+    double prior_width(double coordinate) const;
+    /// Of a number that takes separate values: the logarithm of how many; else 0.
+    double log_choices() const;
     /// The coordinates at which searches start.
     std::vector<double> starts() const;
 };

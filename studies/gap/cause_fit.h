@@ -57,6 +57,9 @@ struct CauseFit {
     Eigen::VectorXd residuals;    // all series one after the other without weights, then the priors
     SeriesWeights weights{};      // with which it was sought
     double sum_of_squares = 0.0;
+    /// How much of what was probable of the numbers beforehand the recording leaves: the logarithm of the
+    /// posterior's volume over the prior's (E57), at most 0.
+    double log_volume_ratio = 0.0;
     int evaluations = 0;
     bool converged = false;
 
@@ -66,7 +69,8 @@ struct CauseFit {
 };
 
 /// The rms change of the clearest channel when one cause or number alone is removed, in units of noise and
-/// floor. A wrong nominal number is compared with the nominal bench.
+/// floor. A wrong nominal number is compared with the nominal bench; a cause that lets one go far by the
+/// smaller of two changes, without and with that number.
 struct Visibility {
     std::vector<double> of_causes;
     std::vector<double> of_the_bench;
@@ -122,7 +126,8 @@ class CauseFitter {
     /// blocks of a second of all channels, what the independent samples and the priors leave open, and the
     /// jackknife over `without_a_run`, if there are at least three.
     Eigen::VectorXd half_widths(const CauseFit& fit, const std::vector<Eigen::VectorXd>& without_a_run) const;
-    /// The distance of each coordinate from its usual value, weighted as a residual.
+    /// The distance of each coordinate from its usual value, weighted as a residual. A size has no usual
+    /// value; its prior only keeps a search from running away.
     Eigen::VectorXd prior_residuals(const Hypothesis& hypothesis, const Eigen::VectorXd& coordinates) const;
 
     const EffectsTwin& twin() const { return twin_; }
@@ -137,6 +142,7 @@ class CauseFitter {
     std::map<std::size_t, double> mean_squares(const Eigen::VectorXd& residuals) const;
     double clearest_change(const Eigen::VectorXd& change) const;
     SeriesWeights balancing_weights(const Eigen::VectorXd& residuals) const;
+    double log_volume_ratio(const CauseFit& fit, const Eigen::MatrixXd& jacobian) const;
     CauseFit fit_with(const SeriesWeights& weights, const Hypothesis& start, const FitOptions& options,
                       int iterations, double difference_step) const;
     Eigen::VectorXd roughly_sized(const Hypothesis& start, const FitOptions& options,

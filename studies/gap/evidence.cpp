@@ -9,25 +9,21 @@ namespace capstan::gap {
 
 namespace {
 
-// Penalties and log priors are natural logarithms. Those of visibility, of a bench without a cause, of
-// sensors, of further causes and of unknown ones were set on 59 recordings of the blind trial's simulator.
+// Penalties and log priors are natural logarithms.
 
-// Schwarz's penalty for a fitted number is half the logarithm of the independent samples. Half of that is
-// used here, because the prior on each number already takes its part.
-constexpr double schwarz_fraction = 0.5;
-// A gap is a visible change. A cause that changes no channel by twice noise and floor (rms) cannot be what
-// makes it, and its fit follows noise.
-constexpr double visible = 2.0;
+// A gap is a visible change. A cause that changes no channel by as much as noise and floor (rms) is within
+// what the model may be wrong by, and its fit follows that.
+constexpr double visible = 1.0;
 constexpr double invisible_penalty = 8.0;
 // A bench without any cause is more common than one with a given cause.
 constexpr double none_log_prior = 1.0;
 // The model's own error resembles a faulty sensor, so a sensor fault has to explain more than that.
 constexpr double sensor_fault_penalty = 2.0;
-// A further cause is one of about fifty, and rarer than a first one.
-constexpr double further_cause_penalty = 8.0;
+// A further cause is one of about fifty: ln 50. That a recording has one is as probable as that it has none.
+constexpr double further_cause_penalty = 3.9;
 // On a bench whose zeros and bearings float, these explain what is usual; a cause beside them is one of about
 // fifty: ln 50.
-constexpr double cause_beside_floating_numbers_penalty = 4.0;
+constexpr double cause_beside_floating_numbers_penalty = 3.9;
 // A cause outside the list is rarer than the causes in it.
 constexpr double unknown_penalty = 4.0;
 // A model's floor is known to about a quarter, and a cause's law to law_error of what the cause does. A
@@ -38,9 +34,11 @@ constexpr double law_error = 0.1;
 constexpr double min_unknown_size = 1.0;
 // The standard deviation of noise and floor together is known to a tenth: of ln variance twice that.
 constexpr double scale_error = 0.2;
-// No excess says more against named causes than that another acts beside them: noise may be wrongly stated,
-// and then all named causes leave too much.
-constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty;
+// What a number costs that a recording determines to a fiftieth of what was probable: ln 50 (E57).
+constexpr double usual_number = 3.9;
+// No excess says more against named causes than that another one of some size acts beside them: noise may be
+// wrongly stated, and then all named causes leave too much.
+constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty + usual_number;
 // A cause's law in the catalogue is an idealisation, good to about a tenth of what the cause does. A further
 // cause that is fainter than that only corrects the law of the clearest one.
 constexpr double faint = law_error;
@@ -123,9 +121,8 @@ std::vector<std::string> ScoredFit::of_the_bench() const {
 }
 
 // The log-likelihood of Gaussian residuals with a free scale is -n/2 ln(mean square), up to a constant.
-double Evidence::of(double misfit, std::size_t open_numbers) const {
-    return -0.5 * samples_ * weighed_log(misfit) -
-           0.5 * schwarz_fraction * static_cast<double>(open_numbers) * std::log(samples_);
+double Evidence::log_likelihood(double misfit) const {
+    return -0.5 * samples_ * weighed_log(misfit);
 }
 
 double Evidence::of(const ScoredFit& fit) const {
@@ -150,17 +147,17 @@ double Evidence::with_unknown(const ScoredFit& fit) const {
 double Evidence::of_any_residuals(const ScoredFit& fit) const {
     const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());
     const double size = std::sqrt(std::max(0.0, most - tenable_mean_square(fit)));
-    return of(fit.misfit, open_numbers(fit.fit) + 1) -
+    const double of_the_size = 0.5 * std::log(samples_);
+    return log_likelihood(fit.misfit) + fit.fit.log_volume_ratio - of_the_size -
            invisible_penalty * std::max(0.0, 1.0 - size / min_unknown_size);
 }
 
 // The logarithm of the likelihood's mean over the sizes of the discrepancy.
 double Evidence::marginal(const ScoredFit& fit, const std::function<double(double)>& weight) const {
-    const std::size_t open = open_numbers(fit.fit);
     double most = -std::numeric_limits<double>::infinity();
     std::array<double, discrepancy_sizes.size()> each{};
     for (std::size_t k = 0; k < each.size(); ++k) {
-        each[k] = of(fit.beside[k].misfit, open) - 0.5 * fit.beside[k].log_determinant;
+        each[k] = log_likelihood(fit.beside[k].misfit) - 0.5 * fit.beside[k].log_determinant;
         if (weight(discrepancy_sizes[k]) > 0.0) most = std::max(most, each[k]);
     }
     double sum = 0.0;
@@ -170,7 +167,7 @@ double Evidence::marginal(const ScoredFit& fit, const std::function<double(doubl
         weights += its;
         if (its > 0.0) sum += its * std::exp(each[k] - most);
     }
-    return most + std::log(sum / weights);
+    return fit.fit.log_volume_ratio + most + std::log(sum / weights);
 }
 
 double Evidence::priors(const ScoredFit& fit) const {

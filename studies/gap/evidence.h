@@ -63,15 +63,13 @@ struct WeighedHypothesis {
 
 /// Compares explanations of a recording by the residuals that they leave.
 ///
-/// A hypothesis has any number of causes, of which one may be outside the list. Its evidence is a Bayesian
-/// information criterion (G. Schwarz, Estimating the dimension of a model, Annals of Statistics 6, 1978,
-/// 461-464): the log-likelihood of the mean square residual over the independent samples, minus a penalty for
-/// each fitted number. Residuals are correlated in time, so only independent samples count. They are noise
-/// plus a discrepancy (Discrepancy), whose size is integrated over: small beside named causes, whose laws are
-/// good to a tenth; of any visible size for a cause outside the list, which may also be no function of the
-/// motion at all. Four terms go beyond the criterion: the distance of the bench's and of a cause's own
-/// numbers from their usual values, in units of their uncertainty; the prior probability of each kind of
-/// hypothesis; and that of the scale of each channel's residuals, which is known where noise and floor are
+/// A hypothesis has any number of causes, of which one may be outside the list. Its evidence is the
+/// likelihood of the mean square residual over the independent samples, integrated over the numbers with
+/// their priors by Laplace's method (E57). Residuals are correlated in time, so only independent samples
+/// count. They are noise plus a discrepancy (Discrepancy), whose size is integrated over: small beside named
+/// causes, whose laws are good to a tenth; of any visible size for a cause outside the list, which may also
+/// be no function of the motion at all. Two terms go beyond that: the prior probability of each kind of
+/// hypothesis, and that of the scale of each channel's residuals, which is known where noise and floor are
 /// (E56). The constants stand in evidence.cpp, each with its reason.
 class Evidence {
   public:
@@ -95,7 +93,7 @@ class Evidence {
     static constexpr double overstated = 1.3;
 
   private:
-    double of(double misfit, std::size_t open_numbers) const;
+    double log_likelihood(double misfit) const;
     double priors(const ScoredFit& fit) const;
     double marginal(const ScoredFit& fit, const std::function<double(double size)>& weight) const;
     double of_any_residuals(const ScoredFit& fit) const;

@@ -15,10 +15,14 @@ Visibility CauseFitter::visibility(const CauseFit& fit) const {
     for (const CandidateCause* cause : fit.causes) {
         Hypothesis without =
             only_causes(fit.hypothesis(), [&](const CandidateCause& other) { return &other != cause; });
+        // A cause may let a nominal number go far. It is there only as far as its own numbers show, too: with
+        // a size of nothing it is the wrong nominal number alone.
+        const Hypothesis with_far_number = without;
         for (Eigen::Index number = 0; number < nominal_coordinates; ++number) {
             if (cause->nominal_std(number) > fit.bench->numbers[static_cast<std::size_t>(number)].prior_std)
                 without.coordinates[number] = 0.0;
         }
+        hypotheses.push_back(cause->numbers.empty() ? without : with_far_number);
         hypotheses.push_back(without);
     }
     const Eigen::Index numbers = fit.bench->size() > nominal_coordinates ? fit.bench->size() : 0;
@@ -28,11 +32,13 @@ Visibility CauseFitter::visibility(const CauseFit& fit) const {
     }
     const Eigen::MatrixXd residuals = data_residuals(hypotheses);
     Visibility visibility;
-    for (Eigen::Index column = 1; column < residuals.cols(); ++column) {
-        const bool of_cause = visibility.of_causes.size() < fit.causes.size();
-        (of_cause ? visibility.of_causes : visibility.of_the_bench)
-            .push_back(clearest_change(residuals.col(column) - residuals.col(0)));
-    }
+    const auto change = [&](Eigen::Index column) {
+        return clearest_change(residuals.col(column) - residuals.col(0));
+    };
+    Eigen::Index next = 1;
+    for (; visibility.of_causes.size() < fit.causes.size(); next += 2)
+        visibility.of_causes.push_back(std::min(change(next), change(next + 1)));
+    for (; next < residuals.cols(); ++next) visibility.of_the_bench.push_back(change(next));
     return visibility;
 }
 

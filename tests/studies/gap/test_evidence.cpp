@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "capstan/gap/evidence.h"
 
 namespace capstan::gap {
@@ -33,6 +35,9 @@ ScoredFit fitted(const Evidence& evidence, std::vector<const CandidateCause*> ca
                  std::vector<double> visibility) {
     ScoredFit fit;
     fit.fit.causes = std::move(causes);
+    // The recording determines each size to about a fiftieth of what was probable.
+    for (const CandidateCause* cause : fit.fit.causes)
+        fit.fit.log_volume_ratio -= static_cast<double>(cause->numbers.size()) * std::log(50.0);
     fit.misfit = misfit;
     fit.beside = only_noise(misfit);
     fit.visibility = std::move(visibility);
@@ -76,11 +81,7 @@ TEST(Evidence, FavoursTheCauseThatLeavesOnlyNoise) {
 TEST(Evidence, UnusualNumbersLowerTheEvidenceByTheirPenalty) {
     const Known known;
     const ScoredFit usual = fitted(evidence, {&known.drag}, 1.0, {4.0});
-    ScoredFit odd;
-    odd.fit.causes = {&known.drag};
-    odd.misfit = 1.0;
-    odd.beside = usual.beside;
-    odd.visibility = {4.0};
+    ScoredFit odd = usual;
     odd.shape_penalty = 10.0;  // a number e^4.5 times what is usual
     EXPECT_NEAR(usual.evidence - evidence.of(odd), odd.shape_penalty, 1e-12);
 }

@@ -1,6 +1,7 @@
 // How well the numbers of a fit are known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -55,6 +56,29 @@ DragFit fit_drag(const Recording& recording) {
         return {cause.numbers.front(), fit, fitter.half_widths(fit, {})};
     }
     throw std::out_of_range("viscous_friction");
+}
+
+const CandidateCause& cause_named(const std::vector<CandidateCause>& causes, const std::string& effect) {
+    return *std::find_if(causes.begin(), causes.end(),
+                         [&](const CandidateCause& each) { return each.effect == effect; });
+}
+
+// Load-dependent friction with an exponent of 1 is Coulomb friction with another coefficient.
+TEST(Visibility, ACauseWithoutASizeIsNotSeenByTheNominalNumberThatItLetsGoFar) {
+    const Recording recording = session_with_drag();
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes = candidate_causes(recording);
+    const auto visibility_of = [&](const std::string& effect) {
+        const CandidateCause& cause = cause_named(causes, effect);
+        CauseFit fit;
+        fit.causes = {&cause};
+        fit.coordinates =
+            Eigen::VectorXd::Zero(nominal_coordinates + static_cast<Eigen::Index>(cause.numbers.size()));
+        fit.coordinates[0] = 0.3;  // of the friction's logarithm
+        return fitter.visibility(fit).of_causes.front();
+    };
+    EXPECT_GT(visibility_of("param_mu"), 2.0);
+    EXPECT_LT(visibility_of("load_dependent_friction"), 1e-9);
 }
 
 TEST(FitIntervals, HoldTheTrueNumberAndGrowWithTheModelsError) {
