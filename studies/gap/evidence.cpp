@@ -15,7 +15,8 @@ namespace {
 // what the model may be wrong by, and its fit follows that.
 constexpr double visible = 1.0;
 constexpr double invisible_penalty = 8.0;
-// A bench without any cause is more common than one with a given cause.
+// Whoever diagnoses a recording has seen a gap. One in twenty is none, and the others have one of about fifty
+// causes: e / (e + 50).
 constexpr double none_log_prior = 1.0;
 // The model's own error resembles a faulty sensor, so a sensor fault has to explain more than that.
 constexpr double sensor_fault_penalty = 2.0;
