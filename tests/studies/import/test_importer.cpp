@@ -128,6 +128,26 @@ TEST_F(Importing, BridgesFewMissingSamplesByStraightLines) {
     EXPECT_NEAR(recording.runs[0].values[motor][200], line, 1e-8);
 }
 
+// The jump over missing readings may have any size.
+TEST_F(Importing, UnwindsACounterThatWrapsBesideAGap) {
+    std::string text = "t,counts,load\n";
+    for (int k = 0; k < 500; ++k) {
+        const double angle = 0.5 * std::sin(full_turn * 0.5 * 0.01 * k);
+        const double counts = std::round(angle / full_turn * 4096.0);
+        if (k < 185 || k >= 235)
+            text += fmt::format("{},{},{:.6f}\n", 0.01 * k, counts - 4096.0 * std::floor(counts / 4096.0),
+                                0.8 * angle);
+    }
+    const ImportReport report = import({write("a.csv", text)}, R"(
+[channels]
+motor_angle = { column = "counts", unit = "counts", counts_per_turn = 4096 }
+load_angle = { column = "load", unit = "rad" }
+[recording]
+mode = "lumped_drive"
+)");
+    EXPECT_EQ(finding_of(report, FindingKind::wrapped_counter).amount, 4096.0);
+}
+
 TEST_F(Importing, UnwindsACounterThatWraps) {
     std::string text = "t,counts,load\n";
     std::vector<double> true_rad;
