@@ -143,7 +143,7 @@ std::optional<ClockOffset> offset_beside(const std::vector<double>& channel,
     const Eigen::VectorXd coarse = vector_of(every(channel, step));
     const auto range = std::min<Eigen::Index>(
         static_cast<Eigen::Index>(longest_s * sample_rate_Hz / static_cast<double>(step)) + 1,
-        coarse.size() / 4);
+        coarse.size() / (others.size() == 1 ? 3 : 4));
     const ShiftFit complete(features_of(thinned), range, coarse.size() - 2 * range);
     const BestShift first = best_shift(complete, coarse, 0, range, model_error);
     if (first.unexplained > largest_unexplained || !first.inside) return std::nullopt;
@@ -165,7 +165,7 @@ std::optional<ClockOffset> offset_beside(const std::vector<double>& channel,
             best_shift(ShiftFit(features, begin + part * length, length), all, centre, near, model_error);
         if (quarter.inside && quarter.unexplained < largest_unexplained) estimates.push_back(quarter.shift);
     }
-    if (!found.inside || estimates.size() < 2) return std::nullopt;
+    if (!found.inside || found.unexplained > largest_unexplained || estimates.size() < 2) return std::nullopt;
     const auto [low, high] = std::minmax_element(estimates.begin(), estimates.end());
     // A channel that shows something k samples later has a clock that is k samples behind.
     const double wide = first.half_range >= 1.0 ? first.half_range * static_cast<double>(step) : 0.0;
@@ -179,7 +179,7 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
                                              const std::vector<ClockReference>& others, double sample_rate_Hz,
                                              double longest_s, double model_error) {
     auto found = offset_beside(channel, others, sample_rate_Hz, longest_s, model_error);
-    if (found) return found;
+    if (found && found->uncertainty_s <= 1.0 / sample_rate_Hz) return found;
     // Few samples do not determine the weights of many elements; a copy of a single channel needs one. An
     // angle's speed, which imitates a shift, is then not beside it, so that no torque is compared with an
     // angle.
@@ -187,7 +187,8 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
         if (other.is_angle) continue;
         const auto alone =
             offset_beside(channel, {{other.values, false, false}}, sample_rate_Hz, longest_s, model_error);
-        if (alone && alone->unexplained < (found ? found->unexplained : largest_unexplained_of_a_copy))
+        if (alone && alone->unexplained < largest_unexplained_of_a_copy &&
+            (!found || alone->uncertainty_s < found->uncertainty_s))
             found = alone;
     }
     return found;
