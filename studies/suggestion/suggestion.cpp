@@ -217,7 +217,12 @@ class Suggesting {
                                                                           : BenchMode::single_cable);
         auto& recording = suggestion_.mapping.recording;
         recording["mode"] = mode_name(mode);
-        if (!options_.mode)
+        if (!options_.mode && mode == BenchMode::lumped_drive)
+            guess(
+                "recording", Doubt::doubtful,
+                "the kind of bench is guessed: a drive of which nothing but its two shafts is known, which tells least. If two cables "
+                "run between a motor pulley and a load pulley, suggest again with --kind pull_pull and state their numbers");
+        else if (!options_.mode)
             guess(
                 "recording", Doubt::likely,
                 fmt::format(
