@@ -143,7 +143,7 @@ std::optional<ClockOffset> offset_beside(const std::vector<double>& channel,
     const Eigen::VectorXd coarse = vector_of(every(channel, step));
     const auto range = std::min<Eigen::Index>(
         static_cast<Eigen::Index>(longest_s * sample_rate_Hz / static_cast<double>(step)) + 1,
-        coarse.size() / (others.size() == 1 ? 3 : 4));
+        coarse.size() / (others.size() == 1 && !others[0].with_friction ? 3 : 4));
     const ShiftFit complete(features_of(thinned), range, coarse.size() - 2 * range);
     const BestShift first = best_shift(complete, coarse, 0, range, model_error);
     if (first.unexplained > largest_unexplained || !first.inside) return std::nullopt;
@@ -179,7 +179,7 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
                                              const std::vector<ClockReference>& others, double sample_rate_Hz,
                                              double longest_s, double model_error) {
     auto found = offset_beside(channel, others, sample_rate_Hz, longest_s, model_error);
-    if (found && found->uncertainty_s <= 1.0 / sample_rate_Hz) return found;
+    if (others.size() < 2 || (found && found->uncertainty_s <= 1.0 / sample_rate_Hz)) return found;
     // Few samples do not determine the weights of many elements; a copy of a single channel needs one. An
     // angle's speed, which imitates a shift, is then not beside it, so that no torque is compared with an
     // angle.
