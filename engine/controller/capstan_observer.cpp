@@ -48,6 +48,16 @@ std::vector<capstan::ObserverSensor> sensors_of(const capstan_sensor* given, std
     return sensors;
 }
 
+capstan::ObserverSettings settings_of(const capstan_observer_settings& given) {
+    return {.noise_N = given.noise_N,
+            .load_wander_m = given.load_wander_m,
+            .motor_wander_m = given.motor_wander_m,
+            .members = given.members,
+            .seed = given.seed,
+            .rate_friction = {{given.drag_N_s_per_m2},
+                              {given.extra_friction, given.speed_m_per_s, given.memory_s}}};
+}
+
 void tell(const std::string& words, char* message, std::size_t bytes) {
     if (message == nullptr || bytes == 0) return;
     const std::size_t kept = std::min(words.size(), bytes - 1);
@@ -59,7 +69,16 @@ void tell(const std::string& words, char* message, std::size_t bytes) {
 
 capstan_observer_settings capstan_observer_defaults(void) {
     const capstan::ObserverSettings usual;
-    return {usual.noise_N, usual.load_wander_m, usual.motor_wander_m, usual.members, usual.seed};
+    const capstan::RateFriction& friction = usual.rate_friction;
+    return {usual.noise_N,
+            usual.load_wander_m,
+            usual.motor_wander_m,
+            usual.members,
+            usual.seed,
+            friction.viscous.drag_N_s_per_m2,
+            friction.stribeck.extra_friction,
+            friction.stribeck.speed_m_per_s,
+            friction.stribeck.memory_s};
 }
 
 size_t capstan_observer_bytes(void) {
@@ -80,14 +99,11 @@ capstan_status capstan_observer_create(void* storage, size_t storage_bytes, cons
     try {
         const capstan::Cable its_cable = made(*cable);
         const auto nodes = static_cast<std::size_t>(its_cable.nodes());
-        *observer =
-            new (storage) capstan_observer{{its_cable,
-                                            sensors_of(sensors, sensor_count),
-                                            {settings->noise_N, settings->load_wander_m,
-                                             settings->motor_wander_m, settings->members, settings->seed}},
-                                           sensor_count + 1,
-                                           nodes,
-                                           std::vector<double>(3 * nodes)};
+        *observer = new (storage)
+            capstan_observer{{its_cable, sensors_of(sensors, sensor_count), settings_of(*settings)},
+                             sensor_count + 1,
+                             nodes,
+                             std::vector<double>(3 * nodes)};
         return CAPSTAN_OK;
     } catch (const capstan::InvalidInput& error) {
         std::string words;

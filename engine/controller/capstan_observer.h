@@ -1,7 +1,7 @@
 #ifndef CAPSTAN_CONTROLLER_CAPSTAN_OBSERVER_H
 #define CAPSTAN_CONTROLLER_CAPSTAN_OBSERVER_H
-/* The tension along a cable for a controller in C (C99): the observer of the library, E36 to E38 of its
- * equations.
+/* The tension along a cable for a controller in C (C99): the observer of the library, E36 to E38 and E41 of
+ * its equations.
  *
  * The caller owns the storage. Creating an observer allocates what it needs and may take milliseconds; an
  * update allocates nothing, locks nothing and raises no exception, and its time depends on the number of
@@ -51,6 +51,12 @@ typedef struct capstan_observer_settings {
     double motor_wander_m; /**< the same of the motor's end */
     int members;           /**< a power of two from 8 to 1024 */
     uint64_t seed;
+    /* Friction that depends on the sliding speed v (E20, E21, E41). With a drag an update takes twice as
+     * long. */
+    double drag_N_s_per_m2; /**< a drag of this times v on each metre of cable; 0: none */
+    double extra_friction;  /**< the friction is higher by this times exp(-(v / speed_m_per_s)^2); 0: none */
+    double speed_m_per_s;   /**< above 0 with extra_friction */
+    double memory_s;        /**< time constant of the low-pass of v in that law; 0 or more */
 } capstan_observer_settings;
 
 typedef enum capstan_status {
@@ -87,8 +93,9 @@ void capstan_observer_destroy(capstan_observer* observer);
 int capstan_observer_nodes(const capstan_observer* observer);
 
 /** One sample later. `readings`: how much cable the motor has reeled in since the start [m; positive pulls],
- * then one of each sensor. Samples come at a constant rate; the time only serves to refuse those that are out
- * of order. Writes the mean and the limits of the 95% band at every node [N]; each may be NULL. */
+ * then one of each sensor. Samples come at a constant rate, as the wanders are those of a sample; the times
+ * give the sliding speed, and those that do not rise are refused. Writes the mean and the limits of the 95%
+ * band at every node [N]; each may be NULL. */
 capstan_status capstan_observer_update(capstan_observer* observer, double time_s, const double* readings,
                                        double* mean_N, double* low_N, double* high_N);
 

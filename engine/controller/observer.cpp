@@ -1,5 +1,6 @@
 #include "capstan/controller/observer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -15,6 +16,24 @@ std::string in_digits(double value) {
     std::ostringstream text;
     text << value;
     return text.str();
+}
+
+// Between two samples, for the sliding speed; the cable has been at rest for so long before the first one.
+constexpr double shortest_interval_s = 1e-9;
+constexpr double longest_interval_s = 1e9;
+
+void add_problems_of(const RateFriction& friction, std::vector<std::string>& problems) {
+    const auto check = [&](const char* name, double value) {
+        if (!(value >= 0.0) || !std::isfinite(value))
+            problems.push_back("rate_friction." + std::string(name) + ": is " + in_digits(value) +
+                               ", but must be 0 or more");
+    };
+    check("drag_N_s_per_m2", friction.viscous.drag_N_s_per_m2);
+    check("extra_friction", friction.stribeck.extra_friction);
+    check("speed_m_per_s", friction.stribeck.speed_m_per_s);
+    check("memory_s", friction.stribeck.memory_s);
+    if (friction.stribeck.is_active() && friction.stribeck.speed_m_per_s == 0.0)
+        problems.push_back("rate_friction.speed_m_per_s: is 0, but must be above 0 with an extra friction");
 }
 
 std::vector<std::string> problems_of(const Cable& cable, const std::vector<ObserverSensor>& sensors,
@@ -33,10 +52,7 @@ std::vector<std::string> problems_of(const Cable& cable, const std::vector<Obser
     if (of_the_load > 1) problems.push_back("sensors: two measure the displacement of the load; give one");
     if (!(settings.noise_N > 0.0) || !std::isfinite(settings.noise_N))
         problems.push_back("noise_N: is " + in_digits(settings.noise_N) + ", but must be above 0");
-    if (settings.rate_friction.is_active() &&
-        !(settings.interval_s > 0.0 && std::isfinite(settings.interval_s)))
-        problems.push_back("interval_s: is " + in_digits(settings.interval_s) +
-                           ", but friction that depends on speed needs the time between samples");
+    add_problems_of(settings.rate_friction, problems);
     return problems;
 }
 
@@ -57,7 +73,7 @@ Observer::Observer(const Cable& cable, std::vector<ObserverSensor> sensors, cons
                   .wander = {settings.motor_wander_m, settings.load_wander_m},
                   .seed = settings.seed,
                   .rate_friction = settings.rate_friction,
-                  .interval_s = settings.interval_s}),
+                  .interval_s = longest_interval_s}),
       sensors_(std::move(sensors)) {
     for (const ObserverSensor& sensor : sensors_) {
         if (!sensor.is_load_displacement)
@@ -74,6 +90,7 @@ void Observer::update(double time_s, std::span<const double> readings) {
         else
             tensions_[tension++].value_N = readings[k + 1];
     }
+    estimator_.set_interval(std::clamp(time_s - time_s_, shortest_interval_s, longest_interval_s));
     report_ = estimator_.step(ends, tensions_);
     load_m_ = ends.distal_displacement_m;
     time_s_ = time_s;

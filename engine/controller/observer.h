@@ -21,15 +21,16 @@ struct ObserverSettings {
     double motor_wander_m = 0.0;  ///< the same of the motor's end
     int members = 32;             ///< see RecursiveSettings
     std::uint64_t seed = 1;
-    /// Friction that depends on the sliding speed (E41), known exactly; an update then moves the cables twice.
+    /// Friction that depends on the sliding speed (E41), known exactly. With a viscous drag an update moves
+    /// the cables twice.
     RateFriction rate_friction{};
-    double interval_s = 0.0;  ///< between samples, which come at a constant rate; needed with rate_friction
 };
 
 /// The recursive estimator (E36 to E38) as a control loop meets it: one sample in, the tension at every node
 /// with its 95% band out. The motor's position is known, and counts how much cable it has reeled in since the
 /// start, positive pulls; the load's displacement, where a sensor has it, is positive away from the motor.
-/// An update allocates nothing.
+/// Before the first sample the cable was at rest. The ends' wander is that of a sample, so that samples are
+/// to come at a constant rate; the sliding speed is taken from their times. An update allocates nothing.
 class Observer {
   public:
     /// Starts with the cable at rest under its pretension. Throws InvalidInput with every problem of sensors

@@ -28,6 +28,8 @@ class RateExponents {
                   double interval_s, std::size_t cables);
 
     std::size_t size() const { return drag_N_.size(); }
+    /// Above 0: how long the steps from now on are.
+    void set_interval(double interval_s) { interval_s_ = interval_s; }
     /// Whether a step has to be taken twice.
     bool needs_second_trial() const { return friction_.viscous.is_active(); }
 

@@ -34,7 +34,7 @@ struct RecursiveSettings {
     std::uint64_t seed = 1;
     /// Known exactly. Where it is there, mu_s counts as mu_d, as on the bench.
     RateFriction rate_friction{};
-    double interval_s = 0.0;  ///< between samples; needed with rate_friction
+    double interval_s = 0.0;  ///< between samples, until set_interval(); needed with rate_friction
 };
 
 /// How a step went.
@@ -61,6 +61,11 @@ class RecursiveEstimator {
     /// meets rules other than ElongationRule::mean_tension.
     RecursiveEstimator(const QuasiStaticStep& model, const CableState& start,
                        const RecursiveSettings& settings);
+
+    /// The time between this sample and the next, and all after it; above 0. It matters with rate_friction.
+    void set_interval(double interval_s) {
+        if (sliding_) sliding_->rates.set_interval(interval_s);
+    }
 
     /// One sample later. Readings may be none. Allocates nothing. Throws InvalidInput if a displacement or a
     /// reading is not a finite number or a sensor sits beyond the cable; the estimate is then unchanged.

@@ -87,7 +87,7 @@ class Book:
                        "PYTHONDONTWRITEBYTECODE": "1"}
         # Debian's modules belong to the interpreter that runs this.
         done = subprocess.run([sys.executable, "-m", "sphinx", "-b", builder, "-n", "-W", "--keep-going", "-q", "-j", "2",
-                               self.pages, self.work / builder.replace("single", "single_")], env=environment)
+                               "-d", self.work / "doctrees", self.pages, self.work / builder.replace("single", "single_")], env=environment)
         if done.returncode != 0:
             raise SystemExit("the book has warnings")
 
@@ -103,8 +103,17 @@ class Book:
                        check=True, capture_output=True)
         if not pdf.exists():
             raise SystemExit("Chromium wrote no PDF")
-        shutil.copy(pdf, self.work / "html")
         shutil.rmtree(self.work / "browser", ignore_errors=True)
+
+    def write_both(self):
+        """The pages from what Sphinx has read, while Chromium prints the one page."""
+        with ThreadPoolExecutor(1) as pool:
+            printed = pool.submit(self.print_pdf)
+            self.sphinx("html")
+            printed.result()
+        pdf = self.work / "capstan.pdf"
+        if pdf.exists():
+            shutil.copy(pdf, self.work / "html")
 
 
 def main():
@@ -115,10 +124,8 @@ def main():
     options = parser.parse_args()
     book = Book(options.build, options.doxyfile)
     started = time.monotonic()
-    for name, step in (("pages", book.make_pages), ("html", lambda: book.sphinx("html")),
-                       ("one page", lambda: book.sphinx("singlehtml")), ("pdf", book.print_pdf)):
-        if name == "pages":
-            book.begin()
+    book.begin()
+    for name, step in (("pages", book.make_pages), ("one page", lambda: book.sphinx("singlehtml")), ("html and pdf", book.write_both)):
         try:
             step()
         except blocks.BlockFailed as failed:

@@ -5,6 +5,8 @@
 #include "capstan/bench_model/effect_numbers.h"
 #include "capstan/bench_model/model_keys.h"
 #include "capstan/effects/sensor_faults.h"
+#include "capstan/recording/driven_inputs.h"
+#include "capstan/rig/channel_names.h"
 
 namespace capstan::bench_model {
 
@@ -172,6 +174,20 @@ gap::BenchEquivalence description_of(const model_comparison::DiagnosedSplit& spl
     return description;
 }
 
+double tension_noise_of(const Recording& recorded, const NominalBench& bench) {
+    const Recording known = with_estimated_noise(recorded);
+    const auto noise_of = [&](std::string_view name) {
+        const auto channel = known.channel(name);
+        return channel ? sample_noise(known.channels[static_cast<std::size_t>(*channel)]) : 0.0;
+    };
+    double noise_N = 0.0;
+    for (const TensionSensor& sensor : known.tension_sensors)
+        noise_N = std::max(noise_N, noise_of(sensor.channel));
+    if (!known.tension_sensors.empty()) return noise_N;
+    return std::max(noise_of(channel::motor_torque) / bench.motor_radius_m,
+                    noise_of(channel::load_torque) / bench.load_radius_m);
+}
+
 }  // namespace
 
 bool BenchModel::is_of_unknown_geometry() const {
@@ -224,6 +240,8 @@ BenchModel model_of(const model_comparison::DiagnosedSplit& split,
     model.recorded_mode = split.recorded.mode;
     model.description = description_of(split);
     model.segments = options.segments;
+    model.sample_rate_Hz = split.recorded.sample_rate_Hz;
+    model.tension_noise_N = tension_noise_of(split.recorded, model.description.bench);
     model.friction_ratio = {"friction_ratio", "", friction_ratio, diagnosis.friction_interval};
     model.stiffness_ratio = {"stiffness_ratio", "", stiffness_ratio, diagnosis.stiffness_interval};
     model.pretension_ratio = {"pretension_ratio", "", pretension_ratio, diagnosis.pretension_interval};

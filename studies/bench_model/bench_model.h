@@ -73,7 +73,11 @@ struct BenchModel {
     /// The bench before the diagnosis, with channels as they are recorded. Where the geometry is unknown, an
     /// equivalent bench.
     gap::BenchEquivalence description;
-    int segments = 40;  ///< of a cable; a single cable has twice as many
+    int segments = 40;            ///< of a cable; a single cable has twice as many
+    double sample_rate_Hz = 0.0;  ///< of the recording; 0: not known
+    /// Standard deviation of a tension reading: of the noisiest tension sensor, or of a torque sensor over
+    /// the radius of its pulley where no tension was recorded; 0: not known.
+    double tension_noise_N = 0.0;
     /// In parts of what the description, or a run's pretension, says.
     FittedNumber friction_ratio;
     FittedNumber stiffness_ratio;

@@ -33,6 +33,8 @@ void read_description(TableReader table, BenchModel& model) {
     else if (table.has("recorded_mode"))
         table.add_problem("recorded_mode", "must be pull_pull, single_cable, lumped_drive or capstan_band");
     model.segments = table.integer("segments", 2, 1000);
+    model.sample_rate_Hz = table.number_or("sample_rate_Hz", Range::zero_or_more, 0.0);
+    model.tension_noise_N = table.number_or("tension_noise_N", Range::zero_or_more, 0.0);
     gap::BenchEquivalence& described = model.description;
     described.bench.motor_radius_m = table.number("motor_radius_m", Range::positive);
     described.bench.load_radius_m = table.number("load_radius_m", Range::positive);

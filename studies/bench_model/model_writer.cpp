@@ -101,6 +101,10 @@ void write_description(ModelText& text, const BenchModel& model) {
             : "The bench before the diagnosis, as the recording's sidecar states it.");
     text.value("recorded_mode", std::string(mode_name(model.recorded_mode)));
     text.value("segments", model.segments);
+    text.value("sample_rate_Hz", model.sample_rate_Hz);
+    text.comment(
+        "Standard deviation of a tension reading, as the recording's sensors show it; 0: not known.");
+    text.value("tension_noise_N", model.tension_noise_N);
     text.value("motor_radius_m", described.bench.motor_radius_m);
     text.value("load_radius_m", described.bench.load_radius_m);
     text.value("dynamic_friction", described.bench.dynamic_friction);

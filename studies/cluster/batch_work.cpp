@@ -17,16 +17,12 @@ namespace {
 
 constexpr int refused = 2;  // exit code: the input is wrong
 
-std::string quoted_json(const std::string& text) {
-    return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 }  // namespace
 
 units::ResultUnits units_of(const StudyDirectory& directory) {
     const Batch& batch = *directory.batch;
-    units::ResultUnits units{fmt::format("\"command\": {}, \"options\": {}, ", quoted_json(batch.command),
-                                         json(batch.options).dump()),
+    units::ResultUnits units{fmt::format("\"command\": {}, \"options\": {}, ",
+                                         units::quoted_json(batch.command), json(batch.options).dump()),
                              batch.inputs, storage::words_of(storage::this_computation())};
     if (batch.command == "gap-trial") {
         units.inputs.clear();
@@ -54,7 +50,7 @@ units::Result run_unit(const StudyDirectory& directory, int unit, const WorkOpti
     if (stop.load()) return {WorkEnd::stopped};
     if (done.exit_code == refused)
         return {WorkEnd::complete,
-                fmt::format("{{\"refused\": {}}}\n", quoted_json(without_line_end(done.messages)))};
+                fmt::format("{{\"refused\": {}}}\n", units::quoted_json(without_line_end(done.messages)))};
     if (done.exit_code == 0 && json::accept(done.output)) return {WorkEnd::complete, done.output};
     if (options.say)
         options.say(fmt::format("shard {} failed with exit code {}: {}", unit, done.exit_code,

@@ -92,11 +92,17 @@ bool has_bend(const LocalBend& bend, const std::string& cable) {
 constexpr std::array<std::string_view, 4> used_effects = {"viscous_friction", "stribeck", "local_bend",
                                                           "pretension_drift"};
 
+constexpr std::string_view zero_of = "zero_of_";
+
+bool is_zero(const std::string& change) {
+    return change.find(zero_of) != std::string::npos;
+}
+
 std::string following_words(const bench_model::ModelFollowing& following, const std::string& change) {
-    const std::string zero = "zero_of_";
-    const std::string what = change.starts_with(zero) ? "zero of " + channel_words(change.substr(zero.size()))
-                             : change == "pretension_log" ? "pretension"
-                                                          : "friction";
+    const std::string what =
+        is_zero(change) ? "zero of " + channel_words(change.substr(change.find(zero_of) + zero_of.size()))
+        : change.ends_with("pretension_log") ? "pretension"
+                                             : "friction";
     return fmt::format("{} that follows {}", what, following.condition);
 }
 
@@ -114,15 +120,20 @@ std::vector<std::string> parts_not_used(const BenchModel& model, const UsedParts
         for (const FittedNumber& fault : sensor.faults) {
             if (used.zeros_and_gains && (fault.name == "gain" || fault.name == "offset")) continue;
             // Within a sample no estimate of a sample changes.
-            if (fault.name == "time_misalignment" && std::abs(fault.value) * used.sample_rate_Hz < 1.0)
+            if (fault.name == "time_misalignment" && used.sample_rate_Hz > 0.0 &&
+                std::abs(fault.value) * used.sample_rate_Hz < 1.0)
                 continue;
             const std::string cause = find_cause(fault.name) != nullptr ? fault.name : "sensor_" + fault.name;
             add(fmt::format("{} ({})", cause_title(cause), channel_words(sensor.channel)));
         }
     }
     if (used.conditions) return unused;
-    for (const bench_model::ModelFollowing& following : model.follows)
-        for (const FittedNumber& change : following.changes) add(following_words(following, change.name));
+    for (const bench_model::ModelFollowing& following : model.follows) {
+        const auto& stated = used.stated_conditions;
+        const bool is_stated = std::find(stated.begin(), stated.end(), following.condition) != stated.end();
+        for (const FittedNumber& change : following.changes)
+            if (!is_stated || is_zero(change.name)) add(following_words(following, change.name));
+    }
     return unused;
 }
 

@@ -21,9 +21,10 @@ struct ModelledCables {
 /// What an estimator takes from a model beside friction, stiffness and pretension.
 struct UsedParts {
     std::span<const std::string_view> effects{};
-    bool zeros_and_gains = false;  ///< of sensors
-    bool conditions = false;       ///< numbers that follow a condition of the runs
-    double sample_rate_Hz = 0.0;   ///< of what it reads; 0: not known
+    bool zeros_and_gains = false;                      ///< of sensors
+    bool conditions = false;                           ///< numbers that follow a condition of the runs
+    std::span<const std::string> stated_conditions{};  ///< else: friction and pretension that follow these
+    double sample_rate_Hz = 0.0;                       ///< of what it reads; 0: not known
 };
 
 /// What the model has beyond that, in words, as ModelledCables::not_used.

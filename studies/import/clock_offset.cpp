@@ -18,6 +18,8 @@ constexpr int parts = 4;
 constexpr std::size_t fewest_fitted = 100;
 // A channel of which the others explain less does not show its clock well enough to be shifted.
 constexpr double largest_unexplained = 0.05;
+// Of one that repeats a single other channel, such as a torque beside the tension at its pulley, the noise.
+constexpr double largest_unexplained_of_a_copy = 3e-4;
 
 // An elastic-plastic element: it moves with the input until it yields.
 std::vector<double> stop_element(const std::vector<double>& input, double yield) {
@@ -130,11 +132,9 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-}  // namespace
-
-std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
-                                             const std::vector<ClockReference>& others, double sample_rate_Hz,
-                                             double longest_s, double model_error) {
+std::optional<ClockOffset> offset_beside(const std::vector<double>& channel,
+                                         const std::vector<ClockReference>& others, double sample_rate_Hz,
+                                         double longest_s, double model_error) {
     if (channel.size() < fewest_fitted || others.empty()) return std::nullopt;
     const std::size_t step = std::max<std::size_t>(1, channel.size() / coarse_samples);
     std::vector<ClockReference> thinned;
@@ -143,7 +143,7 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
     const Eigen::VectorXd coarse = vector_of(every(channel, step));
     const auto range = std::min<Eigen::Index>(
         static_cast<Eigen::Index>(longest_s * sample_rate_Hz / static_cast<double>(step)) + 1,
-        coarse.size() / 4);
+        coarse.size() / (others.size() == 1 && !others[0].with_friction ? 3 : 4));
     const ShiftFit complete(features_of(thinned), range, coarse.size() - 2 * range);
     const BestShift first = best_shift(complete, coarse, 0, range, model_error);
     if (first.unexplained > largest_unexplained || !first.inside) return std::nullopt;
@@ -153,23 +153,45 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
     const Eigen::MatrixXd features = features_of(others);
     const auto centre = static_cast<Eigen::Index>(std::llround(first.shift * static_cast<double>(step)));
     const auto near = static_cast<Eigen::Index>(2 * step + 3);
-    const Eigen::Index margin = std::abs(centre) + near;
-    const Eigen::Index length = (all.size() - 2 * margin) / parts;
+    const Eigen::Index begin = std::max<Eigen::Index>(0, near - centre);
+    const Eigen::Index rows = all.size() - std::max<Eigen::Index>(0, centre + near) - begin;
+    const Eigen::Index length = rows / parts;
     if (length < static_cast<Eigen::Index>(fewest_fitted / parts)) return std::nullopt;
-    const ShiftFit fine(features, margin, all.size() - 2 * margin);
+    const ShiftFit fine(features, begin, rows);
     const BestShift found = best_shift(fine, all, centre, near, model_error);
     std::vector<double> estimates;
     for (Eigen::Index part = 0; part < parts; ++part) {
         const BestShift quarter =
-            best_shift(ShiftFit(features, margin + part * length, length), all, centre, near, model_error);
+            best_shift(ShiftFit(features, begin + part * length, length), all, centre, near, model_error);
         if (quarter.inside && quarter.unexplained < largest_unexplained) estimates.push_back(quarter.shift);
     }
-    if (!found.inside || estimates.size() < 2) return std::nullopt;
+    if (!found.inside || found.unexplained > largest_unexplained || estimates.size() < 2) return std::nullopt;
     const auto [low, high] = std::minmax_element(estimates.begin(), estimates.end());
     // A channel that shows something k samples later has a clock that is k samples behind.
     const double wide = first.half_range >= 1.0 ? first.half_range * static_cast<double>(step) : 0.0;
     return ClockOffset{-found.shift / sample_rate_Hz, std::max(0.5 * (*high - *low), wide) / sample_rate_Hz,
                        found.unexplained, fine.unexplained(all, 0)};
+}
+
+}  // namespace
+
+std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
+                                             const std::vector<ClockReference>& others, double sample_rate_Hz,
+                                             double longest_s, double model_error) {
+    auto found = offset_beside(channel, others, sample_rate_Hz, longest_s, model_error);
+    if (others.size() < 2 || (found && found->uncertainty_s <= 1.0 / sample_rate_Hz)) return found;
+    // Few samples do not determine the weights of many elements; a copy of a single channel needs one. An
+    // angle's speed, which imitates a shift, is then not beside it, so that no torque is compared with an
+    // angle.
+    for (const ClockReference& other : others) {
+        if (other.is_angle) continue;
+        const auto alone =
+            offset_beside(channel, {{other.values, false, false}}, sample_rate_Hz, longest_s, model_error);
+        if (alone && alone->unexplained < largest_unexplained_of_a_copy &&
+            (!found || alone->uncertainty_s < found->uncertainty_s))
+            found = alone;
+    }
+    return found;
 }
 
 }  // namespace capstan::imports

@@ -5,9 +5,25 @@
 #include <cctype>
 #include <string_view>
 
+#include "capstan/cable/invalid_input.h"
 #include "capstan/import/units.h"
 
 namespace capstan::imports {
+
+namespace {
+
+// A log given twice would count twice, whichever names it has.
+void require_each_once(const std::vector<std::filesystem::path>& files) {
+    std::error_code missing;  // which is told where the file is read
+    for (std::size_t k = 1; k < files.size(); ++k) {
+        for (std::size_t before = 0; before < k; ++before) {
+            if (files[before] == files[k] || std::filesystem::equivalent(files[before], files[k], missing))
+                throw InvalidInput({files[k].string() + ": is given twice; name each log once"});
+        }
+    }
+}
+
+}  // namespace
 
 std::string file_names(const std::vector<std::filesystem::path>& files) {
     std::string names;
@@ -18,6 +34,7 @@ std::string file_names(const std::vector<std::filesystem::path>& files) {
 std::vector<std::unique_ptr<logs::Log>> read_logs(const std::vector<std::filesystem::path>& files,
                                                   logs::ReadOptions options,
                                                   const std::function<void(double)>& on_progress) {
+    require_each_once(files);
     const auto bytes_of = [](const std::filesystem::path& file) {
         std::error_code failed;
         const auto size = std::filesystem::file_size(file, failed);

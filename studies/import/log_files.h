@@ -13,7 +13,8 @@ namespace capstan::imports {
 /// The names of files without their folders, between commas.
 std::string file_names(const std::vector<std::filesystem::path>& files);
 
-/// Reads all files; they share the options' memory limit. `on_progress` gets the fraction of their bytes.
+/// Reads all files; they share the options' memory limit. `on_progress` gets the fraction of their
+/// bytes. Throws InvalidInput where one is given twice, or as logs::read_log().
 std::vector<std::unique_ptr<logs::Log>> read_logs(const std::vector<std::filesystem::path>& files,
                                                   logs::ReadOptions options,
                                                   const std::function<void(double)>& on_progress);

@@ -25,11 +25,13 @@ bool matches(const std::string& pattern, const std::string& name) {
     return pattern.empty() || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
-std::string columns_in_words(const std::vector<const Log*>& logs, const std::string& wanted) {
+std::string columns_in_words(const std::vector<const Log*>& logs, const ColumnPlace& wanted) {
     std::vector<std::string> names;
+    std::vector<std::string> tables;
     std::string list;
     for (const Log* log : logs) {
         for (const LogTable& table : log->tables) {
+            tables.push_back(table.name);
             for (const LogColumn& column : table.columns) {
                 names.push_back(column.name);
                 if (list.size() < 600)
@@ -38,8 +40,11 @@ std::string columns_in_words(const std::vector<const Log*>& logs, const std::str
             }
         }
     }
-    if (const auto nearest = nearest_name(wanted, names))
-        return fmt::format("; did you mean \"{}\"?", *nearest);
+    const bool has_table =
+        wanted.table.empty() || std::find(tables.begin(), tables.end(), wanted.table) != tables.end();
+    const auto nearest = has_table ? nearest_name(wanted.column, names) : nearest_name(wanted.table, tables);
+    if (nearest)
+        return fmt::format("; {}did you mean \"{}\"?", has_table ? "" : "there is no such table, ", *nearest);
     return list.empty() ? "; the file has no column of numbers" : "; the columns are: " + list;
 }
 
@@ -75,7 +80,7 @@ class SourceFinder {
         if (found.empty()) {
             problem(key, fmt::format("no column \"{}\"{} in {}{}", channel.from.column,
                                      channel.from.table.empty() ? "" : " of " + channel.from.table, files(),
-                                     columns_in_words(logs_, channel.from.column)));
+                                     columns_in_words(logs_, channel.from)));
             return std::nullopt;
         }
         if (found.size() > 1) {
@@ -117,7 +122,7 @@ class SourceFinder {
                                           files())
                             : fmt::format("no column \"{}\" in {}{}{}", time.column, files(),
                                           found.table->name.empty() ? "" : " " + found.table->name,
-                                          columns_in_words({found.log}, time.column)));
+                                          columns_in_words({found.log}, {"", "", time.column})));
             return false;
         }
         const LogColumn& column = found.table->columns[static_cast<std::size_t>(clock.column)];

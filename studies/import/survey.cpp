@@ -102,8 +102,15 @@ class Outermost {
     double from_s_ = 0.0;
 };
 
-void note_jump(std::vector<double>& largest, double jump) {
-    if (largest.size() == kept_jumps && jump <= largest.back()) return;
+struct Jump {
+    double change = 0.0;
+    double distance_s = 0.0;
+
+    bool operator>(const Jump& other) const { return change > other.change; }
+};
+
+void note_jump(std::vector<Jump>& largest, const Jump& jump) {
+    if (largest.size() == kept_jumps && !(jump > largest.back())) return;
     largest.insert(std::upper_bound(largest.begin(), largest.end(), jump, std::greater<>()), jump);
     if (largest.size() > kept_jumps) largest.pop_back();
 }
@@ -148,6 +155,7 @@ ChannelSurvey survey_channel(const Source& source, RowRange rows) {
     double value = 0.0;
     double last_s = 0.0;
     double last = 0.0;
+    std::vector<Jump> jumps;
     std::vector<TimeGap> wide;  // not yet known to be gaps
     double period_s = 0.0;
     const auto settle_period = [&] {
@@ -170,7 +178,7 @@ ChannelSurvey survey_channel(const Source& source, RowRange rows) {
             const double usual_s = period_s > 0.0 ? period_s : distances.front();
             if (distance_s > 1.5 * usual_s || (period_s == 0.0 && distance_s > usual_s))
                 wide.push_back({last_s, time_s});
-            note_jump(survey.largest_jumps, change);
+            note_jump(jumps, {change, distance_s});
         }
         survey.low = std::min(survey.low, value);
         survey.high = std::max(survey.high, value);
@@ -182,6 +190,9 @@ ChannelSurvey survey_channel(const Source& source, RowRange rows) {
         last = value;
     }
     settle_period();
+    for (const Jump& jump : jumps) {
+        if (jump.distance_s <= 1.5 * period_s) survey.largest_jumps.push_back(jump.change);
+    }
     survey.last_s = last_s;
     survey.missing = track.missing;
     survey.repeated = track.repeated;

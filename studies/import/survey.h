@@ -30,7 +30,8 @@ struct ChannelSurvey {
     double typical_change = 0.0;        ///< 90% of the changes from reading to reading are smaller, SI
     std::size_t saturated = 0;          ///< readings in long rows of exactly the largest or smallest value
     double saturated_at_s = 0.0;        ///< the first of them
-    std::vector<double> largest_jumps;  ///< the largest changes, SI, largest first; at most 64
+    std::vector<double> largest_jumps;  ///< the largest changes between neighbouring readings, none of which
+                                        ///< is missing, SI, largest first; at most 64
     bool constant() const { return high == low; }
 };
 

@@ -1,14 +1,11 @@
 // Excel workbooks (.xlsx): a ZIP archive of XML. Each sheet is read as the lines of a text file, so that its
 // head, units and columns of text are found in the same way.
-#include <expat.h>
 #include <fmt/format.h>
-#include <minizip/unzip.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -16,101 +13,18 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/logs/text_lines.h"
 #include "capstan/logs/text_table.h"
+#include "capstan/xml_archive/xml_archive.h"
 
 namespace capstan::logs {
 
 namespace {
 
 constexpr std::size_t sheet_sample_rows = 1000;
-constexpr std::uint64_t free_unpacked_bytes = 64u << 20;
-constexpr std::uint64_t largest_zip_ratio = 200;  // XML of numbers packs ten to forty times
 constexpr std::size_t shared_text_bytes = 64u << 20;
 constexpr std::size_t longest_cell = 4096;
 constexpr int max_row = 1 << 20;  // Excel's own bound
 
-using Attributes = std::map<std::string, std::string>;
-
-std::string name_without_prefix(std::string_view name) {
-    return std::string(name.substr(name.rfind(':') + 1));  // npos + 1 is 0
-}
-
-/// The parts of a workbook, unpacked as they are read.
-class Archive {
-  public:
-    explicit Archive(const std::filesystem::path& path)
-        : path_(path),
-          file_(unzOpen64(path.c_str()), unzClose),
-          packed_bytes_(std::filesystem::file_size(path)) {
-        if (!file_) refuse("is a ZIP archive that is cut or damaged; copy the file again");
-    }
-
-    [[noreturn]] void refuse(std::string_view why) const {
-        throw InvalidInput({fmt::format("{}: {}", path_.string(), why)});
-    }
-
-    /// Element by element; false if there is no such part.
-    struct Handlers {
-        std::function<void(const std::string& name, const Attributes& attributes)> begin{};
-        std::function<void(const std::string& name)> end{};
-        std::function<void(std::string_view text)> text{};
-    };
-    bool parse(const std::string& part, const Handlers& handlers) {
-        if (unzLocateFile(file_.get(), part.c_str(), 1) != UNZ_OK) return false;
-        if (unzOpenCurrentFile(file_.get()) != UNZ_OK) refuse(part + " in it cannot be unpacked");
-        const std::unique_ptr<std::remove_pointer_t<XML_Parser>, void (*)(XML_Parser)> parser(
-            XML_ParserCreate(nullptr), XML_ParserFree);
-        if (!parser) throw std::bad_alloc();
-        Parsing parsing{handlers, parser.get()};
-        XML_SetUserData(parser.get(), &parsing);
-        XML_SetElementHandler(
-            parser.get(),
-            [](void* to, const char* name, const char** pairs) {
-                Attributes attributes;
-                for (; pairs[0]; pairs += 2) attributes[name_without_prefix(pairs[0])] = pairs[1];
-                static_cast<Parsing*>(to)->handlers.begin(name_without_prefix(name), attributes);
-            },
-            [](void* to, const char* name) {
-                if (const auto& end = static_cast<Parsing*>(to)->handlers.end) end(name_without_prefix(name));
-            });
-        XML_SetCharacterDataHandler(parser.get(), [](void* to, const char* text, int length) {
-            if (const auto& take = static_cast<Parsing*>(to)->handlers.text)
-                take({text, static_cast<std::size_t>(length)});
-        });
-        // A workbook has no document type, and so no entities of its own.
-        XML_SetStartDoctypeDeclHandler(parser.get(),
-                                       [](void* to, const char*, const char*, const char*, int) {
-                                           XML_StopParser(static_cast<Parsing*>(to)->parser, XML_FALSE);
-                                       });
-        feed(part, parser.get());
-        unzCloseCurrentFile(file_.get());
-        return true;
-    }
-
-  private:
-    struct Parsing {
-        const Handlers& handlers;
-        XML_Parser parser;
-    };
-
-    void feed(const std::string& part, XML_Parser parser) {
-        std::vector<char> block(1u << 16);
-        for (int got = 1; got > 0;) {
-            got = unzReadCurrentFile(file_.get(), block.data(), static_cast<unsigned>(block.size()));
-            if (got < 0) refuse(part + " in it is damaged");
-            unpacked_bytes_ += static_cast<std::uint64_t>(got);
-            if (unpacked_bytes_ > free_unpacked_bytes + largest_zip_ratio * packed_bytes_)
-                refuse("unpacks to far more than a workbook does");
-            if (XML_Parse(parser, block.data(), got, got == 0) != XML_STATUS_OK)
-                refuse(fmt::format("{} in it is not as Excel writes it, in line {}", part,
-                                   XML_GetCurrentLineNumber(parser)));
-        }
-    }
-
-    std::filesystem::path path_;
-    std::unique_ptr<std::remove_pointer_t<unzFile>, int (*)(unzFile)> file_;
-    std::uint64_t packed_bytes_;
-    std::uint64_t unpacked_bytes_ = 0;
-};
+using Attributes = XmlArchive::Attributes;
 
 // Days since 1899-12-30 as ISO 8601, to ten microseconds: a double holds them to one.
 std::string instant_of_days(double days) {
@@ -137,7 +51,7 @@ bool is_date_format(std::string_view code) {
 class WorkbookReading {
   public:
     WorkbookReading(const std::filesystem::path& path, const ReadOptions& options, Log& log)
-        : archive_(path), options_(options), log_(log), writer_(log, options) {}
+        : archive_(path, "a workbook"), options_(options), log_(log), writer_(log, options) {}
 
     void read() {
         std::vector<std::pair<std::string, std::string>> sheets;  // names and relations
@@ -325,7 +239,7 @@ class WorkbookReading {
             table_->take(lines[row - 1], row);
     }
 
-    Archive archive_;
+    XmlArchive archive_;
     const ReadOptions& options_;
     Log& log_;
     TableWriter writer_;

@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <map>
 #include <memory>
 
 #include "arrays.h"
@@ -9,7 +11,7 @@
 #include "capstan/bench_model/model_file.h"
 #include "capstan/bench_model/model_prediction.h"
 #include "capstan/cable/conduit.h"
-#include "capstan/estimate/modelled_cable.h"
+#include "capstan/estimate/observed_cable.h"
 #include "capstan/reports/page_frame.h"
 #include "long_call.h"
 
@@ -33,36 +35,35 @@ BenchModel model_of(const PythonDiagnosis& found) {
     return bench_model::model_of(split, found.runs.left_over, origin, {});
 }
 
-// What the cable of the model is made of: length, bends, stiffness, both frictions, pretension in parts of
-// what is stated.
-py::tuple cable_numbers(const BenchModel& model) {
-    const NominalBench& bench = model.description.bench;
+// Of a cable of the model: length, bends, stiffness, both frictions and pretension; drag, extra friction, its
+// speed and its memory (E20, E21); what an observer of it leaves out.
+py::tuple observed_cable(const BenchModel& model, const std::string& name, const py::handle& pretension_N,
+                         const py::handle& session_s, const std::map<std::string, double>& conditions,
+                         bool speed_dependent) {
+    if (name != "A" && name != "B")
+        throw InvalidInput({fmt::format("cable: is '{}', but must be 'A' or 'B'", name)});
+    const estimate::ObservedCable cable = estimate::observed_cable(
+        model, {.cable = name == "A" ? BentCables::only_a : BentCables::only_b,
+                .pretension_N = pretension_N.is_none() ? model.description.pretension_N
+                                                       : number_of(pretension_N, "pretension_N"),
+                .session_s = number_of(session_s, "session_s"),
+                .conditions = conditions,
+                .speed_dependent = speed_dependent});
+    const CableSpecification& made = cable.specification;
     py::list bends;
     double at_m = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) {
+    for (const CurvaturePiece& piece : made.curvature) {
         if (piece.bend_radius_m != straight)
             bends.append(py::make_tuple(piece.length_m / piece.bend_radius_m / rad_per_degree,
                                         piece.bend_radius_m, at_m));
         at_m += piece.length_m;
     }
-    return py::make_tuple(at_m, bends, bench.axial_stiffness_N * model.stiffness_ratio.value,
-                          bench.dynamic_friction * model.friction_ratio.value,
-                          bench.static_friction * model.friction_ratio.value, model.pretension_ratio.value);
-}
-
-// Drag, extra friction, its speed and its memory (E20, E21).
-py::tuple rate_friction(const BenchModel& model) {
-    const BenchEffects effects = model.numbers().effects;
-    const auto& stribeck = effects.of<Stribeck>();
-    return py::make_tuple(effects.of<ViscousFriction>().drag_N_s_per_m2, stribeck.extra_friction,
-                          stribeck.speed_m_per_s, stribeck.memory_s);
-}
-
-// What an observer of cable_numbers() leaves out; without an interval also rate_friction().
-std::vector<std::string> not_used_by_observer(const BenchModel& model, double interval_s) {
-    static constexpr std::string_view by_speed[] = {"viscous_friction", "stribeck"};
-    if (!(interval_s > 0.0)) return estimate::parts_not_used(model, {});
-    return estimate::parts_not_used(model, {.effects = by_speed, .sample_rate_Hz = 1.0 / interval_s});
+    const Stribeck& stribeck = cable.rate_friction.stribeck;
+    return py::make_tuple(py::make_tuple(at_m, bends, made.axial_stiffness_N, made.dynamic_friction,
+                                         made.static_friction, made.pretension_N),
+                          py::make_tuple(cable.rate_friction.viscous.drag_N_s_per_m2, stribeck.extra_friction,
+                                         stribeck.speed_m_per_s, stribeck.memory_s),
+                          cable.not_used);
 }
 
 std::shared_ptr<PythonPrediction> predict(const BenchModel& model,
@@ -115,9 +116,9 @@ void bind_models(py::module_& module) {
         .def("text", &bench_model::model_text)
         .def("save", [](const BenchModel& model,
                         const std::filesystem::path& file) { bench_model::write_model(file, model); })
-        .def("cable_numbers", &cable_numbers)
-        .def("rate_friction", &rate_friction)
-        .def("not_used_by_observer", &not_used_by_observer)
+        .def("observed_cable", &observed_cable)
+        .def_property_readonly("tension_noise_N",
+                               [](const BenchModel& model) { return model.tension_noise_N; })
         .def("predict", &predict);
 }
 

@@ -54,27 +54,16 @@ ObserverSensor sensor_of(const py::handle& given, std::size_t k) {
 // As RateFriction of the package gives it: drag, extra friction, its speed and its memory.
 RateFriction rate_friction_of(const py::sequence& given) {
     const auto number = [&](py::size_t k, const char* name) {
-        const double value = number_of(given[k], std::string("rate_friction.") + name);
-        if (!(value >= 0.0) || !std::isfinite(value))
-            throw InvalidInput(
-                {fmt::format("rate_friction.{}: is {:g}, but must be 0 or more", name, value)});
-        return value;
+        return number_of(given[k], std::string("rate_friction.") + name);
     };
-    RateFriction friction;
-    friction.viscous.drag_N_s_per_m2 = number(0, "drag_N_s_per_m2");
-    friction.stribeck.extra_friction = number(1, "extra_friction");
-    friction.stribeck.speed_m_per_s = number(2, "speed_m_per_s");
-    friction.stribeck.memory_s = number(3, "memory_s");
-    if (friction.stribeck.is_active() && !(friction.stribeck.speed_m_per_s > 0.0))
-        throw InvalidInput({"rate_friction.speed_m_per_s: is 0, but must be above 0 with an extra friction"});
-    return friction;
+    return {{number(0, "drag_N_s_per_m2")},
+            {number(1, "extra_friction"), number(2, "speed_m_per_s"), number(3, "memory_s")}};
 }
 
 std::unique_ptr<Observer> make_observer(const PythonCable& held, const py::sequence& given,
                                         const py::handle& noise_N, const py::handle& load_wander_m,
                                         const py::handle& motor_wander_m, const py::handle& members,
-                                        const py::handle& seed, const py::sequence& rate_friction,
-                                        const py::handle& interval_s) {
+                                        const py::handle& seed, const py::sequence& rate_friction) {
     std::vector<ObserverSensor> sensors;
     for (std::size_t k = 0; k < given.size(); ++k) sensors.push_back(sensor_of(given[k], k));
     const ObserverSettings settings{
@@ -83,8 +72,7 @@ std::unique_ptr<Observer> make_observer(const PythonCable& held, const py::seque
         .motor_wander_m = number_of(motor_wander_m, "motor_wander_m"),
         .members = static_cast<int>(integer_of(members, "members")),
         .seed = static_cast<std::uint64_t>(integer_of(seed, "seed", {0, 9200000000000000000})),
-        .rate_friction = rate_friction_of(rate_friction),
-        .interval_s = interval_s.is_none() ? 0.0 : number_of(interval_s, "interval_s")};
+        .rate_friction = rate_friction_of(rate_friction)};
     return std::make_unique<Observer>(held.cable, std::move(sensors), settings);
 }
 

@@ -67,6 +67,15 @@ constexpr std::initializer_list<const char*> torque_words = {
 constexpr std::initializer_list<const char*> tension_words = {"tension", "force", "loadcell", "cell",
                                                               "strain",  "ft",    "fz",       "kraft"};
 
+// In "M_finger" the letter stands for a moment; in "q_m" and "tau_m", where no other word names an end, for
+// the motor.
+void read_lone_m(Words& words) {
+    const auto letter = std::find(words.begin(), words.end(), "m");
+    if (letter == words.end()) return;
+    words.erase(letter);
+    words.emplace_back(has_any(words, motor_words) || has_any(words, load_words) ? "moment" : "m");
+}
+
 }  // namespace
 
 std::vector<SeenColumn> seen_columns(const std::vector<const logs::Log*>& logs) {
@@ -119,6 +128,7 @@ bool is_run_number(const SeenColumn& column) {
 double name_fits(const SeenColumn& column, const std::string& channel) {
     Words words = words_of_column(column);
     for (const std::string& word : words_of(column.table->name)) words.push_back(word);
+    read_lone_m(words);
     const auto unit = find_unit(column.unit);
     const bool is_angle = channel.ends_with("_angle");
     const bool is_torque = channel.ends_with("_torque");

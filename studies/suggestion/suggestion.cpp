@@ -10,13 +10,12 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/import/importer.h"
 #include "capstan/import/log_files.h"
-#include "capstan/import/log_times.h"
-#include "capstan/platform/statistics.h"
 #include "capstan/recording/recording_keys.h"
 #include "capstan/rig/channel_names.h"
 #include "capstan/suggestion/column_motion.h"
 #include "capstan/suggestion/column_roles.h"
 #include "capstan/suggestion/guessed_signs.h"
+#include "capstan/suggestion/guessed_times.h"
 #include "capstan/suggestion/guessed_units.h"
 
 namespace capstan::imports {
@@ -46,7 +45,7 @@ class Suggesting {
             for (std::size_t file = 1; file < logs_.size(); ++file) looked_at.push_back(logs_[file].get());
         }
         columns_ = seen_columns(looked_at);
-        find_times();
+        times_ = guess_times(suggestion_.mapping.time, columns_, suggestion_.guesses);
         find_run_numbers();
         find_channels();
         find_kind();
@@ -70,40 +69,6 @@ class Suggesting {
         });
     }
 
-    // Times by name; else the column that rises with every row.
-    void find_times() {
-        TimeMapping& time = suggestion_.mapping.time;
-        std::vector<const logs::LogTable*> tables;  // in the order of the files
-        for (const SeenColumn& column : columns_) {
-            if (tables.empty() || tables.back() != column.table) tables.push_back(column.table);
-        }
-        for (const logs::LogTable* table : tables) {
-            int found = time_column(*table, "");
-            bool by_name = found >= 0;
-            if (!by_name) {
-                for (const SeenColumn& column : columns_) {
-                    if (column.table != table || !column.rising || found >= 0) continue;
-                    found = static_cast<int>(column.column - table->columns.data());
-                }
-            }
-            if (found < 0) continue;
-            const logs::LogColumn& column = table->columns[static_cast<std::size_t>(found)];
-            times_.insert(&column);
-            if (time.column.empty() && (!by_name || table->name.empty())) {
-                time.column = column.name;
-                if (!by_name)
-                    guess("time", Doubt::likely,
-                          fmt::format("\"{}\" is the column that rises with every row", column.name));
-                settle_time_unit(column);
-            }
-        }
-        if (times_.empty()) {
-            time.sample_rate_Hz = 1000.0;
-            guess("time", Doubt::doubtful,
-                  "the log has no column of times; the rate is made up, state the logger's own");
-        }
-    }
-
     void find_run_numbers() {
         for (const SeenColumn& column : columns_) {
             if (times_.count(column.column) > 0 || !is_run_number(column)) continue;
@@ -113,29 +78,6 @@ class Suggesting {
                 "time", Doubt::likely,
                 fmt::format("\"{}\" numbers the runs, by its name and its few changes", column.column->name));
         }
-    }
-
-    void settle_time_unit(const logs::LogColumn& column) {
-        TimeMapping& time = suggestion_.mapping.time;
-        const double stated = seconds_per_unit(column, "");
-        std::vector<double> readings = logs::numbers_of(column.values, 4096);
-        std::vector<double> periods;
-        for (std::size_t k = 1; k < readings.size(); ++k) {
-            if (readings[k] > readings[k - 1]) periods.push_back(readings[k] - readings[k - 1]);
-        }
-        if (periods.empty()) return;
-        const double period = upper_median(periods);
-        if (is_usual_period(period * stated)) {
-            time.unit = time_unit_name(stated);
-            return;
-        }
-        time.unit = usual_time_unit(period);
-        if (time.unit.empty()) return;
-        guess("time", Doubt::likely,
-              fmt::format("in {} the rate is {:.4g} Hz; in {} it would be {:.4g} Hz, unusual for a bench",
-                          time.unit, 1.0 / (period * find_unit(time.unit)->si),
-                          column.unit.empty() ? "s" : "\"" + column.unit + "\", as the head says,",
-                          1.0 / (period * stated)));
     }
 
     const SeenColumn* best_by_name(const std::string& channel, double& margin) const {
@@ -275,7 +217,12 @@ class Suggesting {
                                                                           : BenchMode::single_cable);
         auto& recording = suggestion_.mapping.recording;
         recording["mode"] = mode_name(mode);
-        if (!options_.mode)
+        if (!options_.mode && mode == BenchMode::lumped_drive)
+            guess(
+                "recording", Doubt::doubtful,
+                "the kind of bench is guessed: a drive of which nothing but its two shafts is known, which tells least. If two cables "
+                "run between a motor pulley and a load pulley, suggest again with --kind pull_pull and state their numbers");
+        else if (!options_.mode)
             guess(
                 "recording", Doubt::likely,
                 fmt::format(

@@ -11,11 +11,11 @@ namespace capstan::units {
 
 using nlohmann::json;
 
-namespace {
-
 std::string quoted_json(const std::string& text) {
     return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
+
+namespace {
 
 // Over the hashes of all units, so that none can be exchanged for another.
 std::string hash_over(const std::vector<std::string>& inputs, const std::vector<std::string>& hashes) {

@@ -8,6 +8,9 @@
 
 namespace capstan::units {
 
+/// A text as a JSON string; bytes that are no UTF-8 are replaced.
+std::string quoted_json(const std::string& text);
+
 /// Units whose results are texts (JSON), each in a file of its own, kept with its SHA-256.
 struct ResultUnits {
     std::string head;                 ///< what the merged file says first: JSON members, each with a comma

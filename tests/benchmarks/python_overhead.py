@@ -1,9 +1,10 @@
-"""What a call from Python costs beyond the same call from C++, how two threads compare with one, and how long Ctrl-C
-takes. Run by hand: PYTHONPATH=build/python /usr/bin/python3 tests/benchmarks/python_overhead.py build"""
+"""What a call from Python costs beyond the same call from C++ (processor time, which other work on the machine changes
+little), how two threads compare with one, and how long Ctrl-C takes. Run by hand: PYTHONPATH=build/python /usr/bin/python3 tests/benchmarks/python_overhead.py build"""
 
 import math
 import os
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -14,15 +15,15 @@ import numpy as np
 
 import capstan as cp
 
-ROUNDS = 5
+ROUNDS = 9
 
 
-def shortest_s(times, work):
+def shortest_s(times, work, clock=time.perf_counter):
     best = math.inf
     for _ in range(times):
-        start = time.perf_counter()
+        start = clock()
         work()
-        best = min(best, time.perf_counter() - start)
+        best = min(best, clock() - start)
     return best
 
 
@@ -42,7 +43,7 @@ def update_s():
         for time_s, readings in samples:
             update(time_s, readings)
 
-    return shortest_s(15, work) / len(samples)
+    return shortest_s(15, work, time.process_time) / len(samples)
 
 
 def both_threads_s(work):
@@ -82,10 +83,11 @@ def main(build):
     pairs = []
     for _ in range(ROUNDS):  # side by side, so that what else runs on the machine meets both
         cpp = [float(s) for s in subprocess.run([f"{build}/tests/benchmarks/cable_calls"], capture_output=True, text=True, check=True).stdout.split()]
-        pairs.append((cpp, [shortest_s(15, work), update_s()]))
-    cpp, python = (tuple(min(pair[side][k] for pair in pairs) for k in (0, 1)) for side in (0, 1))
-    print(f"batch of 128 draws x 1000 times x 41 nodes, one thread: C++ {1e3 * cpp[0]:.1f} ms, Python {1e3 * python[0]:.1f} ms, {100 * (python[0] / cpp[0] - 1):+.1f}%")
-    print(f"observer update, 12 segments, 32 members: C++ {1e6 * cpp[1]:.2f} us, Python {1e6 * python[1]:.2f} us, {1e6 * (python[1] - cpp[1]):+.2f} us")
+        pairs.append((cpp, [shortest_s(15, work, time.process_time), update_s()]))
+    for name, of in (("least", min), ("median", statistics.median)):
+        cpp, python = (tuple(of(pair[side][k] for pair in pairs) for k in (0, 1)) for side in (0, 1))
+        print(f"{name} of {ROUNDS}: batch of 128 draws x 1000 times x 41 nodes, one thread: C++ {1e3 * cpp[0]:.1f} ms, Python {1e3 * python[0]:.1f} ms, {100 * (python[0] / cpp[0] - 1):+.1f}%")
+        print(f"{name} of {ROUNDS}: observer update, 12 segments, 32 members: C++ {1e6 * cpp[1]:.2f} us, Python {1e6 * python[1]:.2f} us, {1e6 * (python[1] - cpp[1]):+.2f} us")
     many = lambda: [work() for _ in range(20)]  # a second: threads that begin may share a processor for a moment
     one, two = shortest_s(3, many), both_threads_s(many)
     print(f"two threads in Python: {2 * one / two:.2f} times one ({os.cpu_count()} processors)")

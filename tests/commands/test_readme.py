@@ -11,7 +11,7 @@ from capstan_program import CONFIGS, PROGRAM, CapstanTest
 from small_study import short_worlds
 
 # They build the project or install it, which other tests do.
-OTHERS = ("studies/run", "tests/run", "cmake", "cpack")
+OTHERS = ("studies/run", "tests/run", "reports/book/run", "cmake", "cpack")
 WORLDS = ("wrist-exosuit", "noise-sweep")
 
 

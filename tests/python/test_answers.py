@@ -141,15 +141,23 @@ class Answers(unittest.TestCase):
         mean_N, low_N, high_N = observer.update(time_s=0.0, readings=[0.0, 30.0, 0.0])
         self.assertEqual(mean_N.shape, (13,))
 
+    def test_an_observer_of_a_model_needs_nothing_but_its_sensors(self) -> None:
+        observer = self.found.model.observer(sensors=[("tension", 0.0), ("displacement", "load")])
+        mean_N, low_N, high_N = observer.update(0.0, [0.0, 30.0, 0.0])
+        self.assertTrue((low_N < mean_N).all() and (mean_N < high_N).all())
+        # The pretension is that of the recording's runs as the model corrects it, the noise that of its torques.
+        stated_N = json.loads((RECORDINGS / "viscous-pair.json").read_text())["runs"][0]["T0"]
+        self.assertAlmostEqual(self.found.model.cable().pretension_N, self.found.model.cable(pretension_N=stated_N).pretension_N, places=9)
+        self.assertEqual(observer.not_used, ())
+
     def test_an_observer_of_a_model_has_its_friction_and_says_what_it_leaves_out(self) -> None:
-        def observer(interval_s: float | None) -> cp.Observer:
+        def observer(speed_dependent: bool) -> cp.Observer:
             return self.found.model.observer(
-                sensors=[("displacement", "load")], noise_N=0.2, pretension_N=30.0, load_wander_m=0.0, interval_s=interval_s
+                sensors=[("displacement", "load")], load_wander_m=0.0, speed_dependent=speed_dependent
             )
 
-        plain, by_speed = observer(None), observer(0.01)
+        plain, by_speed = observer(False), observer(True)
         self.assertIn("viscous friction", plain.not_used)
-        self.assertNotIn("viscous friction", by_speed.not_used)
         self.assertIn("not_used", repr(plain))
         # A load that moves away fast, its drag on the way: less tension reaches the motor than in a plain cable.
         ends_N = []
@@ -159,11 +167,26 @@ class Answers(unittest.TestCase):
             ends_N.append(mean_N[-1] - mean_N[0])
         self.assertGreater(ends_N[1], ends_N[0] + 0.01)
 
-    def test_an_observer_whose_friction_depends_on_speed_needs_an_interval(self) -> None:
-        friction = cp.RateFriction(drag_N_s_per_m2=5.0, extra_friction=0.05)
+    def test_a_model_without_a_noise_asks_for_one(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/model.toml"
+            self.found.model.save(file)
+            with open(file) as saved:
+                text = [line for line in saved if not line.startswith("tension_noise_N")]
+            with open(file, "w") as changed:
+                changed.writelines(text)
+            model = cp.read_model(file)
         with self.assertRaises(cp.Error) as refused:
-            cp.Observer(small_cable(), sensors=[("tension", 0.0)], noise_N=0.1, rate_friction=friction)
-        self.assertIn("interval_s", str(refused.exception))
+            model.observer(sensors=[("tension", 0.0)])
+        self.assertIn("noise_N", str(refused.exception))
+
+    def test_friction_that_depends_on_speed_is_checked(self) -> None:
+        with self.assertRaises(cp.Error) as refused:
+            cp.Observer(
+                small_cable(), sensors=[("tension", 0.0)], noise_N=0.1,
+                rate_friction=cp.RateFriction(drag_N_s_per_m2=-5.0, extra_friction=0.05, speed_m_per_s=0.0),
+            )
+        self.assertEqual(len(refused.exception.problems), 2)
 
 
 class Observers(unittest.TestCase):

@@ -118,7 +118,7 @@ def tries(choose: random.Random) -> list[tuple[str, Callable[[], object]]]:
         )
         observer = cp.Observer(
             small_cable(), sensors=sensors, noise_N=value(0.2), load_wander_m=value(1e-4), members=value(8), seed=value(1),
-            rate_friction=choose.choice([cp.RateFriction(), cp.RateFriction(value(2.0), value(0.1)), value(0.1)]), interval_s=value(0.01),
+            rate_friction=choose.choice([cp.RateFriction(), cp.RateFriction(value(2.0), value(0.1)), value(0.1)]),
         )
         for time_s in range(3):
             observer.update(value(float(time_s)), value([0.001, 20.0, 0.0][: 1 + len(sensors)]))

@@ -1,7 +1,7 @@
 """The model of a bench that a diagnosis found."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,12 @@ import numpy.typing as npt
 from capstan import _core
 from capstan.answer import Answer
 from capstan.cable import Bend, Cable
+from capstan.errors import Error
 from capstan.observer import Observer, RateFriction, Sensor
 from capstan.recording import FileName, Recording
+
+# Length, bends, stiffness, both frictions, pretension.
+_CableNumbers = tuple[float, list[tuple[float, float, float]], float, float, float, float]
 
 
 class Prediction(Answer):
@@ -55,42 +59,78 @@ class Model:
         """Drives the model with a recording's inputs, of all runs or of these."""
         return Prediction(self._model.predict(recording._core, list(runs), jobs))
 
-    def cable(self, *, pretension_N: float, segments: int = 40) -> Cable:
-        """A cable with the model's routing, stiffness and friction. `pretension_N` is what the bench is said to have; the
-        model corrects it. Effects beyond these numbers are not in it."""
-        length_m, bends, axial_stiffness_N, friction, static_friction, ratio = self._model.cable_numbers()
+    def cable(
+        self,
+        *,
+        pretension_N: float | None = None,
+        segments: int = 40,
+        name: str = "A",
+        session_s: float = 0.0,
+        conditions: Mapping[str, float] = {},
+    ) -> Cable:
+        """A cable with the model's routing, a local bend included, and its stiffness, friction and pretension.
+
+        `pretension_N` is what the bench is said to have, the mean of the recording's runs where it is left out; the model
+        corrects it, also by a drift over `session_s`. `name` is A or B of a pair. Numbers that follow a condition of the
+        runs are those of `conditions`, or of the middle of the recording's. Other effects are not in it.
+        """
+        return self._cable(self._observed(name, pretension_N, session_s, conditions)[0], segments)
+
+    def observer(
+        self,
+        *,
+        sensors: Sequence[Sensor],
+        noise_N: float | None = None,
+        pretension_N: float | None = None,
+        segments: int = 12,
+        name: str = "A",
+        session_s: float = 0.0,
+        conditions: Mapping[str, float] = {},
+        speed_dependent: bool = True,
+        **settings: Any,
+    ) -> Observer:
+        """An observer of `cable(...)` with the model's viscous and Stribeck friction; `settings` are those of `Observer`.
+
+        Without `noise_N` it is the standard deviation of the recording's noisiest tension sensor, or of its torque
+        sensors over the radii of their pulleys. `speed_dependent=False` leaves the friction out that depends on the
+        speed, so that an update takes half as long. `not_used` of the observer names what of the model it leaves out,
+        such as other effects, and zeros of sensors, which the caller can take off the readings.
+        """
+        numbers, friction, not_used = self._observed(name, pretension_N, session_s, conditions, speed_dependent)
+        if noise_N is None:
+            noise_N = self._model.tension_noise_N
+            if noise_N == 0.0:
+                raise Error(["noise_N: the model does not say how noisy a tension reading is; state it"])
+        observer = Observer(
+            self._cable(numbers, segments), sensors=sensors, noise_N=noise_N, rate_friction=RateFriction(*friction), **settings
+        )
+        observer.not_used = tuple(not_used)
+        return observer
+
+    def _observed(
+        self, name: str, pretension_N: float | None, session_s: float, conditions: Mapping[str, float], speed_dependent: bool = True
+    ) -> tuple[_CableNumbers, tuple[float, float, float, float], list[str]]:
+        return self._model.observed_cable(name, pretension_N, session_s, dict(conditions), speed_dependent)
+
+    @staticmethod
+    def _cable(numbers: _CableNumbers, segments: int) -> Cable:
+        length_m, bends, axial_stiffness_N, friction, static_friction, pretension_N = numbers
         return Cable(
             length_m=length_m,
             bends=[Bend(*bend) for bend in bends],
             axial_stiffness_N=axial_stiffness_N,
             friction=friction,
             static_friction=static_friction,
-            pretension_N=ratio * pretension_N,
+            pretension_N=pretension_N,
             segments=segments,
         )
 
-    def observer(
-        self,
-        *,
-        sensors: Sequence[Sensor],
-        noise_N: float,
-        pretension_N: float,
-        segments: int = 12,
-        interval_s: float | None = None,
-        **settings: Any,
-    ) -> Observer:
-        """An observer of `cable(...)`; `settings` are those of `Observer`. With `interval_s`, the time between samples, it
-        also has the model's viscous and Stribeck friction. Its `not_used` names what of the model it leaves out, such as
-        other effects, and zeros of sensors, which the caller can take off the readings."""
-        cable = self.cable(pretension_N=pretension_N, segments=segments)
-        friction = RateFriction(*self._model.rate_friction()) if interval_s is not None else RateFriction()
-        observer = Observer(cable, sensors=sensors, noise_N=noise_N, rate_friction=friction, interval_s=interval_s, **settings)
-        observer.not_used = tuple(self._model.not_used_by_observer(interval_s or 0.0))
-        return observer
-
     def __repr__(self) -> str:
-        length_m, bends, axial_stiffness_N, friction, _, _ = self._model.cable_numbers()
-        return f"Model({length_m:g} m of cable, bends={len(bends)}, EA={axial_stiffness_N:.4g} N, friction={friction:.3g})"
+        cable = self.cable()
+        return (
+            f"Model({cable.length_m:g} m of cable, bends={len(cable.bends)}, EA={cable.axial_stiffness_N:.4g} N, "
+            f"friction={cable.friction:.3g})"
+        )
 
 
 def read_model(file: FileName) -> Model:

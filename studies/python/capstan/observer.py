@@ -34,16 +34,15 @@ class Observer(_core.Observer):
     The recursive estimator of the library (E36 to E38): `members` cables with states of their own are moved as the
     motor is and pulled towards the readings. `noise_N` is the standard deviation of a tension reading. In each sample
     the load end moves by `load_wander_m` (standard deviation) beyond what is known of it, the motor's end by
-    `motor_wander_m`; both also stand for a model that is not quite right. The time only serves to reject samples
-    that are out of order: sample at a constant rate.
+    `motor_wander_m`; both also stand for a model that is not quite right, and mean a constant rate of samples.
+    With `rate_friction` the friction also depends on the sliding speed (E41), which the samples' times give; with a
+    drag an update takes about twice as long.
 
     `update(time_s, readings)` takes how much cable the motor has reeled in since the start [m; positive pulls], then
     one reading of each sensor: tensions in N, the load's displacement in m, positive away from the motor. It gives
     three arrays over the nodes [N]: the mean, and the limits of the 95% band.
 
-    With `rate_friction` the friction also depends on the speed (E41); that needs `interval_s`, the time between samples,
-    and an update then takes about twice as long. `not_used` says in words what of a model an observer leaves out, where
-    `Model.observer` made it.
+    `not_used` says in words what of a model an observer leaves out, where `Model.observer` made it.
 
     >>> import capstan as cp
     >>> cable = cp.Cable(length_m=1.2, bends=[cp.Bend(180, 0.1, 0.3)], axial_stiffness_N=9e3, friction=0.1,
@@ -67,14 +66,13 @@ class Observer(_core.Observer):
         members: int = 32,
         seed: int = 1,
         rate_friction: RateFriction = RateFriction(),
-        interval_s: float | None = None,
     ) -> None:
         self.sensors = tuple(sensors)
         self.not_used: tuple[str, ...] = ()
         if not isinstance(rate_friction, RateFriction):
             raise Error([f"rate_friction: is {str(rate_friction)[:80]}, but must be a RateFriction"])
         friction = astuple(rate_friction)
-        super().__init__(cable._core, self.sensors, noise_N, load_wander_m, motor_wander_m, members, seed, friction, interval_s)
+        super().__init__(cable._core, self.sensors, noise_N, load_wander_m, motor_wander_m, members, seed, friction)
 
     def __repr__(self) -> str:
         left_out = f", not_used={list(self.not_used)}" if self.not_used else ""

@@ -71,7 +71,38 @@ TEST_F(CObserver, HasTheBitsOfTheObserverInCpp) {
     }
 }
 
+// The speed is that of the samples' times: ten times slower, the same motion meets a tenth of the drag.
+TEST_F(CObserver, HasFrictionThatDependsOnTheSpeed) {
+    settings.noise_N = 5.0;
+    settings.load_wander_m = 0.0;
+    const auto lost_N = [&](double drag_N_s_per_m2, double interval_s) {
+        settings.drag_N_s_per_m2 = drag_N_s_per_m2;
+        EXPECT_EQ(create(), CAPSTAN_OK) << message;
+        for (int sample = 0; sample <= 40; ++sample) {
+            const double readings[] = {8e-5 * sample, 20.0, 0.0};
+            EXPECT_EQ(capstan_observer_update(observer, interval_s * sample, readings, mean_N.data(), nullptr,
+                                              nullptr),
+                      CAPSTAN_OK);
+        }
+        capstan_observer_destroy(observer);
+        observer = nullptr;
+        return mean_N.front() - mean_N.back();
+    };
+    const double without_N = lost_N(0.0, 0.001);
+    const double slow_N = lost_N(40.0, 0.01) - without_N;
+    const double fast_N = lost_N(40.0, 0.001) - without_N;
+    EXPECT_GT(slow_N, 0.0);
+    EXPECT_GT(fast_N, 5.0 * slow_N);
+    settings.extra_friction = 0.05;
+    settings.speed_m_per_s = 0.0;
+    EXPECT_EQ(create(), CAPSTAN_WRONG_INPUT);
+    EXPECT_NE(std::string(message).find("speed_m_per_s"), std::string::npos) << message;
+}
+
+// The drag also: it moves the cables twice.
 TEST_F(CObserver, AllocatesNothingAfterItsCreation) {
+    settings.drag_N_s_per_m2 = 20.0;
+    settings.extra_friction = 0.05;
     ASSERT_EQ(create(), CAPSTAN_OK) << message;
     const long before = test::allocations();
     const double absurd[] = {1e300, 0.0, 0.0};
@@ -154,8 +185,6 @@ TEST(Observer, WithFrictionThatDependsOnSpeedFollowsItAndAllocatesNothing) {
     Observer plain(cable, sensors, {.noise_N = 5.0});
     ObserverSettings settings{.noise_N = 5.0};
     settings.rate_friction.viscous.drag_N_s_per_m2 = 40.0;
-    EXPECT_THROW(Observer(cable, sensors, settings), InvalidInput);  // without the time between samples
-    settings.interval_s = 0.001;
     Observer dragged(cable, sensors, settings);
     const long before = test::allocations();
     for (int sample = 1; sample <= 2000; ++sample) {

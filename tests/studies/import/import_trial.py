@@ -137,7 +137,8 @@ class PlantedLog:
             self.values[name] = [min(value, limit) for value in self.values[name]]
             self.faults.append((kind, name, 0))
         elif kind == "constant channel":
-            free = [each for each in self.moving() if each not in self.driven() and each != "load_angle"]
+            # Not on a clock of its own, which a channel that never changes would hide.
+            free = [each for each in self.moving() if each not in self.driven() and self.clock_of[each] == "a"]
             name = self.chance.choice(free)
             self.values[name] = [0.25] * rows
             self.faults.append((kind, name, 0))

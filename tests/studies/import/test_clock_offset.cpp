@@ -62,6 +62,25 @@ TEST(ClockOffset, IsExactBetweenAngles) {
     EXPECT_NEAR(found->offset_s, -0.0371, 0.0005);
 }
 
+// 168 samples, of which a shift by a third of a second leaves 131: too few for the friction of four channels.
+TEST(ClockOffset, OfACopyIsFoundInFewSamples) {
+    const auto first_of = [](std::vector<double> values, std::size_t from) {
+        return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(from),
+                                   values.begin() + static_cast<std::ptrdiff_t>(from + 168));
+    };
+    std::vector<double> copy;
+    for (const double value : torque(0.0, 0.0, 4)) copy.push_back(0.02 * value);
+    const std::vector<ClockReference> others = {{first_of(angle(), 200), true},
+                                                {first_of(torque(0.3, 0.0, 5), 200), false},
+                                                {first_of(torque(0.0, 0.0, 4), 200), false},
+                                                {first_of(torque(0.1, 0.0, 6), 200), false}};
+    for (const std::size_t late : {168u, 232u}) {
+        const auto found = find_clock_offset(first_of(copy, late), others, rate_Hz, 1.0, 2e-3);
+        ASSERT_TRUE(found) << late;
+        EXPECT_NEAR(found->offset_s, (static_cast<double>(late) - 200.0) / rate_Hz, 1.0 / rate_Hz);
+    }
+}
+
 TEST(ClockOffset, IsNotInventedForAChannelWithoutCommonMotion) {
     std::mt19937 random(3);
     std::normal_distribution<double> noise(0.0, 1.0);

@@ -20,7 +20,9 @@ struct DriveLog {
     double period = 0.01;
     std::string head = "Time [s];Motor angle [deg];Load angle [deg];Motor torque [mN m];Load torque [mN m]\n";
 
-    static double motor_deg(double time_s) { return 40.0 * std::sin(full_turn * 0.5 * time_s) + 3.0 * time_s; }
+    static double motor_deg(double time_s) {
+        return 40.0 * std::sin(full_turn * 0.5 * time_s) + 3.0 * time_s;
+    }
     static double friction(double time_s) { return std::cos(full_turn * 0.5 * time_s) > 0.0 ? 20.0 : -20.0; }
     static std::string row(double shown_time, double time_s) {
         return fmt::format("{:.6g};{:.6f};{:.6f};{:.5f};{:.5f}\n", shown_time, motor_deg(time_s),
@@ -59,8 +61,8 @@ TEST_F(Importing, ConvertsToSiAndKeepsTheLogsOwnSamples) {
     const auto motor = static_cast<std::size_t>(*recording.channel("motor_angle"));
     const auto torque = static_cast<std::size_t>(*recording.channel("motor_torque"));
     for (std::size_t k = 0; k < 400; ++k) {
-        EXPECT_NEAR(run.values[motor][k], DriveLog::motor_deg(0.01 * static_cast<double>(k)) * full_turn / 360.0,
-                    1e-8);
+        EXPECT_NEAR(run.values[motor][k],
+                    DriveLog::motor_deg(0.01 * static_cast<double>(k)) * full_turn / 360.0, 1e-8);
         EXPECT_NEAR(run.values[torque][k], 0.1, 0.021);
     }
 }
@@ -73,6 +75,14 @@ TEST_F(Importing, GivesTheSameBytesAgain) {
     import({log}, drive_mapping);
     EXPECT_EQ(text_of("out.csv"), samples);
     EXPECT_EQ(text_of("out.json"), sidecar);
+}
+
+TEST_F(Importing, RefusesALogThatIsGivenTwice) {
+    const auto log = write("a.csv", DriveLog().text());
+    std::filesystem::create_symlink(log, folder_ / "b.csv");
+    for (const auto& again : {log, folder_ / "." / "a.csv", folder_ / "b.csv"})
+        EXPECT_THAT(refusal({log, again}, drive_mapping), HasSubstr("is given twice"));
+    EXPECT_EQ(refusal({log, write("c.csv", DriveLog().text())}, drive_mapping), "");
 }
 
 TEST_F(Importing, DropsRepeatedSamplesAndSaysHowMany) {
@@ -113,9 +123,29 @@ TEST_F(Importing, BridgesFewMissingSamplesByStraightLines) {
     ASSERT_EQ(recording.runs[0].samples(), 400);
     const auto motor = static_cast<std::size_t>(*recording.channel("motor_angle"));
     const double line =
-        (DriveLog::motor_deg(1.99) + (DriveLog::motor_deg(2.02) - DriveLog::motor_deg(1.99)) / 3.0) * full_turn /
-        360.0;
+        (DriveLog::motor_deg(1.99) + (DriveLog::motor_deg(2.02) - DriveLog::motor_deg(1.99)) / 3.0) *
+        full_turn / 360.0;
     EXPECT_NEAR(recording.runs[0].values[motor][200], line, 1e-8);
+}
+
+// The jump over missing readings may have any size.
+TEST_F(Importing, UnwindsACounterThatWrapsBesideAGap) {
+    std::string text = "t,counts,load\n";
+    for (int k = 0; k < 500; ++k) {
+        const double angle = 0.5 * std::sin(full_turn * 0.5 * 0.01 * k);
+        const double counts = std::round(angle / full_turn * 4096.0);
+        if (k < 185 || k >= 235)
+            text += fmt::format("{},{},{:.6f}\n", 0.01 * k, counts - 4096.0 * std::floor(counts / 4096.0),
+                                0.8 * angle);
+    }
+    const ImportReport report = import({write("a.csv", text)}, R"(
+[channels]
+motor_angle = { column = "counts", unit = "counts", counts_per_turn = 4096 }
+load_angle = { column = "load", unit = "rad" }
+[recording]
+mode = "lumped_drive"
+)");
+    EXPECT_EQ(finding_of(report, FindingKind::wrapped_counter).amount, 4096.0);
 }
 
 TEST_F(Importing, UnwindsACounterThatWraps) {

@@ -46,6 +46,22 @@ TEST_F(Suggesting, TakesTheLetterOfTheMotorForNoUnit) {
                               "motor_torque = tau_m in N m", "load_torque = tau_l in N m"));
 }
 
+TEST_F(Suggesting, TakesTheLetterOfAMomentForATorque) {
+    std::string text = "stamp_ms;q_drive_deg;q_finger_deg;M_drive_mNm;M_finger_mNm\n";
+    for (int k = 0; k < 400; ++k) {
+        const double angle = 30.0 * std::sin(0.03 * k), friction = std::cos(0.03 * k) > 0.0 ? 20.0 : -20.0;
+        text += fmt::format("{};{:.4f};{:.4f};{:.4f};{:.4f}\n", 10 * k, angle, 0.5 * angle, 50.0 + friction,
+                            80.0 + 0.1 * k);
+    }
+    const Suggestion suggestion = suggest_mapping({write("a.csv", text)}, {});
+    std::vector<std::string> channels;
+    for (const ChannelMapping& channel : suggestion.mapping.channels)
+        channels.push_back(channel.name + " = " + channel.from.column);
+    EXPECT_THAT(channels,
+                testing::UnorderedElementsAre("motor_angle = q_drive_deg", "load_angle = q_finger_deg",
+                                              "motor_torque = M_drive_mNm", "load_torque = M_finger_mNm"));
+}
+
 TEST_F(Suggesting, TakesAColumnThatNumbersTheRuns) {
     std::string text = "run,t,motor_angle,load_angle,motor_torque,load_torque\n";
     for (int k = 0; k < 400; ++k) {
