@@ -133,7 +133,8 @@ Command place_command() {
                      "capstan place configs/paper.toml --html place.html -o place.txt",
                      "capstan place my.toml --until-resolved 0.005",
                      "capstan place my.toml --json | jq .scopes[0].counts"},
-        .run = run_place};
+        .run = run_place,
+        .when_stopped = stores_nothing};
 }
 
 namespace {

@@ -293,7 +293,7 @@ Command study_work_command() {
                     help_option},
         .examples = {"capstan study work atlas", "capstan study work atlas --shard 7"},
         .run = run_study_work,
-        .can_be_stopped = true};
+        .when_stopped = "stopped by Ctrl-C or a request to terminate; the same command continues"};
 }
 
 }  // namespace capstan::cli
