@@ -60,13 +60,13 @@ class Figures(CapstanTest):
             self.run_capstan("recommend", "-o", f"r.{ending}", expect=2)
         self.run_capstan("recommend", "-o", "r.pdf", expect=2)
         self.run_capstan("report", "-o", "r.dat", expect=2)
+        self.assertEqual(list(self.folder.glob("r.*")), [])
 
     def test_a_text_is_no_page(self):
         self.run_capstan("report", "-o", "r.txt")
         self.assertTrue((self.folder / "r.txt").read_text().startswith("# "))
         self.run_capstan("recommend", "-o", "r.log")
         self.assertTrue((self.folder / "r.log").read_text().startswith("Study 1 (quick)"))
-        self.assertEqual(list(self.folder.glob("r.*")), [])
 
 
 class Words(CapstanTest):
