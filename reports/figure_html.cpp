@@ -57,7 +57,7 @@ std::string figure_html(const Tables& tables, const Figure& figure, const Figure
         id += fmt::format("-{}", rows.regime);
         title = fmt::format("{}: {}", regime_title(rows.regime), figure.title);
     }
-    if (rows.recommendation_id != 0) id += fmt::format("-{}", rows.recommendation_id);
+    if (!rows.name.empty()) id += "-" + rows.name;
     if (rows.run != 0) {
         id += fmt::format("-{}", rows.run);
         title = fmt::format("Run {}: {}", rows.run, figure.title);

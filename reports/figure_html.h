@@ -15,6 +15,7 @@ struct FigureRows {
     std::int64_t recommendation_id = 0;  // 0: all
     std::int64_t run = 0;                // of a recording, 0: all
     std::string cable{};                 // '': all
+    std::string name{};                  // of a recommendation, for the figure's own name
 };
 
 // '' when a table has no such rows: a figure without data is left out.

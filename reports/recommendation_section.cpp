@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 #include "capstan/reports/cable_drawing.h"
 #include "capstan/reports/figure_html.h"
 #include "capstan/reports/html_text.h"
@@ -55,6 +57,22 @@ const Figure* chart_of_counts() {
     return nullptr;
 }
 
+// "duty_cycle-5-percent", for names of files: letters, digits and hyphens.
+std::string short_name(const Row& recommendation) {
+    const std::string scope = recommendation.text("scope");
+    std::string name = scope == "regime" ? recommendation.text("regime") : scope;
+    bool joins = true;
+    for (const char letter : recommendation.text("noise")) {
+        const bool is_plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+        if (is_plain || letter == '%') {
+            name += joins ? "-" : "";
+            name += is_plain ? std::string(1, letter) : "percent";
+        }
+        joins = !is_plain;
+    }
+    return name;
+}
+
 std::string card(const StudyTables& tables, const Row& row, const std::vector<double>& positions_m) {
     const std::int64_t id = row.integer("recommendation_id");
     const Figure* chart = chart_of_counts();
@@ -86,7 +104,11 @@ std::string card(const StudyTables& tables, const Row& row, const std::vector<do
         fmt::arg("method", escape_html(row.text("method_title"))),
         fmt::arg("nodes", nodes_in_words(row, positions_m)),
         fmt::arg("alternatives", alternatives(tables, id)),
-        fmt::arg("chart", chart == nullptr ? "" : figure_html(tables, *chart, {"", id})));
+        fmt::arg("chart",
+                 chart == nullptr
+                     ? ""
+                     : figure_html(tables, *chart,
+                                   {.regime = "", .recommendation_id = id, .name = short_name(row)})));
 }
 
 }  // namespace

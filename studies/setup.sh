@@ -19,8 +19,10 @@ book_packages=(
     python3-sphinx python3-myst-parser furo katex fonts-texgyre-math
     python3-nbconvert python3-ipykernel python3-matplotlib python3-pandas doxygen
 )
-# For the tests on a Slurm of its own, with GNU parallel and with Snakemake, which are skipped without them.
-slurm_packages=(slurmctld slurmd slurm-client munge parallel snakemake)
+# For the tests on a Slurm and a Grid Engine of their own, over ssh, with GNU parallel and with Snakemake, which are skipped
+# without them.
+slurm_packages=(slurmctld slurmd slurm-client munge gridengine-master gridengine-exec gridengine-client openssh-server iproute2
+    parallel snakemake)
 
 # For the fuzz targets, the thread sanitizer's own oneTBB, and the checks of the code.
 fuzz_packages=(clang libclang-rt-14-dev)

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <limits>
 #include <numeric>
 
 #include "capstan/answers/placement_answers.h"
@@ -22,35 +21,68 @@ std::string objective_words(BudgetObjective objective) {
     return {};
 }
 
+constexpr const char* no_method = "-";
+constexpr const char* ensemble_filter = "ensemble_filter";
+
 // Of one cable with so many sensors.
 Data cable_data(const BudgetCable& cable, int sensors) {
-    Data data = {{"cable", cable.plan.name}, {"sensors", sensors}};
-    const CountAnswer* const count =
-        sensors == 0 ? nullptr : best_by_count(cable.found, sensors)[static_cast<std::size_t>(sensors) - 1];
-    Data places = Data::list();
-    if (count != nullptr) {
-        const Cable cut(cable.plan.transmission.cable);
-        for (const int node : count->optimum.nodes) places.push_back(cut.node_position_m(node));
+    const BudgetChoice& choice = cable.choices[static_cast<std::size_t>(sensors)];
+    Data data = {{"cable", cable.name}, {"sensors", sensors}};
+    if (choice.method == ensemble_filter || !choice.set.empty()) {
+        data["set"] = choice.set;
+    } else {
+        Data places = Data::list();
+        for (const int node : choice.nodes) places.push_back(cable.cut.node_position_m(node));
+        data["nodes"] = Data(from_one(choice.nodes));
+        data["places_m"] = places;
     }
-    data["nodes"] = count == nullptr ? Data::list() : Data(from_one(count->optimum.nodes));
-    data["places_m"] = places;
-    data["method"] = count == nullptr ? "" : count->optimum.method;
-    data["method_title"] = count == nullptr ? "-" : title_of_method(count->optimum.method);
-    data["error_N"] = count == nullptr ? cable.no_sensor_N : count->optimum.independent.value_N;
-    if (count != nullptr)
-        data["interval_95_N"] =
-            Data::list({count->optimum.independent.low_N, count->optimum.independent.high_N});
+    data["method"] = choice.method;
+    data["method_title"] = choice.method.empty()              ? no_method
+                           : choice.method == ensemble_filter ? "Ensemble filter"
+                                                              : title_of_method(choice.method);
+    data["error_N"] = choice.error.value_N;
+    if (choice.error.low_N < choice.error.high_N)
+        data["interval_95_N"] = Data::list({choice.error.low_N, choice.error.high_N});
     return data;
+}
+
+bool is_over_worlds(const BudgetCable& cable) {
+    return !cable.choices.front().set.empty();
+}
+
+bool requires_a_sensor(const StudyPlan& plan) {
+    return !plan.placement.required_nodes.empty() || !plan.placement.required_m.empty();
 }
 
 }  // namespace
 
-std::vector<double> errors_by_count_N(const BudgetCable& cable, int sensors) {
-    std::vector<double> error_N{cable.no_sensor_N};
-    for (const CountAnswer* const count : best_by_count(cable.found, sensors))
-        error_N.push_back(count == nullptr ? std::numeric_limits<double>::infinity()
-                                           : count->optimum.independent.value_N);
-    return error_N;
+BudgetCable budget_cable(const StudyPlan& plan, const PlacementAnswer& found, double no_sensor_N,
+                         int sensors) {
+    BudgetCable cable{plan.name, Cable(plan.transmission.cable), {{}}};
+    if (!requires_a_sensor(plan)) cable.choices.front().error.value_N = no_sensor_N;
+    for (const CountAnswer* const count : best_by_count(found, sensors)) {
+        BudgetChoice& choice = cable.choices.emplace_back();
+        if (count == nullptr) continue;
+        const auto& error = count->optimum.independent;
+        choice = {
+            {error.value_N, error.low_N, error.high_N}, count->optimum.nodes, "", count->optimum.method};
+    }
+    return cable;
+}
+
+BudgetCable budget_cable(const StudyPlan& plan, const WorldAnswer& found, int sensors) {
+    BudgetCable cable{plan.name, Cable(plan.transmission.cable),
+                      std::vector<BudgetChoice>(static_cast<std::size_t>(sensors) + 1)};
+    cable.choices.front().set = "no sensor";
+    if (!requires_a_sensor(plan)) cable.choices.front().error = found.no_sensor.objective;
+    for (const PriceBest& best : found.prices) {
+        const int count = found.set(best.expected.candidate).count();
+        if (count < 1 || count > sensors) continue;
+        BudgetChoice& choice = cable.choices[static_cast<std::size_t>(count)];
+        if (best.expected.objective.value_N < choice.error.value_N)
+            choice = {best.expected.objective, {}, found.words(best.expected.candidate), ensemble_filter};
+    }
+    return cable;
 }
 
 reports::Answer budget_answer(const std::vector<BudgetCable>& cables, const std::vector<BudgetShare>& shares,
@@ -59,15 +91,16 @@ reports::Answer budget_answer(const std::vector<BudgetCable>& cables, const std:
     const int used = std::accumulate(best.sensors.begin(), best.sensors.end(), 0);
     std::string words;
     for (std::size_t c = 0; c < cables.size(); ++c)
-        words += fmt::format("{}{} on {}", c == 0 ? "" : ", ", best.sensors[c], cables[c].plan.name);
+        words += fmt::format("{}{} on {}", c == 0 ? "" : ", ", best.sensors[c], cables[c].name);
     reports::Answer answer{
         .id = "budget",
         .kind = "One budget of sensors for several cables",
         .title = fmt::format("{} cables", cables.size()),
-        .headline = fmt::format(
-            "use {}: {}. Expected tension error over the duty cycles: {:.3f} N on average, {:.3f} N "
-            "on the worst cable.",
-            counted(static_cast<std::size_t>(used), "sensor"), words, best.mean_N, best.largest_N)};
+        .headline = fmt::format("use {}: {}. Expected tension error{}: {:.3f} N on average, {:.3f} N "
+                                "on the worst cable.",
+                                counted(static_cast<std::size_t>(used), "sensor"), words,
+                                is_over_worlds(cables.front()) ? "" : " over the duty cycles", best.mean_N,
+                                best.largest_N)};
     answer.values = {{"objective", objective == BudgetObjective::mean ? "mean" : "largest"},
                      {"sensors", used},
                      {"mean_error_N", best.mean_N},
@@ -86,19 +119,19 @@ reports::Answer budget_answer(const std::vector<BudgetCable>& cables, const std:
                                             {"mean_error_N", share.mean_N},
                                             {"largest_error_N", share.largest_N}});
     }
+    const bool over_worlds = is_over_worlds(cables.front());
+    std::vector<reports::Column> columns = {{"cable", "cable"},
+                                            {"sensors", "sensors"},
+                                            {"method_title", "method"},
+                                            {"error_N", "error", "N", ".3f"},
+                                            {"interval_95_N", "95% interval", "N", ".3f"}};
+    std::vector<reports::Column> where = {{"nodes", "nodes"}, {"places_m", "places", "m", ".3f"}};
+    if (over_worlds) where = {{"set", "set"}};
+    columns.insert(columns.begin() + 2, where.begin(), where.end());
     answer.sections = {
         {.id = "cables",
          .heading = "Sensors of each cable",
-         .tables = {{"cables",
-                     "",
-                     {{"cable", "cable"},
-                      {"sensors", "sensors"},
-                      {"nodes", "nodes"},
-                      {"places_m", "places", "m", ".3f"},
-                      {"method_title", "method"},
-                      {"error_N", "error", "N", ".3f"},
-                      {"interval_95_N", "95% interval", "N", ".3f"}},
-                     answer.values["cables"]}}},
+         .tables = {{"cables", "", std::move(columns), answer.values["cables"]}}},
         {.id = "budgets",
          .heading = "Other budgets",
          .tables = {{"budgets",
@@ -109,10 +142,14 @@ reports::Answer budget_answer(const std::vector<BudgetCable>& cables, const std:
                       {"largest_error_N", "worst cable", "N", ".3f"}},
                      answer.values["budgets"]}},
          .note = fmt::format(
-             "Each cable has its best layout of its number of sensors, as `capstan place` finds it, judged on "
-             "independent draws over its own duty cycle. The distribution with the smallest {} is exact. Without a "
-             "sensor the estimate is the mean of all states that the motion allows.",
-             objective_words(objective))}};
+             "Each cable has the best {} of its number of sensors, as `capstan place` finds it, judged on {}. The "
+             "distribution with the smallest {} is exact. Without a sensor {}.",
+             over_worlds ? "set" : "layout",
+             over_worlds ? "worlds that had no part in choosing it"
+                         : "independent draws over its own duty cycle",
+             objective_words(objective),
+             over_worlds ? "the estimator knows the motor's position and the stated uncertainties"
+                         : "the estimate is the mean of all states that the motion allows")}};
     return answer;
 }
 

@@ -2,6 +2,7 @@
 // Answers to: where do the sensors go, and what would change that?
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,14 +22,24 @@ namespace capstan::answers {
 /// What `capstan place` found.
 reports::Answer place_answer(const StudyPlan& plan, const PlacementAnswer& found);
 
+/// What a cable gets for a number of sensors.
+struct BudgetChoice {
+    Estimated error{
+        std::numeric_limits<double>::infinity()};  ///< infinite: the constraints allow no such set
+    std::vector<int> nodes{};                      ///< from 0; none over worlds
+    std::string set{};                             ///< over worlds, in words
+    std::string method{};                          ///< that fuses the readings; empty without any
+};
 /// One cable of several that share a budget of sensors.
 struct BudgetCable {
-    StudyPlan plan;
-    PlacementAnswer found;
-    double no_sensor_N = 0.0;  ///< error without a sensor; infinite if one is required
+    std::string name;
+    Cable cut;                          ///< whose nodes are counted
+    std::vector<BudgetChoice> choices;  ///< by number of sensors from 0
 };
-/// Errors of its best layouts [N], by number of sensors from 0; infinite where none is allowed.
-std::vector<double> errors_by_count_N(const BudgetCable& cable, int sensors);
+/// `no_sensor_N`: the error without a sensor, where none is required.
+BudgetCable budget_cable(const StudyPlan& plan, const PlacementAnswer& found, double no_sensor_N,
+                         int sensors);
+BudgetCable budget_cable(const StudyPlan& plan, const WorldAnswer& found, int sensors);
 
 /// What `capstan budget` found; the last of `shares` is the answer.
 reports::Answer budget_answer(const std::vector<BudgetCable>& cables, const std::vector<BudgetShare>& shares,

@@ -34,6 +34,11 @@ inline constexpr ExitCodeMeaning exit_code_meanings[] = {
     {ExitCode::stopped, "stopped by Ctrl-C or a request to terminate; capstan study resume continues"},
 };
 
+/// Of a command that stores nothing before its end.
+inline constexpr std::string_view stores_nothing =
+    "stopped by Ctrl-C or a request to terminate; nothing is stored";
+inline constexpr std::string_view can_be_resumed = exit_code_meanings[4].meaning;
+
 enum class OptionKind { flag, string, integer, number };
 
 /// One option of a command: everything that parsing and explaining it need.
@@ -69,7 +74,7 @@ struct Command {
     std::vector<Option> options{};
     std::vector<std::string_view> examples{};
     ExitCode (*run)(const Invocation&);
-    bool can_be_stopped = false;  ///< by Ctrl-C, so that `capstan study resume` goes on
+    std::string_view when_stopped{};  ///< the meaning of ExitCode::stopped; empty: it does not return it
 };
 
 /// How long a command takes, in a sentence; the machine has two cores.

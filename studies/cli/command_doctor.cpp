@@ -232,7 +232,7 @@ Command study_verify_command() {
                     help_option},
         .examples = {"capstan study verify", "capstan study verify paper --db paper.db --share 1"},
         .run = run_study_verify,
-        .can_be_stopped = true};
+        .when_stopped = stores_nothing};
 }
 
 }  // namespace capstan::cli

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <limits>
+#include <optional>
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/cli/commands.h"
@@ -133,45 +133,68 @@ Command place_command() {
                      "capstan place configs/paper.toml --html place.html -o place.txt",
                      "capstan place my.toml --until-resolved 0.005",
                      "capstan place my.toml --json | jq .scopes[0].counts"},
-        .run = run_place};
+        .run = run_place,
+        .when_stopped = stores_nothing};
 }
 
 namespace {
 
-void require_comparable(const StudyPlan& plan) {
-    refuse_worlds(plan, "budget");
-    if (plan.placement.objective != PlacementObjective::all_nodes)
+// So that the errors of the cables can be compared.
+void require_comparable(const StudyPlan& plan, const StudyPlan& first) {
+    if (plan.uncertainty.is_stated != first.uncertainty.is_stated)
+        throw UsageError(fmt::format(
+            "capstan budget: of {} and {} only one has [uncertainty]; errors at instants and errors over worlds cannot "
+            "be compared",
+            first.name, plan.name));
+    if (!plan.uncertainty.is_stated && plan.placement.objective != PlacementObjective::all_nodes)
         throw UsageError(
             fmt::format("capstan budget: {}: placement.objective must be all_nodes, so that the errors of "
                         "the cables can be compared",
                         plan.name));
+    if (plan.placement.objective != first.placement.objective)
+        throw UsageError(
+            fmt::format("capstan budget: {} and {} differ in placement.objective", first.name, plan.name));
+}
+
+// Nothing: it was stopped.
+std::optional<answers::BudgetCable> search_cable(const Invocation& invocation, const StudyPlan& plan,
+                                                 int sensors, const std::string& activity) {
+    if (plan.uncertainty.is_stated) {
+        const auto found = watch_worlds(invocation, nullptr, 0, plan);
+        if (!found) return std::nullopt;
+        return answers::budget_cable(plan, *found, sensors);
+    }
+    PlacementOptions options;
+    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    ShownWork work(invocation, activity);
+    const PlacementAnswer found = place_sensors(plan, options);
+    work.end();
+    return answers::budget_cable(plan, found, no_sensor_errors_N(plan).at("duty_cycle"), sensors);
 }
 
 ExitCode run_budget(const Invocation& invocation) {
-    std::vector<answers::BudgetCable> cables;
+    std::vector<StudyPlan> plans;
     for (const std::string& file : invocation.repeated_argument()) {
         config::ReadConfig config = config::read_config(file);
         if (invocation.has("repetitions"))
             config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
         config::require_runnable(config);
-        require_comparable(config.plan);
-        cables.push_back({std::move(config.plan), {}, 0.0});
+        plans.push_back(std::move(config.plan));
+        require_comparable(plans.back(), plans.front());
     }
     const auto sensors = static_cast<int>(invocation.integer("sensors"));
     const BudgetObjective objective =
         invocation.text("objective") == "mean" ? BudgetObjective::mean : BudgetObjective::largest;
+    std::vector<answers::BudgetCable> cables;
     std::vector<std::vector<double>> errors_N;
-    for (std::size_t c = 0; c < cables.size(); ++c) {
-        answers::BudgetCable& cable = cables[c];
-        PlacementOptions options;
-        options.jobs = static_cast<int>(invocation.integer("jobs"));
-        ShownWork work(invocation, fmt::format("cable {} of {}, {}", c + 1, cables.size(), cable.plan.name));
-        cable.found = place_sensors(cable.plan, options);
-        work.end();
-        cable.no_sensor_N = cable.plan.placement.required_nodes.empty()
-                                ? no_sensor_errors_N(cable.plan).at("duty_cycle")
-                                : std::numeric_limits<double>::infinity();
-        errors_N.push_back(answers::errors_by_count_N(cable, sensors));
+    for (const StudyPlan& plan : plans) {
+        auto cable =
+            search_cable(invocation, plan, sensors,
+                         fmt::format("cable {} of {}, {}", cables.size() + 1, plans.size(), plan.name));
+        if (!cable) return ExitCode::stopped;
+        std::vector<double>& error_N = errors_N.emplace_back();
+        for (const answers::BudgetChoice& choice : cable->choices) error_N.push_back(choice.error.value_N);
+        cables.push_back(std::move(*cable));
     }
     deliver_answer(invocation,
                    answers::budget_answer(cables, shared_budget(errors_N, sensors, objective), objective));
@@ -188,7 +211,8 @@ Command budget_command() {
             "Searches the layouts of each CONFIG as `capstan place` does, and distributes at most N sensors over "
             "the cables so that the mean of their expected errors over the duty cycle, or the largest of them, is "
             "as small as possible. Prints the sensors of each cable and what smaller budgets give. A cable may "
-            "get none.",
+            "get none. Where the configurations have [uncertainty], the errors are those over worlds, of the same "
+            "objective; all of them have it, or none.",
         .arguments = {{"CONFIG", "A study's configuration for each cable.", ArgumentNeed::one_or_more}},
         .options = {{.name = "sensors",
                      .kind = OptionKind::integer,
@@ -212,7 +236,8 @@ Command budget_command() {
                     help_option},
         .examples = {"capstan budget elbow.toml wrist.toml --sensors 4",
                      "capstan budget a.toml b.toml c.toml --sensors 6 --objective largest --json"},
-        .run = run_budget};
+        .run = run_budget,
+        .when_stopped = stores_nothing};
 }
 
 }  // namespace capstan::cli

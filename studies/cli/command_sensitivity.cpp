@@ -74,7 +74,8 @@ Command sensitivity_command() {
                      "capstan sensitivity my.toml --sensors 2 --html advice.html",
                      "capstan sensitivity configs/noise-sweep.toml",
                      "capstan sensitivity my.toml --json | jq '.parameters[] | {name, flips_above}'"},
-        .run = run_sensitivity};
+        .run = run_sensitivity,
+        .when_stopped = stores_nothing};
 }
 
 }  // namespace capstan::cli

@@ -150,7 +150,7 @@ Command study_extend_command() {
             .examples = {"capstan study extend --repetitions 8000",
                          "capstan study extend paper --until-resolved 0.002"},
             .run = run_study_extend,
-            .can_be_stopped = true};
+            .when_stopped = can_be_resumed};
 }
 
 }  // namespace capstan::cli

@@ -178,7 +178,7 @@ Command study_run_command() {
                          "capstan study run my.toml --truth corrected.toml",
                          "capstan study run my.toml --shard 2/8 --db part-2.db"},
             .run = run_study_run,
-            .can_be_stopped = true};
+            .when_stopped = can_be_resumed};
 }
 
 namespace {
@@ -244,7 +244,7 @@ Command study_resume_command() {
             .options = watched_run_options(),
             .examples = {"capstan study resume", "capstan study resume paper --db paper.db"},
             .run = run_study_resume,
-            .can_be_stopped = true};
+            .when_stopped = can_be_resumed};
 }
 
 namespace {
@@ -309,7 +309,7 @@ Command study_merge_command() {
                     help_option},
         .examples = {"capstan study merge --db atlas.db shard-*.db"},
         .run = run_study_merge,
-        .can_be_stopped = true};
+        .when_stopped = can_be_resumed};
 }
 
 }  // namespace capstan::cli

@@ -78,9 +78,13 @@ StudyStatus status_of(const std::string& named) {
     const StudyDirectory& directory = status.directory;
     status.scheduler = cluster::find_scheduler(directory.scheduler);
     if (status.scheduler != nullptr && !cluster::is_there(*status.scheduler)) status.scheduler = nullptr;
-    const cluster::StudyQueue queue = status.scheduler != nullptr
-                                          ? cluster::read_queue(*status.scheduler, directory)
-                                          : cluster::StudyQueue{};
+    cluster::StudyQueue queue;
+    try {
+        if (status.scheduler != nullptr) queue = cluster::read_queue(*status.scheduler, directory);
+    } catch (const std::runtime_error& error) {  // of a cluster that is down, or not set up here
+        say(fmt::format("The queue cannot be asked, so only the files are known: {}", error.what()));
+        status.scheduler = nullptr;
+    }
     units::DiskFolder leases = directory.leases();
     const double now_s = leases.now_s();
     for (int number = 1; number <= directory.shards; ++number)
@@ -293,7 +297,7 @@ Command study_work_command() {
                     help_option},
         .examples = {"capstan study work atlas", "capstan study work atlas --shard 7"},
         .run = run_study_work,
-        .can_be_stopped = true};
+        .when_stopped = "stopped by Ctrl-C or a request to terminate; the same command continues"};
 }
 
 }  // namespace capstan::cli

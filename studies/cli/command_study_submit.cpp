@@ -8,6 +8,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/watched_run.h"
+#include "capstan/cluster/batch_inputs.h"
 #include "capstan/cluster/batch_work.h"
 #include "capstan/cluster/submission.h"
 #include "capstan/config/config_writer.h"
@@ -243,39 +244,6 @@ Command study_submit_command() {
 
 namespace {
 
-// The recordings or configurations in a folder, or the file itself.
-std::vector<std::string> inputs_in(const std::string& named, const std::string& command) {
-    const fs::path path = fs::weakly_canonical(fs::absolute(named));
-    if (!fs::exists(path)) throw UsageError(named + " does not exist");
-    if (!fs::is_directory(path)) return {path.string()};
-    std::vector<std::string> inputs;
-    for (const auto& entry : fs::directory_iterator(path)) {
-        fs::path sidecar = entry.path();
-        sidecar.replace_extension(".json");
-        const bool is_recording = entry.path().extension() == ".csv" && fs::exists(sidecar);
-        const bool is_config = entry.path().extension() == ".toml";
-        if (command == "diagnose" ? is_recording : is_config) inputs.push_back(entry.path().string());
-    }
-    if (inputs.empty())
-        throw UsageError(fmt::format("{} holds no {}", named,
-                                     command == "diagnose" ? "recording (NAME.csv with NAME.json beside it)"
-                                                           : "configuration (.toml)"));
-    std::sort(inputs.begin(), inputs.end());
-    return inputs;
-}
-
-// Its recordings, sealed and not yet diagnosed: how many.
-int cases_in(const fs::path& trial) {
-    if (!fs::exists(trial / "labels.sha256"))
-        throw UsageError(
-            fmt::format("{0} holds no trial with sealed labels; `capstan gap-trial --keep {0} "
-                        "--generate-only` makes one",
-                        trial.string()));
-    return static_cast<int>(
-        std::count_if(fs::directory_iterator(trial), fs::directory_iterator(),
-                      [](const auto& entry) { return entry.path().extension() == ".csv"; }));
-}
-
 cluster::Batch batch_of(const Invocation& invocation) {
     cluster::Batch batch;
     batch.command = invocation.argument("COMMAND");
@@ -285,14 +253,7 @@ cluster::Batch batch_of(const Invocation& invocation) {
             fmt::format("'{}' cannot run as a batch; there are diagnose, gap-trial, place and sensitivity",
                         batch.command));
     if (invocation.has("with")) batch.options = split_at_blanks(invocation.text("with"));
-    for (const std::string& named : invocation.repeated_argument())
-        for (const std::string& input :
-             batch.command == "gap-trial"
-                 ? std::vector<std::string>{fs::weakly_canonical(fs::absolute(named)).string()}
-                 : inputs_in(named, batch.command))
-            batch.inputs.push_back(input);
-    if (batch.command == "gap-trial" && batch.inputs.size() != 1)
-        throw UsageError("a batch of gap-trial has one trial's folder");
+    batch.inputs = cluster::batch_inputs(batch.command, invocation.repeated_argument());
     // A wrong option is found now, and not by every task.
     for (const std::string& word : batch.options)
         for (const char* writes :
@@ -310,9 +271,7 @@ ExitCode run_batch(const Invocation& invocation) {
     Request request = request_of(invocation, "");
     StudyDirectory& directory = request.directory;
     directory.batch = batch_of(invocation);
-    directory.shards = directory.batch->command == "gap-trial"
-                           ? cases_in(directory.batch->inputs.front())
-                           : static_cast<int>(directory.batch->inputs.size());
+    directory.shards = cluster::shards_of(*directory.batch);
     directory.name = fmt::format("{} of {} inputs", directory.batch->command, directory.shards);
     const bool dry_run = invocation.has("dry-run");
     if (!dry_run && request.scheduler != nullptr) require_scheduler(*request.scheduler);

@@ -85,8 +85,10 @@ std::vector<ExitCodeMeaning> exit_codes_of(const Command& command) {
     std::vector<ExitCodeMeaning> codes;
     for (const ExitCodeMeaning& each : exit_code_meanings) {
         if (each.code == ExitCode::database_problem && !uses_database) continue;
-        if (each.code == ExitCode::stopped && !command.can_be_stopped) continue;
-        codes.push_back(each);
+        if (each.code != ExitCode::stopped)
+            codes.push_back(each);
+        else if (!command.when_stopped.empty())
+            codes.push_back({each.code, command.when_stopped});
     }
     return codes;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "capstan/cli/command.h"
@@ -74,14 +75,17 @@ AnswerFormat answer_format(const Invocation& invocation, AnswerFormat otherwise)
     if (invocation.has("json")) return AnswerFormat::json;
     if (invocation.has("format")) return format_named(invocation.text("format")).value_or(otherwise);
     const std::string ending = std::filesystem::path(invocation.text("output")).extension().string();
-    for (const std::string_view other : {".pdf", ".svg", ".png", ".jpg", ".tex", ".docx", ".xlsx"}) {
-        if (ending == other)
-            throw UsageError(fmt::format(
-                "capstan {}: -o {}: it writes text, md, csv, json and html, no {}. `capstan report -o FILE.pdf` "
-                "prints a study's page, and `capstan report --figures FOLDER` writes SVG and PNG",
-                invocation.command().name, invocation.text("output"), other));
-    }
-    return ending.empty() ? otherwise : format_named(ending.substr(1)).value_or(otherwise);
+    if (ending.empty()) return otherwise;
+    const std::string name = ending == ".txt" ? "text" : ending == ".htm" ? "html" : ending.substr(1);
+    if (const auto named = format_named(name)) return *named;
+    // A text may be kept under any other name; a page or a picture is nothing else.
+    constexpr std::string_view refused[] = {".pdf", ".svg", ".png", ".jpg", ".tex", ".docx", ".xlsx"};
+    if (otherwise == AnswerFormat::html || std::ranges::find(refused, ending) != std::end(refused))
+        throw UsageError(fmt::format(
+            "capstan {}: -o {}: it writes text, md, csv, json and html, no {}. `capstan report -o FILE.pdf` "
+            "prints a study's page, and `capstan report --figures FOLDER` writes SVG and PNG",
+            invocation.command().name, invocation.text("output"), ending));
+    return otherwise;
 }
 
 void deliver_answer(const Invocation& invocation, const reports::Answer& answer) {

@@ -76,7 +76,8 @@ class StudyWork final : public units::UnitWork {
         units::DiskFolder leases = directory_.leases();
         Merged damaged;
         for (const int shard : units::look_at_leases(leases).done)
-            if (!units::read_unit_record(leases, shard)) damaged.damaged.push_back(shard);
+            if (!units::read_unit_record(leases, shard) || !fs::exists(file_of_shard(directory_, shard)))
+                damaged.damaged.push_back(shard);
         if (!damaged.damaged.empty()) return damaged;
         std::vector<fs::path> files;
         for (int shard = 1; shard <= directory_.shards; ++shard)

@@ -37,9 +37,30 @@ Deal deal_out(const std::vector<StudyDescription>& studies, int shards) {
     return {sizes, shards};
 }
 
+ShardState state_of(Database& database, const storage::ShardRecord& mark,
+                    const std::vector<StudyDescription>& studies) {
+    ShardState state{{mark.shard, mark.shards}, 0, 0};
+    const Deal deal = deal_out(studies, mark.shards);
+    for (std::size_t k = 0; k < studies.size(); ++k) {
+        const auto pending = storage::pending_units(database, studies[k].study.study_id);
+        const std::set<int> left(pending.begin(), pending.end());
+        int unit_index = 0;
+        for (const storage::WorkUnitRecord& unit : studies[k].work_units) {
+            const bool is_done = left.count(unit_index++) == 0;
+            if (deal.owner(k, unit.noise_index, unit.scenario_index) != mark.shard) continue;
+            ++state.units;
+            if (is_done) ++state.units_done;
+        }
+    }
+    return state;
+}
+
+// Of thousands of shards: a process may have about a thousand files open.
+constexpr int max_open_files = 16;
+
 struct ShardFile {
     fs::path path;
-    std::unique_ptr<Database> database;
+    std::unique_ptr<Database> database;  // null: closed
     ShardState state;
 };
 
@@ -62,30 +83,45 @@ class ShardSet {
     const storage::SameComputation& computations() const { return computations_; }
 
     int count() const { return count_; }
-    Database& file_of(int number) { return *files_.at(number).database; }
+    Database& file_of(int number) {
+        ShardFile& file = files_.at(number);
+        if (!file.database) {
+            if (open_ == max_open_files) close_all();
+            file.database = std::make_unique<Database>(Database::open_read_only(file.path));
+            ++open_;
+        }
+        return *file.database;
+    }
 
   private:
     void take(const fs::path& path) {
         ShardFile file{path, nullptr, {}};
         try {
             file.database = std::make_unique<Database>(Database::open_read_only(path));
-            const auto state = read_shard_state(*file.database);
-            if (!state)
+            const auto mark = storage::read_shard(*file.database);
+            if (!mark)
                 return problem(path, "is not the file of a shard; `capstan study run --shard` writes one");
-            file.state = *state;
+            auto studies = descriptions_in(*file.database);
+            file.state = state_of(*file.database, *mark, studies);
             if (const std::string other = computations_.problem_of(*file.database); !other.empty())
                 problem(path, other);
             for (const std::string& changed : storage::check_hashes(*file.database).problems)
                 problem(path, "is damaged (" + changed + "); run it again, into a new file");
-            compare(path, file);
+            if (open_ == max_open_files) close_all();
+            ++open_;
+            compare(path, file, std::move(studies));
         } catch (const storage::Error& error) {
             problems_.push_back(error.what());
         }
     }
 
-    void compare(const fs::path& path, ShardFile& file) {
+    void close_all() {
+        for (auto& [number, file] : files_) file.database.reset();
+        open_ = 0;
+    }
+
+    void compare(const fs::path& path, ShardFile& file, std::vector<StudyDescription> studies) {
         const std::string words = words_of(file.state.shard);
-        auto studies = descriptions_in(*file.database);
         if (files_.empty()) {
             studies_ = std::move(studies);
             count_ = file.state.shard.count;
@@ -136,7 +172,7 @@ class ShardSet {
 
     std::vector<StudyDescription> studies_;
     std::map<int, ShardFile> files_;  // by shard number
-    int count_ = 0;
+    int count_ = 0, open_ = 0;
     fs::path first_;
     storage::SameComputation computations_;
     std::vector<std::string> problems_;
@@ -193,21 +229,7 @@ void remove_database(const fs::path& path) {
 std::optional<ShardState> read_shard_state(Database& database) {
     const auto mark = storage::read_shard(database);
     if (!mark) return std::nullopt;
-    ShardState state{{mark->shard, mark->shards}, 0, 0};
-    const auto studies = descriptions_in(database);
-    const Deal deal = deal_out(studies, mark->shards);
-    for (std::size_t k = 0; k < studies.size(); ++k) {
-        const auto pending = storage::pending_units(database, studies[k].study.study_id);
-        const std::set<int> left(pending.begin(), pending.end());
-        int unit_index = 0;
-        for (const storage::WorkUnitRecord& unit : studies[k].work_units) {
-            const bool is_done = left.count(unit_index++) == 0;
-            if (deal.owner(k, unit.noise_index, unit.scenario_index) != mark->shard) continue;
-            ++state.units;
-            if (is_done) ++state.units_done;
-        }
-    }
-    return state;
+    return state_of(database, *mark, descriptions_in(database));
 }
 
 RunEnd merge_shards(const fs::path& merged, const std::vector<fs::path>& paths, const RunOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "capstan/platform/files.h"
 #include "capstan/platform/progress.h"
+#include "capstan/platform/standard_streams.h"
 #include "capstan/service/bad_request.h"
 #include "capstan/service/job_results.h"
 
@@ -110,9 +111,19 @@ Job JobQueue::new_job(const std::string& title, JobKind kind, std::vector<std::s
 }
 
 Job JobQueue::add(Job job) {
-    jobs_.push_back(std::move(job));
-    keep();
-    return jobs_.back();
+    return add(std::vector<Job>{std::move(job)}).front();
+}
+
+std::vector<Job> JobQueue::add(const std::vector<Job>& added) {
+    const std::vector<Job> before = jobs_;
+    jobs_.insert(jobs_.end(), added.begin(), added.end());
+    try {
+        keep();
+    } catch (const std::exception&) {
+        jobs_ = before;  // nobody was told of them
+        throw;
+    }
+    return added;
 }
 
 std::vector<Job> JobQueue::add_studies(const std::vector<std::pair<std::string, std::string>>& named_toml) {
@@ -126,9 +137,7 @@ std::vector<Job> JobQueue::add_studies(const std::vector<std::pair<std::string, 
         folder_.write_file(job.file, toml);
         added.push_back(std::move(job));
     }
-    jobs_.insert(jobs_.end(), added.begin(), added.end());
-    keep();
-    return added;
+    return add(added);
 }
 
 Job JobQueue::add_answer(JobKind kind, const std::string& name, const std::string& toml,
@@ -219,6 +228,22 @@ void JobQueue::change(int number, const std::function<void(Job&)>& to) {
     folder_.write(jobs_);
 }
 
+// Where the disk refuses this too, the job is failed until the service ends, and goes on at the next start.
+void JobQueue::fail(int number, const std::string& message) {
+    {
+        const std::lock_guard lock(mutex_);
+        child_.reset();  // ends what still runs
+    }
+    try {
+        change(number, [&](Job& each) {
+            each.state = JobState::failed;
+            each.message = message;
+        });
+    } catch (const std::exception& error) {
+        say(fmt::format("capstan serve: job {}: {}", number, error.what()));
+    }
+}
+
 void JobQueue::work() {
     std::unique_lock lock(mutex_);
     while (!ending_) {
@@ -239,11 +264,7 @@ void JobQueue::work() {
         try {
             run(job);
         } catch (const std::exception& error) {
-            const std::string message = error.what();
-            change(job.number, [&](Job& each) {
-                each.state = JobState::failed;
-                each.message = message;
-            });
+            fail(job.number, error.what());
         }
         lock.lock();
         running_ = 0;

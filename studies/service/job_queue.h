@@ -79,6 +79,9 @@ class JobQueue {
     Job new_job(const std::string& title, JobKind kind = JobKind::study,
                 std::vector<std::string> options = {}) const;
     Job add(Job job);
+    /// All of them, or none where the disk refuses.
+    std::vector<Job> add(const std::vector<Job>& added);
+    void fail(int number, const std::string& message);
     void keep();              // what was added; while locked
     void drop_old();          // while locked
     int next_number() const;  // while locked

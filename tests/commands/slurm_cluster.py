@@ -70,13 +70,13 @@ MessageTimeout=3
 KillWait=2
 CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
 SlurmdParameters=config_overrides
-NodeName=n[1-{nodes}] NodeHostname=localhost NodeAddr=127.0.0.1 Port={first_node_port}-{last_node_port} CPUs=1 RealMemory=1000
+NodeName=n[1-{nodes}] NodeHostname=localhost NodeAddr=127.0.0.1 Port={first_node_port}-{last_node_port} CPUs={processors} RealMemory=1000
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
 
 class SlurmCluster:
-    def __init__(self, folder, nodes=4):
+    def __init__(self, folder, nodes=4, processors=1):
         self.folder = pathlib.Path(folder)
         self.processes = {}
         self.environment = dict(os.environ, SLURM_CONF=str(self.folder / "slurm.conf"),
@@ -88,7 +88,7 @@ class SlurmCluster:
         key.chmod(0o400)
         port = free_ports(nodes + 1)
         (self.folder / "slurm.conf").write_text(CONFIG.format(
-            host=socket.gethostname().split(".")[0], folder=self.folder, port=port, nodes=nodes,
+            host=socket.gethostname().split(".")[0], folder=self.folder, port=port, nodes=nodes, processors=processors,
             first_node_port=port + 1, last_node_port=port + nodes))
         self.start("munged", "munged", "--foreground", "--force", f"--key-file={key}", f"--socket={self.folder}/munge.socket",
                    f"--pid-file={self.folder}/munge.pid", f"--seed-file={self.folder}/munge.seed",

@@ -31,6 +31,7 @@ class Figures(CapstanTest):
             self.run_capstan("report", "--figures", f"figures{width}", "--width", width)
             files = sorted(path.name for path in (self.folder / f"figures{width}").iterdir())
             self.assertGreater(len(files), 6)
+            self.assertIn("figure-best_by_count-duty_cycle-5-percent.svg", files)
             for name in files:
                 path = self.folder / f"figures{width}" / name
                 if name.endswith(".svg"):
@@ -58,7 +59,14 @@ class Figures(CapstanTest):
             self.assertIn("--figures", told)
             self.run_capstan("recommend", "-o", f"r.{ending}", expect=2)
         self.run_capstan("recommend", "-o", "r.pdf", expect=2)
+        self.run_capstan("report", "-o", "r.dat", expect=2)
         self.assertEqual(list(self.folder.glob("r.*")), [])
+
+    def test_a_text_is_no_page(self):
+        self.run_capstan("report", "-o", "r.txt")
+        self.assertTrue((self.folder / "r.txt").read_text().startswith("# "))
+        self.run_capstan("recommend", "-o", "r.log")
+        self.assertTrue((self.folder / "r.log").read_text().startswith("Study 1 (quick)"))
 
 
 class Words(CapstanTest):

@@ -3,6 +3,7 @@
 A study that is ended resumes to the bits of one that nobody disturbed. A command whose answer is lost says so and ends with
 another code than 0."""
 
+import math
 import os
 import resource
 import signal
@@ -14,7 +15,6 @@ from capstan_program import CONFIGS, PROGRAM, CapstanTest
 
 STUDY = "\n".join("repetitions = 400" if line.startswith("repetitions") else line
                   for line in (CONFIGS / "noise-instants.toml").read_text().splitlines()) + "\n"
-LONG = STUDY.replace("repetitions = 400", "repetitions = 3000")
 SLOW = "\n".join("repetitions = 2000" if line.startswith("repetitions") else line
                  for line in (CONFIGS / "paper.toml").read_text().splitlines()) + "\n"
 ENDING = ("HUP", "INT", "QUIT", "PIPE", "ALRM", "TERM", "USR1", "USR2", "XCPU", "VTALRM", "PROF")
@@ -34,6 +34,19 @@ class Outcomes(CapstanTest):
     def undisturbed(self, study=STUDY):
         self.run_capstan("study", "run", self.write("study.toml", study), "--db", "complete.db", "--progress", "none")
         return self.tables("complete.db")
+
+    def undisturbed_for(self, processor_s):
+        """A study that takes so much processor time here at least, however fast the processor is."""
+        repetitions = 3000
+        while True:
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            tables = self.undisturbed(STUDY.replace("repetitions = 400", f"repetitions = {repetitions}"))
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            used_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            if used_s >= processor_s:
+                return tables
+            (self.folder / "complete.db").unlink()
+            repetitions = math.ceil(1.2 * repetitions * processor_s / used_s)
 
     def begin_study(self, db):
         process = self.start_capstan("study", "run", "study.toml", "--db", db, "--progress", "json")
@@ -110,7 +123,7 @@ class Outcomes(CapstanTest):
         return done
 
     def test_limits_are_named(self):
-        expected = self.undisturbed(LONG)
+        expected = self.undisturbed_for(4.0)  # the shortest limit is 1 s
         study = ("study", "run", "study.toml", "--progress", "none")
 
         def set_to(which, soft, hard=None):

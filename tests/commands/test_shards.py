@@ -1,6 +1,7 @@
 """A study run in shards, on any number of machines, is the study run at once: the same bits in every table."""
 
 import json
+import resource
 import shutil
 import signal
 import sqlite3
@@ -54,6 +55,12 @@ class Shards(CapstanTest):
             self.assert_same_bits(expected, self.tables(f"merged{count}.db"))
         self.assertEqual(self.run_capstan("recommend", "--db", "complete.db").stdout,
                          self.run_capstan("recommend", "--db", "merged3.db").stdout)
+
+    def test_more_shards_than_a_process_may_have_files_open(self):
+        self.run_capstan("study", "run", *STUDY, "--db", "complete.db")
+        self.run_capstan("study", "merge", "--db", "merged.db", *self.run_shards(28),
+                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (50, 50)))
+        self.assert_same_bits(self.tables("complete.db"), self.tables("merged.db"))
 
     def test_every_part_belongs_to_exactly_one_shard(self):
         done = []

@@ -52,6 +52,18 @@ class WithoutSlurm(CapstanTest):
         self.assertIn("complete; nothing to submit", self.run_capstan(
             "study", "submit", "--slurm", *study, "--shards", 3, "--directory", folder, "--dry-run").stdout)
 
+    def test_a_queue_that_cannot_be_asked_hides_no_files(self):
+        """As where Slurm is installed and not set up."""
+        self.run_capstan("study", "submit", "--slurm", *QUICK, "--shards", 3, "--directory", "d", "--dry-run", env=self.NO_SLURM)
+        bin_folder = self.folder / "bin"
+        bin_folder.mkdir()
+        for name in ("sbatch", "squeue"):
+            (bin_folder / name).write_text("#!/bin/sh\necho 'fatal: no configuration source' >&2\nexit 1\n")
+            (bin_folder / name).chmod(0o755)
+        done = self.run_capstan("study", "status", "d", "--json", env={**os.environ, "PATH": f"{bin_folder}:{os.environ['PATH']}"})
+        self.assertIn("no configuration source", done.stderr)
+        self.assertEqual([shard["state"] for shard in json.loads(done.stdout)["shards"]], ["not_started"] * 3)
+
     def test_refuses_the_folder_of_something_else(self):
         self.run_capstan("study", "submit", "--slurm", *QUICK, "--shards", 3, "--directory", "d", "--dry-run")
         for words, text in (((*QUICK, "--shards", 4), "holds the study in 3 shards, not 4"),
