@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimation/recursive_estimator.h"
@@ -137,6 +138,59 @@ TEST(RecursiveEstimator, The95PercentBandHoldsTheTruthOnSimulatedCycles) {
             const Tally result = tally(paper_model(), trial, 60);
             EXPECT_GE(result.coverage, 0.93) << sensors.size() << " sensors, wander " << wander_m;
             EXPECT_LE(result.coverage, 0.97) << sensors.size() << " sensors, wander " << wander_m;
+        }
+    }
+}
+
+// The product of two normal densities, at the sensor's own node, where no correlation is left to chance.
+TEST(RecursiveEstimator, AReadingLeavesTheDeviationOfBothTogether) {
+    constexpr int node = 4;
+    constexpr double noise_N = 0.5;
+    RecursiveSettings settings;
+    settings.wander.distal_m = 2e-3;
+    const CableState start = pretensioned(paper_model().cable());
+    RecursiveEstimator without(paper_model(), start, settings);
+    RecursiveEstimator with(paper_model(), start, settings);
+    const KnownEnds ends{start.displacement_m.front() + 5e-3, start.displacement_m.back()};
+    without.step(ends, {});
+    const double before_N = without.deviation_N()[node];
+    const TensionReading reading{
+        spot_of_node(paper_model().cable(), node), without.mean_N()[node], {.additive_N = noise_N}};
+    with.step(ends, std::span(&reading, 1));
+    ASSERT_GT(before_N, 0.2 * noise_N);
+    EXPECT_NEAR(with.deviation_N()[node], before_N * noise_N / std::hypot(before_N, noise_N), 1e-6);
+    EXPECT_NEAR(with.mean_N()[node], without.mean_N()[node], 1e-6);
+}
+
+// Both ends move alike, so that the complete cable slides at that speed: in a segment the tension grows by
+// the exponent of Coulomb friction and by the drag over the mean tension (E41), from the first step on.
+TEST(RecursiveEstimator, WhereTheCableSlidesTheTensionGrowsByFrictionAndDrag) {
+    constexpr double speed_m_per_s = 0.2;
+    constexpr double interval_s = 0.2;
+    constexpr double drag_N_s_per_m2 = 3.0;
+    const Cable& cable = paper_model().cable();
+    const CableState start = pretensioned(cable);
+    for (const auto& [drag, steps] :
+         {std::pair{0.0, 1}, std::pair{drag_N_s_per_m2, 1}, std::pair{drag_N_s_per_m2, 20}}) {
+        RecursiveSettings settings;
+        settings.members = 8;
+        settings.rate_friction.viscous.drag_N_s_per_m2 = drag;
+        settings.interval_s = interval_s;
+        RecursiveEstimator estimator(paper_model(), start, settings);
+        for (int step = 1; step <= steps; ++step) {
+            const double moved_m = step * speed_m_per_s * interval_s;
+            estimator.step({start.displacement_m.front() + moved_m, start.displacement_m.back() + moved_m},
+                           {});
+        }
+        const std::span<const double> tension_N = estimator.mean_N();
+        const double segment_m = cable.mean_segment_length_m();
+        for (std::size_t k = 0; k + 1 < tension_N.size(); ++k) {
+            const double mean_N = 0.5 * (tension_N[k] + tension_N[k + 1]);
+            const double grown = std::log(tension_N[k + 1] / tension_N[k]);
+            const double friction = cable.dynamic_friction() * cable.wrap_angle_rad()[k];
+            const double of_drag = drag * segment_m * speed_m_per_s / mean_N;
+            EXPECT_NEAR(grown, friction + of_drag, 0.02 * (friction + of_drag))
+                << drag << ", step " << steps << ", segment " << k;
         }
     }
 }
