@@ -273,30 +273,6 @@ ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start, Cause
     return scored(model, model.fitter.fit(start, options));
 }
 
-CauseSearch::Fits CauseSearch::finely_fitted(Fits coarse) {
-    constexpr std::size_t max_fits = 5;
-    // What is left without a cause limits how visible one can be.
-    std::stable_partition(coarse.begin(), coarse.end(),
-                          [](const ScoredFit& fit) { return has_effect(fit, "none"); });
-    Fits fine;
-    for (auto each = coarse.begin(); each != coarse.end(); ++each) {
-        // The best of several starts with the same causes is enough.
-        const auto has_same_causes = [&](const ScoredFit& other) {
-            return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
-                                       each->fit.causes.begin(), each->fit.causes.end());
-        };
-        if (std::any_of(coarse.begin(), each, has_same_causes)) continue;
-        if (fine.size() == max_fits) break;
-        report("fitting " + in_words(each->fit.causes) + " finely");
-        CauseFitter::FitOptions options;
-        options.any_size = false;
-        options.balanced = true;
-        fine.push_back(scored(fine_, fine_.fitter.fit(each->fit.hypothesis(), options)));
-    }
-    sort_by_evidence(fine);
-    return fine;
-}
-
 ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
     ++fitted_;
     evaluations_ += fit.evaluations;
@@ -328,27 +304,6 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
     }
     scored.evidence = evidence_.of(scored);
     return scored;
-}
-
-// The screening is linear. Where the bench's numbers float widely they make up for most of what a cause does,
-// and what is left of it shows only after they have moved: there a first cause gets a few steps of a search
-// whatever the screening says, and a further one if it is among the most promising.
-std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, const Hypothesis& present,
-                                                        const SeriesWeights& weights) {
-    constexpr std::size_t most_promising = 12;
-    std::vector<Further> all;
-    for (const Screened& each : screen(coarse_.fitter, level.causes, present, weights)) {
-        if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
-        all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
-        if (level.bench.is_measured() || is_out_of_time()) continue;
-        const CauseFit rough = coarse_.fitter.rough_fit(all.back().start, weights);
-        evaluations_ += rough.evaluations;
-        all.back().start = rough.hypothesis();
-        all.back().sum_of_squares = rough.sum_of_squares;
-    }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Further& a, const Further& b) { return a.sum_of_squares < b.sum_of_squares; });
-    return all;
 }
 
 void CauseSearch::add_single(const Level& level, const Further& further, Fits& singles) {

@@ -43,6 +43,30 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     if (!level.bench.is_measured()) try_others(level, all);
 }
 
+CauseSearch::Fits CauseSearch::finely_fitted(Fits coarse) {
+    constexpr std::size_t max_fits = 5;
+    // What is left without a cause limits how visible one can be.
+    std::stable_partition(coarse.begin(), coarse.end(),
+                          [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
+    Fits fine;
+    for (auto each = coarse.begin(); each != coarse.end(); ++each) {
+        // The best of several starts with the same causes is enough.
+        const auto has_same_causes = [&](const ScoredFit& other) {
+            return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
+                                       each->fit.causes.begin(), each->fit.causes.end());
+        };
+        if (std::any_of(coarse.begin(), each, has_same_causes)) continue;
+        if (fine.size() == max_fits) break;
+        report("fitting " + in_words(each->fit.causes) + " finely");
+        CauseFitter::FitOptions options;
+        options.any_size = false;
+        options.balanced = true;
+        fine.push_back(scored(fine_, fine_.fitter.fit(each->fit.hypothesis(), options)));
+    }
+    sort_by_evidence(fine);
+    return fine;
+}
+
 // Others in the place of a single cause, from where it led the bench's own numbers: where these float widely,
 // several causes explain much the same, and each deserves the same start.
 void CauseSearch::try_others(const Level& level, Fits& all) {
@@ -179,6 +203,27 @@ void CauseSearch::try_replacing(const Level& level, Fits& sets) {
             only_causes(best.hypothesis(), [&](const CandidateCause& cause) { return &cause != *replaced; }),
             best.weights, max_fitted_further, sets);
     sort_by_evidence(sets);
+}
+
+// The screening is linear. Where the bench's numbers float widely they make up for most of what a cause does,
+// and what is left of it shows only after they have moved: there a first cause gets a few steps of a search
+// whatever the screening says, and a further one if it is among the most promising.
+std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, const Hypothesis& present,
+                                                        const SeriesWeights& weights) {
+    constexpr std::size_t most_promising = 12;
+    std::vector<Further> all;
+    for (const Screened& each : screen(coarse_.fitter, level.causes, present, weights)) {
+        if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
+        all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
+        if (level.bench.is_measured() || is_out_of_time()) continue;
+        const CauseFit rough = coarse_.fitter.rough_fit(all.back().start, weights);
+        evaluations_ += rough.evaluations;
+        all.back().start = rough.hypothesis();
+        all.back().sum_of_squares = rough.sum_of_squares;
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Further& a, const Further& b) { return a.sum_of_squares < b.sum_of_squares; });
+    return all;
 }
 
 // `weights`: of the fit that the hypothesis comes from; `max_further`: causes that are tried beside it.
