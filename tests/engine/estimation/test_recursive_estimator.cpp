@@ -163,7 +163,8 @@ TEST(RecursiveEstimator, AReadingLeavesTheDeviationOfBothTogether) {
 }
 
 // Both ends move alike, so that the complete cable slides at that speed: in a segment the tension grows by
-// the exponent of Coulomb friction and by the drag over the mean tension (E41), from the first step on.
+// the exponent of Coulomb friction and by the drag over the mean tension (E41), from the first step on. There
+// the two trials of a step leave 1.6% of the growth, one trial would leave 16%.
 TEST(RecursiveEstimator, WhereTheCableSlidesTheTensionGrowsByFrictionAndDrag) {
     constexpr double speed_m_per_s = 0.2;
     constexpr double interval_s = 0.2;
