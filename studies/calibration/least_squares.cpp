@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace capstan::gap {
@@ -96,8 +97,18 @@ void correct_along(const Eigen::VectorXd& step, const Eigen::VectorXd& change, E
 
 }  // namespace
 
-// Marquardt's scaling by the diagonal; the damping falls after a success and grows until one.
 LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
+                                  const LeastSquaresOptions& options) {
+    LeastSquaresFit fit;
+    fit.parameters = start;
+    if (options.lower_bounds.size() > 0) fit.parameters = start.cwiseMax(options.lower_bounds);
+    fit.residuals = residuals(fit.parameters);
+    fit.evaluations = 1;
+    return fit_least_squares(residuals, std::move(fit), options);
+}
+
+// Marquardt's scaling by the diagonal; the damping falls after a success and grows until one.
+LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquaresFit fit,
                                   const LeastSquaresOptions& options) {
     constexpr double start_damping = 1e-3;
     constexpr double min_damping = 1e-9;
@@ -110,20 +121,15 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen
     constexpr double as_promised = 0.7;  // of a decrease: the linear model still holds
 
     const int per_jacobian =
-        static_cast<int>(start.size()) * (options.differences == Differences::central ? 2 : 1);
+        static_cast<int>(fit.parameters.size()) * (options.differences == Differences::central ? 2 : 1);
     // Dampings that are tried in parallel span a wider range than those tried in turn.
     const double spread = options.dampings_at_once == 1 ? tighten : tighten * tighten;
-    LeastSquaresFit fit;
-    fit.parameters = start;
-    if (options.lower_bounds.size() > 0) fit.parameters = start.cwiseMax(options.lower_bounds);
-    fit.residuals = residuals(fit.parameters);
     fit.sum_of_squares = fit.residuals.squaredNorm();
-    fit.evaluations = 1;
     double damping = start_damping;
     int slow = 0;  // steps in turn that lowered the sum little
-    bool holds = false;
+    bool holds = fit.jacobian.size() > 0;
     for (int iteration = 0; iteration < options.max_iterations && !fit.converged; ++iteration) {
-        const bool is_corrected = options.secant && holds;
+        const bool is_corrected = holds && (options.secant || iteration == 0);
         if (!is_corrected) {
             fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
             fit.evaluations += per_jacobian;

@@ -68,5 +68,9 @@ Eigen::VectorXd jackknife_half_widths(const std::vector<Eigen::VectorXd>& withou
 /// Levenberg-Marquardt with the Jacobian by differences, from `start`.
 LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
                                   const LeastSquaresOptions& options = {});
+/// The same from parameters whose residuals and Jacobian are known. Steps are taken with this Jacobian as
+/// long as they lower the sum about as far as promised.
+LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquaresFit start,
+                                  const LeastSquaresOptions& options);
 
 }  // namespace capstan::gap

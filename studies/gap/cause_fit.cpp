@@ -125,14 +125,19 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
             }
         }
     });
+    if (left_out) set_zero(*left_out, all);
+    return all;
+}
+
+void CauseFitter::set_zero(const LeftOut& part, Eigen::Ref<Eigen::MatrixXd> residuals) const {
     for (const ResidualSeries& series : series_) {
-        if (!left_out || left_out->run != series.run) continue;
-        const auto [from, to] = left_out->rows(series.rows);
-        all.middleRows(static_cast<Eigen::Index>(series.first_row + from),
-                       static_cast<Eigen::Index>(to - from))
+        if (part.run != series.run) continue;
+        const auto [from, to] = part.rows(series.rows);
+        residuals
+            .middleRows(static_cast<Eigen::Index>(series.first_row + from),
+                        static_cast<Eigen::Index>(to - from))
             .setZero();
     }
-    return all;
 }
 
 Eigen::VectorXd CauseFitter::prior_residuals(const Hypothesis& hypothesis,
@@ -283,31 +288,69 @@ CauseFit CauseFitter::rough_fit(const Hypothesis& start, const SeriesWeights& we
     return fit;
 }
 
-CauseFit CauseFitter::fit_with(const SeriesWeights& weights, const Hypothesis& start,
-                               const FitOptions& options, int iterations, double difference_step) const {
-    CauseFit fit;
-    fit.causes = start.causes;
-    fit.bench = start.bench;
-    fit.weights = weights;
+LeastSquaresOptions CauseFitter::search_from(const Hypothesis& start) const {
     LeastSquaresOptions search;
     search.differences = Differences::forward;
-    search.difference_step = difference_step;
+    search.difference_step = fine_step;
     search.parameter_tolerance = 1e-3;
     search.lower_bounds = lower_bounds_of(start);
-    search.max_iterations = iterations;
+    search.max_iterations = max_iterations;
     search.jacobian_at_end = false;
     search.secant = true;
     search.dampings_at_once = dampings_at_once;
     search.min_decrease = 2.0 * min_gain * prior_weight_ * prior_weight_;
+    return search;
+}
+
+ResidualFunction CauseFitter::weighted(const Hypothesis& hypothesis, const SeriesWeights& weights,
+                                       std::optional<LeftOut> left_out) const {
+    return [this, hypothesis, weights, left_out](const Eigen::MatrixXd& coordinates) {
+        Eigen::MatrixXd all = residuals(hypothesis, coordinates, left_out);
+        apply(weights, all);
+        return all;
+    };
+}
+
+CauseFit CauseFitter::fit_with(const SeriesWeights& weights, const Hypothesis& start,
+                               const FitOptions& options, int iterations, double difference_step) const {
+    LeastSquaresOptions search = search_from(start);
+    search.difference_step = difference_step;
+    search.max_iterations = iterations;
     // Sums with weights say nothing of the best sum so far, which has none.
     if (weights.empty()) search.pruned_sum_of_squares = options.pruned_sum_of_squares;
-    const LeastSquaresFit found = fit_least_squares(
-        [&](const Eigen::MatrixXd& coordinates) {
-            Eigen::MatrixXd all = residuals(start, coordinates, options.left_out);
-            apply(weights, all);
-            return all;
-        },
-        start.coordinates, search);
+    return completed(
+        start, weights,
+        fit_least_squares(weighted(start, weights, options.left_out), start.coordinates, search));
+}
+
+// The Jacobian of all parts, without the rows of the one left out, leads close to the fit without it (the
+// infinitesimal jackknife), so that few steps are left.
+std::vector<CauseFit> CauseFitter::fits_without(const CauseFit& all, std::span<const LeftOut> parts) const {
+    const Hypothesis start = all.hypothesis();
+    LeastSquaresFit known;
+    known.parameters = all.coordinates;
+    known.residuals = all.residuals;
+    apply(all.weights, known.residuals);
+    LeastSquaresOptions search = search_from(start);
+    search.max_iterations = 3;
+    known.jacobian = jacobian_at(weighted(start, all.weights, {}), known.parameters, known.residuals, search);
+    std::vector<CauseFit> fits;
+    for (const LeftOut& part : parts) {
+        LeastSquaresFit from = known;
+        set_zero(part, from.residuals);
+        set_zero(part, from.jacobian);
+        fits.push_back(completed(start, all.weights,
+                                 fit_least_squares(weighted(start, all.weights, part), from, search)));
+    }
+    return fits;
+}
+
+CauseFit CauseFitter::completed(const Hypothesis& hypothesis, const SeriesWeights& weights,
+                                const LeastSquaresFit& found) const {
+    CauseFit fit;
+    fit.causes = hypothesis.causes;
+    fit.bench = hypothesis.bench;
+    fit.weights = weights;
     fit.coordinates = found.parameters;
     fit.residuals = found.residuals;
     SeriesWeights inverse;

@@ -100,6 +100,8 @@ class CauseFitter {
         bool balanced = false;
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
+    /// The same causes with the same weights, fitted without each part in turn, from the numbers of `all`.
+    std::vector<CauseFit> fits_without(const CauseFit& all, std::span<const LeftOut> parts) const;
     /// A few rough steps of a search, everything free, with these weights. The sum of squares has weights and
     /// priors.
     CauseFit rough_fit(const Hypothesis& start, const SeriesWeights& weights) const;
@@ -143,8 +145,16 @@ class CauseFitter {
     double clearest_change(const Eigen::VectorXd& change) const;
     SeriesWeights balancing_weights(const Eigen::VectorXd& residuals) const;
     double log_volume_ratio(const CauseFit& fit, const Eigen::MatrixXd& jacobian) const;
+    /// The rows of a part.
+    void set_zero(const LeftOut& part, Eigen::Ref<Eigen::MatrixXd> residuals) const;
+    LeastSquaresOptions search_from(const Hypothesis& start) const;
+    /// Residuals and priors of the causes of `hypothesis` with these weights.
+    ResidualFunction weighted(const Hypothesis& hypothesis, const SeriesWeights& weights,
+                              std::optional<LeftOut> left_out) const;
     CauseFit fit_with(const SeriesWeights& weights, const Hypothesis& start, const FitOptions& options,
                       int iterations, double difference_step) const;
+    CauseFit completed(const Hypothesis& hypothesis, const SeriesWeights& weights,
+                       const LeastSquaresFit& found) const;
     Eigen::VectorXd roughly_sized(const Hypothesis& start, const FitOptions& options,
                                   const SeriesWeights& weights, int& evaluations) const;
 

@@ -226,8 +226,6 @@ bool CauseSearch::is_undescribed(const BenchKnowledge& bench) const {
     return &bench == &described_.bench && !bench.is_measured();
 }
 
-// What is fitted of an undescribed bench begins at a guess. Stiffness and pretension make much the same loop,
-// so the fit begins at several ratios of the two.
 ScoredFit CauseSearch::without_cause(const Level& level) {
     const Hypothesis nominal = with_cause(level.bench.has_unknown_number() && !is_undescribed(level.bench)
                                               ? roughly_sought(level.bench)
@@ -241,16 +239,27 @@ ScoredFit CauseSearch::without_cause(const Level& level) {
         ScoredFit fit = fitted(level, other, {});
         if (fit.evidence > best.evidence) best = std::move(fit);
     }
-    if (!is_undescribed(level.bench)) return best;
-    constexpr double starts[][nominal_coordinates] = {{0.0, 0.0, -1.0}, {0.0, 0.5, -1.0}, {0.0, 0.0, 1.0}};
-    for (const auto& from : starts) {
+    for (const Eigen::VectorXd& from : further_starts(level.bench)) {
         if (is_out_of_time()) break;
         Hypothesis other = nominal;
-        for (Eigen::Index k = 0; k < nominal_coordinates; ++k) other.coordinates[k] = from[k];
+        other.coordinates = from;
         ScoredFit fit = fitted(level, other, {});
         if (fit.evidence > best.evidence) best = std::move(fit);
     }
     return best;
+}
+
+// Beside the nominal numbers. Of an undescribed bench these are a guess; stiffness and pretension make much
+// the same loop, so that searches begin at several ratios of the two.
+std::vector<Eigen::VectorXd> CauseSearch::further_starts(const BenchKnowledge& bench) const {
+    if (!is_undescribed(bench)) return {};
+    std::vector<Eigen::VectorXd> starts;
+    for (const Eigen::Vector3d& numbers :
+         {Eigen::Vector3d(0.0, 0.0, -1.0), Eigen::Vector3d(0.0, 0.5, -1.0), Eigen::Vector3d(0.0, 0.0, 1.0)}) {
+        starts.push_back(nominal_hypothesis(bench).coordinates);
+        starts.back().head(nominal_coordinates) = numbers;
+    }
+    return starts;
 }
 
 bool CauseSearch::is_out_of_time() {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -207,7 +208,8 @@ void CauseSearch::try_replacing(const Level& level, Fits& sets) {
 
 // The screening is linear. Where the bench's numbers float widely they make up for most of what a cause does,
 // and what is left of it shows only after they have moved: there a first cause gets a few steps of a search
-// whatever the screening says, and a further one if it is among the most promising.
+// whatever the screening says, and a further one if it is among the most promising. What an undescribed bench
+// without a cause led to may be far from where it is with one, so that a first cause also begins elsewhere.
 std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, const Hypothesis& present,
                                                         const SeriesWeights& weights) {
     constexpr std::size_t most_promising = 12;
@@ -215,11 +217,23 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, cons
     for (const Screened& each : screen(coarse_.fitter, level.causes, present, weights)) {
         if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
         all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
-        if (level.bench.is_measured() || is_out_of_time()) continue;
-        const CauseFit rough = coarse_.fitter.rough_fit(all.back().start, weights);
-        evaluations_ += rough.evaluations;
-        all.back().start = rough.hypothesis();
-        all.back().sum_of_squares = rough.sum_of_squares;
+        if (level.bench.is_measured()) continue;
+        std::vector<Hypothesis> starts = {all.back().start};
+        if (present.causes.empty() && is_undescribed(level.bench)) {
+            std::vector<Eigen::VectorXd> benches = further_starts(level.bench);
+            benches.push_back(nominal_hypothesis(level.bench).coordinates);
+            for (const Eigen::VectorXd& numbers : benches)
+                starts.push_back(with_cause({{}, numbers, present.bench}, each.cause, each.start));
+        }
+        all.back().sum_of_squares = std::numeric_limits<double>::infinity();
+        for (const Hypothesis& start : starts) {
+            if (is_out_of_time()) break;
+            const CauseFit rough = coarse_.fitter.rough_fit(start, weights);
+            evaluations_ += rough.evaluations;
+            if (!(rough.sum_of_squares < all.back().sum_of_squares)) continue;
+            all.back().start = rough.hypothesis();
+            all.back().sum_of_squares = rough.sum_of_squares;
+        }
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Further& a, const Further& b) { return a.sum_of_squares < b.sum_of_squares; });

@@ -200,15 +200,13 @@ class Diagnoser {
 
     // Without each part in turn.
     std::vector<PartFit> held_out(const CauseFit& leading) {
+        report("predicting each run from the others", 0.95);
+        const std::vector<LeftOut> left_out = left_out_in_turn(recording_);
+        std::vector<CauseFit> fits = fitter_.fits_without(leading, left_out);
         std::vector<PartFit> parts;
-        for (const LeftOut& part : left_out_in_turn(recording_)) {
-            report("fitting without run " + std::to_string(recording_.runs[part.run].number), 0.95);
-            CauseFitter::FitOptions options;
-            options.left_out = part;
-            options.any_size = false;
-            options.weights = leading.weights;
-            parts.push_back({part, fitter_.fit(leading.hypothesis(), options)});
-            evaluations_ += parts.back().fit.evaluations;
+        for (std::size_t part = 0; part < fits.size(); ++part) {
+            evaluations_ += fits[part].evaluations;
+            parts.push_back({left_out[part], std::move(fits[part])});
         }
         return parts;
     }

@@ -9,25 +9,23 @@ namespace capstan::gap {
 // The mean square of the residuals of each run with the numbers fitted to the others.
 double CauseSearch::held_out_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights) {
     const CauseFitter& fitter = coarse_.fitter;
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    options.weights = weights;
+    const CauseFit all = fitter.fit(hypothesis, options);
+    std::vector<LeftOut> runs;
+    for (std::size_t run = 0; run < run_count_; ++run) runs.push_back({run});
+    std::vector<Hypothesis> without;
+    for (const CauseFit& fit : fitter.fits_without(all, runs)) without.push_back(fit.hypothesis());
+    Eigen::MatrixXd residuals = fitter.data_residuals(without);
+    fitter.apply(weights, residuals);
     double squares = 0.0;
-    for (std::size_t run = 0; run < run_count_; ++run) {
-        CauseFitter::FitOptions options;
-        options.left_out = LeftOut{run};
-        options.any_size = false;
-        options.weights = weights;
-        const Hypothesis without = fitter.fit(hypothesis, options).hypothesis();
-        const Eigen::VectorXd residuals = fitter.data_residuals({&without, 1});
-        for (std::size_t k = 0; k < fitter.series().size(); ++k) {
-            const ResidualSeries& series = fitter.series()[k];
-            if (series.run != run) continue;
-            const double weight = weights.empty() ? 1.0 : weights[k];
-            squares += weight * weight *
-                       residuals
-                           .segment(static_cast<Eigen::Index>(series.first_row),
-                                    static_cast<Eigen::Index>(series.rows))
-                           .squaredNorm();
-        }
-    }
+    for (const ResidualSeries& series : fitter.series())
+        squares +=
+            residuals
+                .block(static_cast<Eigen::Index>(series.first_row), static_cast<Eigen::Index>(series.run),
+                       static_cast<Eigen::Index>(series.rows), 1)
+                .squaredNorm();
     return squares / fitter.determined_rows();
 }
 
