@@ -98,6 +98,19 @@ TEST(CauseSearch, LooksForAFurtherCauseOnlyWhereMoreThanNoiseAndLawsErrorIsLeft)
     EXPECT_TRUE(worth_a_further_cause(leaving(3.0, 4.0, known.bend)));
 }
 
+// Wide numbers take up a part of the floor.
+TEST(CauseSearch, LooksBelowTheFloorWhereTheBenchsNumbersFloat) {
+    ThreeCauses known;
+    BenchKnowledge built = measured_bench();
+    built.numbers.push_back({.name = "zero", .kind = FloatingNumber::Kind::zero, .apply = {}});
+    ScoredFit fit = leaving(0.8, 2.0, known.bend);
+    EXPECT_FALSE(worth_a_further_cause(fit));
+    fit.fit.bench = &built;
+    EXPECT_TRUE(worth_a_further_cause(fit));
+    fit.misfit = 0.4;
+    EXPECT_FALSE(worth_a_further_cause(fit));
+}
+
 TEST(CauseSearch, OutOfTimeItGivesTheNominalFitAndSaysSo) {
     Recording recording = exact_session({}, coarse_twin);
     recording.runs.resize(1);

@@ -6,7 +6,9 @@
 #include "capstan/effects/effect_catalogue.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/effects_twin.h"
+#include "capstan/gap/equivalent_bench.h"
 #include "capstan/recording/recording_reader.h"
+#include "lumped_session.h"
 #include "sample_recording.h"
 
 namespace capstan::gap {
@@ -152,6 +154,34 @@ TEST(Diagnosis, FindsACauseOnABenchOfWhichLittleIsStated) {
     for (const RankedEffect& each : diagnosis.ranked)
         EXPECT_TRUE(each.effect != "param_K" && each.effect != "param_T0")
             << "what nobody stated cannot be wrong";
+}
+
+// The calibration of such a drive takes friction that builds up for elasticity and pretension, so that a
+// search from its numbers alone ends far off.
+TEST(Diagnosis, NamesPreslidingOfADriveWhoseCalibratedPretensionIsFarOff) {
+    const Recording ideal = lumped_session({});
+    Recording drive = equivalent_bench(ideal, ideal);
+    for (Channel& channel : drive.channels) channel.noise_std = channel.unit == "rad" ? 5e-4 : 2e-3;
+    BenchNumbers numbers;
+    numbers.pretension_ratio = 0.2;
+    numbers.effects.of<Presliding>().length_m = 3e-3;
+    numbers.effects.of<PulleyFriction>().motor.coulomb_Nm = 0.2;
+    numbers.effects.of<PulleyFriction>().motor.presliding_rad = 2e-3;
+    std::mt19937_64 random(20261125);
+    std::normal_distribution<double> normal;
+    const EffectsTwin bench(drive, {.segments = 40, .stride = 1});
+    for (std::size_t run = 0; run < drive.runs.size(); ++run) {
+        const TwinRun truth = bench.run(run, numbers);
+        for (std::size_t channel = 0; channel < drive.channels.size(); ++channel) {
+            if (truth.values[channel].empty()) continue;
+            drive.runs[run].values[channel] = truth.values[channel];
+            for (double& value : drive.runs[run].values[channel])
+                value += *drive.channels[channel].noise_std * normal(random);
+        }
+    }
+    const Diagnosis diagnosis = diagnosed(drive);
+    EXPECT_EQ(diagnosis.ranked.front().effect, "presliding");
+    EXPECT_LT(diagnosis.misfit_after, 1.0);
 }
 
 TEST(Diagnosis, LocatesABend) {

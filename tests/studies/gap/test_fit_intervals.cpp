@@ -102,6 +102,29 @@ TEST(FitIntervals, OfNominalNumbersAreNeverWiderThanTheirPriorsOnAnExactRecordin
     }
 }
 
+// A complete search without each run, and the few steps from the numbers and the Jacobian of all runs.
+TEST(FitsWithoutEachRun, LeaveAsLittleAsCompleteSearchesAfterFewerEvaluations) {
+    Recording recording = session_with_drag();
+    add_slow_error(recording, 0.02);
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes = candidate_causes(recording);
+    Eigen::VectorXd start = Eigen::VectorXd::Zero(nominal_coordinates + 1);
+    start[nominal_coordinates] = 1.0;
+    const CauseFit all = fitter.fit({{&cause_named(causes, "viscous_friction")}, start}, {});
+    std::vector<LeftOut> runs;
+    for (std::size_t run = 0; run < recording.runs.size(); ++run) runs.push_back({run});
+    const std::vector<CauseFit> quick = fitter.fits_without(all, runs);
+    ASSERT_EQ(quick.size(), runs.size());
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+        CauseFitter::FitOptions options;
+        options.left_out = runs[run];
+        options.any_size = false;
+        const CauseFit complete = fitter.fit(all.hypothesis(), options);
+        EXPECT_LT(quick[run].sum_of_squares, 1.001 * complete.sum_of_squares) << run;
+        EXPECT_LT(quick[run].evaluations, complete.evaluations) << run;
+    }
+}
+
 TEST(FitIntervals, TheJackknifeNeedsThreeRunsAndFollowsTheirSpread) {
     const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
     EXPECT_EQ(jackknife_half_widths({one(1.0), one(2.0)}, 1)[0], 0.0);

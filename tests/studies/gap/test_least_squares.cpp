@@ -105,6 +105,31 @@ TEST(LeastSquares, AJacobianThatIsCorrectedAlongTheStepsLeadsToTheSameFitWithFew
     EXPECT_LT(corrected.evaluations, plain.evaluations);
 }
 
+TEST(LeastSquares, AKnownJacobianIsNotComputedAgain) {
+    const Line line;
+    LeastSquaresFit known;
+    known.parameters = far_away;
+    known.residuals = line(far_away);
+    known.jacobian = line.design;
+    LeastSquaresOptions options;
+    options.max_iterations = 1;
+    options.jacobian_at_end = false;
+    const LeastSquaresFit fit = fit_least_squares(line, known, options);
+    EXPECT_EQ(fit.evaluations, 1);
+    EXPECT_LT((fit.parameters - line.solution()).norm(), 1e-2 * far_away.norm());
+}
+
+// The first step leads uphill; a Jacobian at the start then leads down.
+TEST(LeastSquares, AWrongJacobianAtTheStartIsReplaced) {
+    const Line line;
+    LeastSquaresFit wrong;
+    wrong.parameters = far_away;
+    wrong.residuals = line(far_away);
+    wrong.jacobian = -line.design;
+    const LeastSquaresFit fit = fit_least_squares(line, wrong, {});
+    EXPECT_LT((fit.parameters - line.solution()).norm(), 1e-6);
+}
+
 // From 3 the undamped step leads to a negative argument of the logarithm.
 TEST(LeastSquares, AStepToResidualsThatAreNotFiniteIsShortened) {
     const auto logarithm = [](const Eigen::MatrixXd& parameters) -> Eigen::MatrixXd {
