@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "capstan/storage/error.h"
+#include "capstan/storage/hidden_trash.h"
 
 namespace capstan::storage {
 
@@ -233,6 +234,7 @@ void visit_read_only(Database& database, std::string_view sql, const RowVisitor&
         throw Error("The query box needs a database that was opened for reading only: " +
                     database.path().string());
     }
+    hide_trash(database);
     limit_statement(connection);
     const QueryGuard guard(connection, time_limit_s);
     const GuestStatement statement = prepare(connection, sql, guard, time_limit_s);

@@ -41,7 +41,7 @@ struct QueryResult {
 };
 
 // Runs exactly one SELECT on a database that was opened with open_read_only. ?1, ?2, ... take the parameters.
-// A blob comes out as a text of its bytes; no table of ours has one.
+// It sees nothing of studies in the trash. A blob comes out as a text of its bytes; no table of ours has one.
 QueryResult run_read_only(Database& database, std::string_view sql,
                           const std::vector<QueryValue>& parameters = {}, const QueryLimits& limits = {});
 

@@ -10,10 +10,9 @@ namespace capstan {
 namespace {
 
 // Torques and the load's position tell the difference of a pair's tensions and nothing of their sum, but a
-// correlation by chance with the sum corrects it at every sample. With the usual screening of 64 members the
-// band of a pair with two torques held 91 to 94% of the truth, with 256 members or with this screening 93 to
-// 95%. A tension sensor tells of the sum, and the stronger screening would then cost accuracy.
-constexpr double chance_variances_without_sum = 2.0 * chance_variances;
+// correlation by chance with the sum corrects it at every sample, so that it counts as that of half as many
+// members. A tension sensor tells of the sum, and the stronger screening would then cost accuracy.
+constexpr double chance_without_sum = 2.0;
 
 // A slack member reads 0 however far it is from becoming taut, so where most members are slack and the cable
 // is not, a reading tells them nothing and the filter loses the cable. From this many standard deviations of
@@ -34,8 +33,9 @@ EnsembleFilter::EnsembleFilter(const UncertainCable& cable, const CableBelief& b
     for (int which = 0; which < cables; ++which) cables_.emplace_back(cable, belief, draws, which);
     const auto count = static_cast<std::size_t>(draws.members());
     for (auto* row : {&far_end_m_, &far_end_m_per_s_, &opposite_m_, &off_m_[0], &off_m_[1], &far_end_by_m_,
-                      &sensed_, &pull_, &tension_pull_})
+                      &sensed_, &taut_move_})
         row->assign(count, 0.0);
+    all_move_.assign(count, 1.0);
     mean_N_.assign(static_cast<std::size_t>(cables * cables_.front().nodes()), 0.0);
     deviation_N_ = mean_N_;
     tells_sum_ = cables == 1 || std::any_of(sensors.begin(), sensors.end(), [&](int sensor) {
@@ -168,7 +168,7 @@ bool EnsembleFilter::find_pushes(const Fitted& sensor, const Innovation& found) 
     return pushes_[0] || pushes_[1];
 }
 
-// E37 for one reading, over the state and all numbers.
+// E58 for one reading, over the state and all numbers.
 void EnsembleFilter::correct(Fitted& sensor, double reading) {
     const std::size_t count = sensed_.size();
     Innovation found = innovation(sensor, reading);
@@ -179,22 +179,19 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
     pushes_ = {false, false};
     if (!(found.variance > 0.0)) return;
     const double total = found.variance + found.noise_variance;
-    const double fraction = 1.0 / (1.0 + std::sqrt(found.noise_variance / total));
-    for (std::size_t j = 0; j < count; ++j) {
-        sensed_[j] -= found.mean;
-        pull_[j] = found.off - fraction * sensed_[j];
-    }
+    for (double& each : sensed_) each -= found.mean;
     const double degrees = static_cast<double>(count) - 1.0;
-    RowCorrection correction{sensed_, tension_pull_, found.variance * degrees, total * degrees,
-                             tells_sum_ ? chance_variances : chance_variances_without_sum};
+    RowCorrection correction{sensed_,         taut_move_,
+                             found.off,       found.variance * degrees,
+                             total * degrees, tells_sum_ ? 1.0 : chance_without_sum};
     for (EnsembleCable& cable : cables_) {
         for (std::size_t j = 0; j < count; ++j)
-            tension_pull_[j] = cable.is_slack(static_cast<int>(j)) ? 0.0 : pull_[j];
+            taut_move_[j] = cable.is_slack(static_cast<int>(j)) ? 0.0 : 1.0;
         corrected_.clear();
         cable.add_tensions(corrected_);
         correct_rows(correction, corrected_);
     }
-    correction.pull = pull_;
+    correction.moves = all_move_;
     corrected_ = {far_end_m_.data(), far_end_m_per_s_.data()};
     for (EnsembleCable& cable : cables_) cable.add_numbers(corrected_);
     for (Fitted& each : sensors_) {

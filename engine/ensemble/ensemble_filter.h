@@ -15,7 +15,7 @@ namespace capstan {
 /// An ensemble square-root filter as RecursiveEstimator, but each member is a cable with its own numbers, and
 /// the numbers are estimated with the state: log friction, log wrap of every bend, log stiffness, log
 /// pretension, the far end's displacement and speed (E40), the zero and gain of every sensor. A reading
-/// corrects each of them by its correlation with what the members would read (E37). Displacements follow from
+/// corrects each of them by its correlation with what the members would read (E58). Displacements follow from
 /// tensions and compliances, back from the distal end (E2).
 ///
 /// A member can also be a pull-pull pair between two pulleys (E15): two cables with numbers of their own,
@@ -84,12 +84,12 @@ class EnsembleFilter {
     std::vector<double> off_m_[2];         // members: of each cable's proximal end
     std::vector<double> far_end_by_m_;     // members
     std::vector<Fitted> sensors_;
-    std::vector<double> sensed_;        // members: what each would read, then its distance from their mean
-    std::vector<double> pull_;          // members
-    std::vector<double> tension_pull_;  // members: 0 for those that are slack
-    std::vector<double*> corrected_;    // rows that a reading corrects
-    std::vector<double> mean_N_;        // cables x nodes
-    std::vector<double> deviation_N_;   // cables x nodes
+    std::vector<double> sensed_;       // members: what each would read, then its distance from their mean
+    std::vector<double> all_move_;     // members: 1
+    std::vector<double> taut_move_;    // members: 1, or 0 for those that are slack
+    std::vector<double*> corrected_;   // rows that a reading corrects
+    std::vector<double> mean_N_;       // cables x nodes
+    std::vector<double> deviation_N_;  // cables x nodes
     EnsembleReport report_;
 };
 

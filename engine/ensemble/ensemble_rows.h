@@ -12,15 +12,22 @@ struct RowMoments {
 };
 RowMoments moments_of_row(std::span<const double> row);
 
-/// What a reading says to every row (E37).
+/// What a reading says to every row (E58).
 struct RowCorrection {
     std::span<const double> sensed;  ///< members: what each would read, less their mean
-    std::span<const double> pull;    ///< members: by how much each is off, in the reading's unit
+    std::span<const double> moves;   ///< members: 1, or 0 for those that are left alone
+    double off = 0.0;                ///< the reading less the mean of what the members would read
     double sensed_squares = 0.0;     ///< sum of the squares of `sensed`
     double total_squares = 0.0;      ///< the same with the reading's noise
-    double chance_variances = 0.0;
+    double chance = 1.0;  ///< variance of a correlation by chance, in that of so many independent members
 };
-/// Each row += s c / total pull, c the row's covariance with what is sensed, s its screening against chance.
+
+/// Which fraction of a correlation of so many members is to be expected in truth: a correlation is none, or
+/// any between -1 and 1, each as likely (E58).
+double expected_fraction(double correlation, double members, double chance);
+
+/// Moves the mean of each row by the correlation with what is sensed, as far as it is to be expected in
+/// truth, and draws its members together by as much as that explains.
 void correct_rows(const RowCorrection& correction, std::span<double* const> rows);
 
 /// result = exp(row)

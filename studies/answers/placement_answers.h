@@ -15,6 +15,7 @@
 #include "capstan/sensitivity/world_sensitivity.h"
 #include "capstan/storage/database.h"
 #include "capstan/storage/records.h"
+#include "capstan/worlds/band_coverage.h"
 #include "capstan/worlds/world_study.h"
 
 namespace capstan::answers {
@@ -44,6 +45,16 @@ BudgetCable budget_cable(const StudyPlan& plan, const WorldAnswer& found, int se
 /// What `capstan budget` found; the last of `shares` is the answer.
 reports::Answer budget_answer(const std::vector<BudgetCable>& cables, const std::vector<BudgetShare>& shares,
                               BudgetObjective objective);
+
+/// How often the 95% bands of a configuration's sets hold the true tension.
+struct ConfigurationBands {
+    StudyPlan plan;
+    std::vector<std::string> sets{};  ///< in words
+    std::vector<BandCoverage> bands;
+    int worlds = 0;
+};
+/// What `capstan bands` found.
+reports::Answer band_answer(const std::vector<ConfigurationBands>& configurations);
 
 /// What `capstan sensitivity` found.
 reports::Answer sensitivity_answer(const StudyPlan& plan, const sensitivity::SensitivityAnswer& found);

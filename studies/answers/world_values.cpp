@@ -49,6 +49,7 @@ Data expected_data(const StudyPlan& plan, const WorldAnswer& found, const Expect
             {"worst_place_error_N", expected.worst_place_N},
             {"covered_fraction", expected.covered_fraction},
             {"discretisation_error_N", expected.discretisation_N},
+            {"error_95_discretisation_error_N", expected.error_95_discretisation_N},
             {"load_end_discretisation_error_N", expected.load_end_discretisation_N}};
 }
 

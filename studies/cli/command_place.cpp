@@ -14,6 +14,7 @@
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/recording_reader.h"
 #include "capstan/search/sensor_placement.h"
+#include "capstan/worlds/band_coverage.h"
 
 namespace capstan::cli {
 
@@ -237,6 +238,54 @@ Command budget_command() {
         .examples = {"capstan budget elbow.toml wrist.toml --sensors 4",
                      "capstan budget a.toml b.toml c.toml --sensors 6 --objective largest --json"},
         .run = run_budget,
+        .when_stopped = stores_nothing};
+}
+
+namespace {
+
+ExitCode run_bands(const Invocation& invocation) {
+    std::vector<answers::ConfigurationBands> found;
+    for (const std::string& file : invocation.repeated_argument()) {
+        config::ReadConfig config = config::read_config(file);
+        if (!config.plan.uncertainty.is_stated)
+            throw UsageError(fmt::format(
+                "capstan bands: {} has no [uncertainty], so that there are no worlds to draw", file));
+        if (invocation.has("repetitions"))
+            config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
+        if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
+        config::require_runnable(config);
+        found.push_back({.plan = config.plan, .worlds = config.plan.repetitions});
+    }
+    for (answers::ConfigurationBands& each : found) {
+        const WatchedTable watched =
+            watch_table(invocation, each.plan.name, [&](const TableOptions& options) {
+                ErrorTable table(each.plan, options);
+                each.bands = band_coverage(table, each.worlds);
+                for (const Candidate& candidate : table.candidates())
+                    each.sets.push_back(words_of(candidate, table.offers()));
+            });
+        if (!watched.is_complete) return ExitCode::stopped;
+    }
+    deliver_answer(invocation, answers::band_answer(found));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+Command bands_command() {
+    return {
+        .name = "bands",
+        .summary = "Measure how often the estimator's 95% band holds the true tension.",
+        .description =
+            "Draws the worlds of each CONFIG, which has [uncertainty], and prints for every set of sensors that the "
+            "configuration compares which fraction of the true tensions lies within the estimator's 95% band: for worlds "
+            "drawn from what the estimator is told, and for worlds twice as uncertain.",
+        .arguments = {{"CONFIG", "A study's configuration with [uncertainty].", ArgumentNeed::one_or_more}},
+        .options = {seed_option, repetitions_option, jobs_option, output_option, page_option, json_option,
+                    progress_option, help_option},
+        .examples = {"capstan bands configs/wrist-exosuit.toml",
+                     "capstan bands a.toml b.toml --repetitions 100 --json"},
+        .run = run_bands,
         .when_stopped = stores_nothing};
 }
 

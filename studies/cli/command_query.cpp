@@ -99,8 +99,7 @@ Command query_command() {
             "Runs one SELECT on the results database and prints the rows. The views v_error_by_layout, "
             "v_best_method, v_single_sensor_matrix, v_recommendation, v_diagnosis and v_progress answer "
             "the usual questions; --schema explains every table, column and unit. A query cannot change "
-            "anything, is stopped after --time-limit, and gets at most 512 MB of memory. It also sees the rows of studies in "
-            "the trash, for which study_mark.is_deleted is 1.",
+            "anything, is stopped after --time-limit, and gets at most 512 MB of memory. It sees nothing of studies in the trash.",
         .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
         .options = {{.name = "format",
                      .value = "table|csv|json|md",

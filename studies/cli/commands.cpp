@@ -36,6 +36,8 @@ constexpr CommandTime times[] = {
      "10 s for 11 nodes and 1000 repetitions; twice as long for each further node, and in proportion to the "
      "repetitions; a configuration with [uncertainty] takes minutes. Shows progress and the time left."},
     {"budget", "As long as `place` for each of the cables. Shows progress and the time left of each."},
+    {"bands",
+     "As long as `place` with all sets on all worlds, twice: minutes. Shows progress and the time left."},
     {"sensitivity",
      "20 s for configs/paper.toml: some hundred searches as `place` makes, with few repetitions. Shows progress and "
      "the time left."},

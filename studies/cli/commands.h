@@ -25,6 +25,7 @@
     COMMAND(recommend)            \
     COMMAND(place)                \
     COMMAND(budget)               \
+    COMMAND(bands)                \
     COMMAND(sensitivity)          \
     COMMAND(duty)                 \
     COMMAND(estimate)             \

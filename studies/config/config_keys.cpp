@@ -1,6 +1,8 @@
 // The key table of a study: one row per key. Defaults have their home here, and the reason for a default is
 // in its help.
 
+#include <numeric>
+
 #include "capstan/config/config_cable_keys.h"
 #include "capstan/config/config_study_keys.h"
 #include "capstan/config/config_truth.h"
@@ -49,7 +51,8 @@ void add_transmission_keys(std::vector<StudyKey>& keys) {
         keys, at,
         {10, 10.0,
          "Number of segments of the cable. Nodes are their ends, numbered 1 (proximal, motor) "
-         "to segments + 1 (distal, load). Sensors sit at nodes."},
+         "to segments + 1 (distal, load). Sensors sit at nodes. Left out with [uncertainty]: the fewest whose friction "
+         "keeps the discretisation error below a tenth of the stated errors, at most 63."},
         transmission_cable);
     StudyKey arrangement = choice<CableArrangement>(
         {at, "arrangement", "",
@@ -288,8 +291,7 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
     for (ConfigSection<StudyPlan>& section : truth_sections()) sections.push_back(std::move(section));
     const auto has_instants = [](const StudyPlan& plan) { return !plan.uncertainty.is_stated; };
     for (ConfigSection<StudyPlan>& section : sections) {
-        if (section.path == "regime" || section.path == "estimation")
-            section.is_used = has_instants;
+        if (section.path == "regime" || section.path == "estimation") section.is_used = has_instants;
     }
     // Before [placement], whose keys depend on it.
     const auto placement = std::find_if(sections.begin(), sections.end(),
@@ -300,12 +302,22 @@ std::vector<ConfigSection<StudyPlan>> all_sections() {
     return sections;
 }
 
+// The default of transmission.segments with [uncertainty]; "all" numbers of sensors follow.
+void cut_by_rule(StudyPlan& plan, const KeyLines& lines) {
+    plan.transmission.cable.segments = default_segments(plan);
+    if (lines.contains("layouts.counts")) return;
+    plan.sensor_counts.resize(static_cast<std::size_t>(plan.transmission.cable.segments) + 1);
+    std::iota(plan.sensor_counts.begin(), plan.sensor_counts.end(), 1);
+}
+
 std::vector<KeyProblem> complete_study(StudyPlan& plan, const KeyLines& lines,
                                        const std::optional<std::filesystem::path>& folder) {
     std::vector<KeyProblem> problems = make_pieces(plan, lines, folder);
     if (!lines.contains("transmission.cut"))
         plan.transmission.cut = plan.uncertainty.is_stated ? CableCut::at_bends : CableCut::even;
     place_nodes(plan);
+    if (plan.uncertainty.is_stated && !lines.contains("transmission.segments") && problems.empty())
+        cut_by_rule(plan, lines);
     return problems;
 }
 

@@ -154,6 +154,11 @@ struct StudyPlan {
 /// come.
 void place_nodes(StudyPlan& plan);
 
+/// How many segments the plan's cable is cut into where the configuration does not say: the fewest, after
+/// place_nodes(), whose friction is small enough for the discretisation error. At most
+/// max_estimated_segments, or what the nodes of the cut need.
+int default_segments(const StudyPlan& plan);
+
 /// What is wrong with the plan's cable and its cut.
 std::vector<KeyProblem> problems_of_cable(const StudyPlan& plan);
 

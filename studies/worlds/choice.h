@@ -33,6 +33,12 @@ class Choice {
             values.push_back(objective_of(objective_, table_.at(condition, candidate, world)));
         return values;
     }
+    double load_end_N(Condition condition, int candidate, int first, int last) const {
+        double sum_N = 0.0;
+        for (int world = first; world < last; ++world)
+            sum_N += table_.at(condition, candidate, world).load_end_N;
+        return sum_N / (last - first);
+    }
     std::vector<double> parts(Condition condition, int candidate, int first, int last) const {
         return contributions(objective_, values(condition, candidate, first, last));
     }

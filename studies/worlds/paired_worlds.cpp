@@ -33,6 +33,24 @@ double quantile_of(std::vector<double> values, double fraction) {
     return values[below] + (at - static_cast<double>(below)) * (values[below + 1] - values[below]);
 }
 
+double fall_near(double at_N, const std::vector<double>& from_N, const std::vector<double>& to_N) {
+    const double count = static_cast<double>(from_N.size());
+    double error_N = 0.0;
+    double fall_N = 0.0;
+    for (std::size_t w = 0; w < from_N.size(); ++w) {
+        error_N += 0.5 * (from_N[w] + to_N[w]) / count;  // of both, so that chance in one tilts nothing
+        fall_N += (from_N[w] - to_N[w]) / count;
+    }
+    double along = 0.0;
+    double squares = 0.0;
+    for (std::size_t w = 0; w < from_N.size(); ++w) {
+        const double off_N = 0.5 * (from_N[w] + to_N[w]) - error_N;
+        along += off_N * (from_N[w] - to_N[w] - fall_N);
+        squares += off_N * off_N;
+    }
+    return fall_N + (squares > 0.0 ? along / squares * (at_N - error_N) : 0.0);
+}
+
 std::vector<double> contributions(PlacementObjective objective, const std::vector<double>& values) {
     if (objective != PlacementObjective::quantile_95 || values.size() < 2 * blocks) return values;
     const double all = quantile_of(values, 0.95);

@@ -172,47 +172,59 @@ std::vector<Expected*> stated_errors(WorldAnswer& answer) {
     return stated;
 }
 
-double mean_load_end_N(Choice& choice, Condition condition, int candidate, int first, int last) {
-    double sum_N = 0.0;
-    for (int world = first; world < last; ++world)
-        sum_N += choice.table().at(condition, candidate, world).load_end_N;
-    return sum_N / (last - first);
+// Of all sets together, each in units of its own error, so that chance in one does not decide.
+double measured_order(const Choice& choice, const std::vector<int>& sets, int first, int last) {
+    double first_fall = 0.0;
+    double second_fall = 0.0;
+    for (const int set : sets) {
+        const auto error_N = [&](Condition condition) {
+            return mean_of(choice.values(condition, set, first, last)).value_N;
+        };
+        const double coarse_N = error_N(Condition::as_stated);
+        const double finer_N = error_N(Condition::finer_grid);
+        first_fall += (coarse_N - finer_N) / coarse_N;
+        second_fall += (finer_N - error_N(Condition::finest_grid)) / coarse_N;
+    }
+    const double ratio = first_fall / second_fall;
+    return ratio > 0.0 ? std::clamp(std::log2(ratio), 0.5, 2.0) : 1.0;
 }
 
-// Richardson: coarse - exact = (coarse - finer) / (1 - 2^-order). The order is that of the recommended set.
+// Richardson: coarse - exact = (coarse - finest) / (1 - 4^-order).
 void add_grid(Choice& choice, WorldAnswer& answer) {
     using enum Condition;
     const int candidate = (answer.recommended ? answer.best().expected : answer.no_sensor).candidate;
     const int first = choice.worlds();
     const int last = first + std::max(std::min(choice.worlds(), fewest_worlds), choice.worlds() / 10);
-    const auto error_N = [&](Condition condition, int set) {
-        return mean_of(choice.values(condition, set, first, last)).value_N;
-    };
     const std::vector<Expected*> stated = stated_errors(answer);
     std::vector<int> sets;
     for (const Expected* expected : stated) sets.push_back(expected->candidate);
     std::sort(sets.begin(), sets.end());
     sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
-    choice.fill(as_stated, sets, first, last, "finer grids");
-    choice.fill(finer_grid, sets, first, last, "finer grids");
-    choice.fill(finest_grid, std::vector{candidate}, first, last, "finer grids");
+    for (const Condition condition : {as_stated, finer_grid, finest_grid})
+        choice.fill(condition, sets, first, last, "finer grids");
 
     GridError& grid = answer.grid;
     grid.segments = choice.table().plan().transmission.cable.segments;
     grid.worlds = last - first;
-    grid.coarse_N = error_N(as_stated, candidate);
-    grid.finer_N = error_N(finer_grid, candidate);
-    grid.finest_N = error_N(finest_grid, candidate);
-    const double ratio = (grid.coarse_N - grid.finer_N) / (grid.finer_N - grid.finest_N);
-    grid.order = ratio > 0.0 ? std::clamp(std::log2(ratio), 0.5, 2.0) : 1.0;
-    const double extrapolation = 1.0 / (1.0 - std::exp2(-grid.order));
-    grid.error_N = extrapolation * (grid.coarse_N - grid.finer_N);
+    const auto error_N = [&](Condition condition) {
+        return mean_of(choice.values(condition, candidate, first, last)).value_N;
+    };
+    grid.coarse_N = error_N(as_stated);
+    grid.finer_N = error_N(finer_grid);
+    grid.finest_N = error_N(finest_grid);
+    grid.order = measured_order(choice, sets, first, last);
+    const double extrapolation = 1.0 / (1.0 - std::exp2(-2.0 * grid.order));
+    const bool is_of_quantile = choice.objective() == PlacementObjective::quantile_95;
     for (Expected* expected : stated) {
-        const int set = expected->candidate;
-        expected->discretisation_N = extrapolation * (error_N(as_stated, set) - error_N(finer_grid, set));
+        const auto coarse_N = choice.values(as_stated, expected->candidate, first, last);
+        const auto finest_N = choice.values(finest_grid, expected->candidate, first, last);
+        const double of_mean_N = mean_of(differences(coarse_N, finest_N)).value_N;
+        const double of_quantile_N = fall_near(expected->error_95_N, coarse_N, finest_N);
+        expected->discretisation_N = extrapolation * (is_of_quantile ? of_quantile_N : of_mean_N);
+        expected->error_95_discretisation_N = extrapolation * of_quantile_N;
         expected->load_end_discretisation_N =
-            extrapolation * (mean_load_end_N(choice, as_stated, set, first, last) -
-                             mean_load_end_N(choice, finer_grid, set, first, last));
+            extrapolation * (choice.load_end_N(as_stated, expected->candidate, first, last) -
+                             choice.load_end_N(finest_grid, expected->candidate, first, last));
     }
 }
 

@@ -27,6 +27,7 @@ struct Expected {
     double covered_fraction = 0.0;  ///< of the true tensions within the 95% band
     /// Richardson's estimate of the objective's error - its exact value, on part of the worlds.
     double discretisation_N = 0.0;
+    double error_95_discretisation_N = 0.0;  ///< the same of `error_95_N`
     double load_end_discretisation_N = 0.0;  ///< the same of `load_end_N`
 };
 
@@ -69,16 +70,15 @@ struct Robustness {
     bool flips = false;  ///< another set of that price is better by more than the resolution (paired t, 5%)
 };
 
-/// The discretisation error of the recommended set's expected error (of no sensor where none is recommended),
-/// and the order that the other sets' errors are extrapolated with.
+/// The mean error over worlds of the recommended set (of no sensor where none is recommended) with more
+/// segments, and the order that all sets' errors are extrapolated with.
 struct GridError {
     int segments = 0;
     int worlds = 0;
     double coarse_N = 0.0;  ///< the same worlds with these segments, twice and four times as many
     double finer_N = 0.0;
     double finest_N = 0.0;
-    double order = 1.0;    ///< measured, within 0.5 and 2
-    double error_N = 0.0;  ///< Richardson's estimate of coarse - exact
+    double order = 1.0;  ///< measured over all sets whose errors are stated, within 0.5 and 2
 };
 
 struct PaperComparison {

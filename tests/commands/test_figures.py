@@ -24,6 +24,20 @@ class Figures(CapstanTest):
         self.assertTrue(pdf.startswith(b"%PDF-"))
         self.assertGreater(len(pdf), 50_000)
 
+    def test_every_page_holds_the_notices_of_the_scripts_that_draw_its_figures(self):
+        """Their licences ask for it: BSD-3 for Vega, Vega-Lite and Vega-Embed, ISC for D3."""
+        self.run_capstan("report", "-o", "report.html")
+        self.run_capstan("place", CONFIGS / "paper.toml", "--repetitions", 4, "--html", "place.html", "--progress", "none")
+        self.run_capstan("diagnose", CONFIGS / "recordings" / "viscous-pair.csv", "--html", "why.html", "--progress", "none")
+        for name in ("report.html", "place.html", "why.html"):
+            page = (self.folder / name).read_text()
+            self.assertIn("vega", page.split("<details class=\"notices\">")[0], name)  # it draws with them
+            notices = page.split("<details class=\"notices\">")[1].split("</details>")[0]
+            for part in ("---- vega, ", "---- vega-lite", "---- vega-embed", "---- d3-array, ", "---- d3-geo", "Mike Bostock",
+                         "University of Washington Interactive Data Lab", "Redistributions in binary form must reproduce",
+                         "and this permission notice appear in all copies"):
+                self.assertIn(part, notices, name)
+
     @unittest.skipUnless(BROWSER, "no browser (Debian: apt-get install chromium)")
     def test_every_figure_as_svg_and_png(self):
         widths = {}

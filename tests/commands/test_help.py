@@ -27,7 +27,7 @@ class Help(CapstanTest):
                 self.assertIn(part, asked)
             codes = asked.split("Exit codes:")[1]
             self.assertEqual("\n  3 " in codes, "--db FILE" in asked, name)
-            self.assertEqual("\n  130 " in codes, name in ("study run", "study resume", "study extend", "study merge", "study verify", "study work", "place", "budget", "sensitivity"), name)
+            self.assertEqual("\n  130 " in codes, name in ("study run", "study resume", "study extend", "study merge", "study verify", "study work", "place", "budget", "bands", "sensitivity"), name)
 
     def test_every_command_says_how_long_it_takes_and_long_ones_show_progress(self):
         """Those without --progress end at once, are given their time, or wait for another program."""

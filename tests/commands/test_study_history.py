@@ -30,6 +30,8 @@ class History(CapstanTest):
         self.assertEqual([each["study_id"] for each in self.listed("--deleted")], [1])
         for words in (("recommend",), ("study", "show", "1"), ("report", "quick"), ("study", "delete", "1")):
             self.assertIn("no study", self.run_capstan(*words, expect=3).stderr)
+        for table in ("study", "history", "v_best_method", "v_recommendation"):
+            self.assertIn("0\n", self.run_capstan("query", f"SELECT count(*) FROM {table}", "--format", "csv").stdout, table)
         self.run_capstan(*told[told.index("capstan study"):].split("`")[0].split()[1:])
         after = self.tables("capstan.db")
         for tables in (before, after):

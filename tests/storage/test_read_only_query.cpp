@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "example_study.h"
 #include "temporary_results.h"
@@ -156,6 +157,38 @@ TEST_F(QueryBox, ShowsTheSchemaAsTheFileHasIt) {
     for (const auto& row : names) {
         EXPECT_NE(schema_text().find(std::get<std::string>(row[0]) + " "), std::string::npos);
     }
+}
+
+// Whatever names a study or belongs to one; what is in the trash is found by no query, until it is restored.
+TEST_F(QueryBox, SeesNothingOfAStudyInTheTrash) {
+    const auto rows = [](Database& from, const std::string& table) {
+        return run_read_only(from, "SELECT count(*) FROM " + table).rows[0][0];
+    };
+    std::vector<std::string> names;
+    for (const auto& row :
+         run_read_only(database(),
+                       "SELECT name FROM sqlite_schema WHERE type IN ('table', 'view') AND name NOT LIKE "
+                       "'diagnosis%' AND name <> 'v_diagnosis'")
+             .rows)
+        names.push_back(std::get<std::string>(row[0]));
+    EXPECT_GT(names.size(), 30u);
+    std::map<std::string, QueryValue> before;
+    for (const std::string& name : names) before[name] = rows(database(), name);
+    EXPECT_EQ(before["study"], QueryValue(std::int64_t{1}));
+    {
+        Database writer = Database::open_or_create(folder / "results.db");
+        trash_study(writer, 1);
+    }
+    {
+        Database reader = Database::open_read_only(folder / "results.db");
+        for (const std::string& name : names)
+            if (name != "shard") EXPECT_EQ(rows(reader, name), QueryValue(std::int64_t{0})) << name;
+    }
+    Database writer = Database::open_or_create(folder / "results.db");
+    restore_study(writer, 1);
+    Database reader = Database::open_read_only(folder / "results.db");
+    for (const std::string& name : names)
+        if (name != "history" && name != "study_mark") EXPECT_EQ(rows(reader, name), before[name]) << name;
 }
 
 }  // namespace

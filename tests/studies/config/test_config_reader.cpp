@@ -132,6 +132,32 @@ TEST(ConfigReader, AllCountsFollowTheNumberOfNodes) {
     EXPECT_THAT(plan.sensor_counts, ElementsAre(1, 2, 3, 4));
 }
 
+// A segment of the rule turns by little enough for the discretisation error.
+TEST(ConfigReader, SegmentsLeftOutWithUncertaintyFollowTheFriction) {
+    const auto segments_with = [](double static_friction, const std::string& segments) {
+        return parse_config("[transmission]\n" + segments + "dynamic_friction = 0.12\nstatic_friction = " +
+                                std::to_string(static_friction) +
+                                "\n[[transmission.curvature]]\nlength_m = 0.5\n[[transmission.curvature]]\n"
+                                "length_m = 0.2\nbend_radius_m = 0.1\n[motion.distal]\nkind = \"position\"\n"
+                                "[uncertainty]\nfar_end_range_m = 0.001\n",
+                            "x.toml")
+            .plan;
+    };
+    const StudyPlan smooth = segments_with(0.12, "");
+    const StudyPlan sticky = segments_with(0.24, "");
+    for (const StudyPlan& plan : {smooth, sticky}) {
+        const Cable cable(plan.transmission.cable);
+        const auto wrap_rad = cable.wrap_angle_rad();
+        const double largest_rad = *std::max_element(wrap_rad.begin(), wrap_rad.end());
+        EXPECT_LE(largest_rad * 0.12, 0.1);
+        EXPECT_LE(largest_rad * (plan.transmission.cable.static_friction - 0.12), 0.03);
+        EXPECT_EQ(plan.sensor_counts.size(), static_cast<std::size_t>(cable.nodes()));
+    }
+    EXPECT_GT(sticky.transmission.cable.segments, smooth.transmission.cable.segments);
+    EXPECT_EQ(segments_with(2.0, "").transmission.cable.segments, 63);  // no more than can be estimated
+    EXPECT_EQ(segments_with(0.24, "segments = 10\n").transmission.cable.segments, 10);
+}
+
 TEST(ConfigReader, PieceWithoutRadiusIsStraight) {
     const StudyPlan plan = parse_config("[[transmission.curvature]]\nlength_m = 1\n", "x.toml").plan;
     EXPECT_EQ(plan.transmission.cable.curvature.at(0).bend_radius_m, straight);

@@ -23,7 +23,8 @@ inline void expect_the_same_answer(const WorldAnswer& a, const WorldAnswer& b) {
         EXPECT_EQ(a.prices[k].ties, b.prices[k].ties);
     }
     EXPECT_EQ(a.further_gain.value_N, b.further_gain.value_N);
-    EXPECT_EQ(a.grid.error_N, b.grid.error_N);
+    EXPECT_EQ(a.grid.order, b.grid.order);
+    EXPECT_EQ(a.grid.finest_N, b.grid.finest_N);
 }
 
 }  // namespace capstan::testing
