@@ -6,12 +6,11 @@ build_packages=(
     librandom123-dev libhwy-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
     zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libmatio-dev libhdf5-dev libminizip-dev
     libexpat1-dev nodejs npm
-    pybind11-dev python3-dev python3-numpy # the Python module; CAPSTAN_PYTHON=OFF builds without it
+    pybind11-dev python3-dev python3-numpy mypy # the Python module and its stub; CAPSTAN_PYTHON=OFF builds without it
 )
 test_packages=(
     libgtest-dev libgmock-dev libbenchmark-dev liblapack-dev sqlite3 python3 chromium
     python3-rosbag python3-sensor-msgs python3-scipy python3-h5py python3-openpyxl lz4 zstd # they write the logs that the tests read
-    mypy # of the tests of the Python module
     octave # of the tests of +capstan
 )
 # For the book (ninja -C build book); its PDF also needs chromium.

@@ -72,7 +72,9 @@ RecursiveEstimator::RecursiveEstimator(const QuasiStaticStep& model, const Cable
     normal_scores_ = normal_scores(settings.members);
     members_.assign(members, start);
     rows_N_.assign(members, nullptr);
+    rows_m_ = rows_N_;
     sensed_N_.assign(members, 0.0);
+    pull_N_ = sensed_N_;
     mean_N_ = start.tension_N;
     deviation_N_.assign(start.tension_N.size(), 0.0);
     gain_ = deviation_N_;
@@ -219,12 +221,10 @@ void RecursiveEstimator::correct(const TensionReading& reading, RecursiveReport&
     for (std::size_t node = 0; node + 1 < gain_.size(); ++node)
         gain_m_per_N_[node + 1] =
             gain_m_per_N_[node] + half_compliance[node] * (gain_[node] + gain_[node + 1]);
-    for (std::size_t j = 0; j < members_.size(); ++j) {
-        if (is_slack(members_[j])) continue;
-        const double pull_N = innovation_N - fraction * sensed_N_[j];
-        add_pull(gain_, pull_N, members_[j].tension_N.data());
-        add_pull(gain_m_per_N_, pull_N, members_[j].displacement_m.data());
-    }
+    for (std::size_t j = 0; j < members_.size(); ++j)
+        pull_N_[j] = is_slack(members_[j]) ? 0.0 : innovation_N - fraction * sensed_N_[j];
+    add_pulls(gain_, pull_N_, rows_N_);
+    add_pulls(gain_m_per_N_, pull_N_, rows_m_);
 }
 
 // No cable pushes: what a correction made negative is raised to nothing, and the cable beyond moves along.
@@ -252,7 +252,10 @@ void RecursiveEstimator::forbid_pushing() {
 
 void RecursiveEstimator::take_moments() {
     // A step may have given a member other memory.
-    for (std::size_t j = 0; j < members_.size(); ++j) rows_N_[j] = members_[j].tension_N.data();
+    for (std::size_t j = 0; j < members_.size(); ++j) {
+        rows_N_[j] = members_[j].tension_N.data();
+        rows_m_[j] = members_[j].displacement_m.data();
+    }
     member_moments(rows_N_, mean_N_, deviation_N_);
 }
 

@@ -106,7 +106,9 @@ class RecursiveEstimator {
     std::vector<double> normal_scores_;  // members
     std::vector<CableState> members_;
     std::vector<double*> rows_N_;       // members: their tensions
+    std::vector<double*> rows_m_;       // members: their displacements
     std::vector<double> sensed_N_;      // members: tension at the sensor, then its distance from the mean
+    std::vector<double> pull_N_;        // members: what a reading asks of the tension at the sensor
     std::vector<double> gain_;          // nodes: tension per tension
     std::vector<double> gain_m_per_N_;  // nodes: displacement per tension, 0 at the proximal end
     std::vector<double> mean_N_;        // nodes

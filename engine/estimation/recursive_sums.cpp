@@ -20,23 +20,30 @@ using One = hn::CappedTag<double, 1>;
 
 // body(tag, node) on as many nodes at a time as fit, then on those left over one by one.
 template <class Body>
-void rest_of_nodes(int nodes, int node, const Body& body) {
+void for_each_node(int nodes, const Body& body) {
     const Wide wide;
     const int lanes = static_cast<int>(hn::Lanes(wide));
+    int node = 0;
     for (; node + lanes <= nodes; node += lanes) body(wide, node);
     for (; node < nodes; ++node) body(One(), node);
 }
 
-// The same with four(node) for four times as many, while they fit.
+// Where four vectors of nodes begin.
+struct FourPlaces {
+    int a, b, c, d;
+};
+
+// The same with four(places) for four vectors at a time, so that one sum need not wait for the other. The
+// last ones overlap those before: what is done twice gives the same numbers.
 template <class FourTimes, class Body>
-void for_each_node(int nodes, const FourTimes& four, const Body& body) {
-    const int lanes = 4 * static_cast<int>(hn::Lanes(Wide()));
-    int node = 0;
-    for (; node + lanes <= nodes; node += lanes) four(node);
-    rest_of_nodes(nodes, node, body);
+void for_each_node_by_four(int nodes, const FourTimes& four, const Body& body) {
+    const int lanes = static_cast<int>(hn::Lanes(Wide()));
+    if (nodes < lanes) return for_each_node(nodes, body);
+    const auto place = [&](int node) { return std::min(node, nodes - lanes); };
+    for (int node = 0; node < nodes; node += 4 * lanes)
+        four(FourPlaces{place(node), place(node + lanes), place(node + 2 * lanes), place(node + 3 * lanes)});
 }
 
-// Four vectors of nodes, so that one sum need not wait for the other.
 template <class V>
 struct Four {
     V a, b, c, d;
@@ -51,16 +58,15 @@ auto sum_over(D d, const double* const* tension_N, int members, int node, const 
 }
 
 template <class Term>
-auto four_sums_over(const double* const* tension_N, int members, int node, const Term& term) {
+auto four_sums_over(const double* const* tension_N, int members, FourPlaces at, const Term& term) {
     const Wide d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
     auto a = hn::Zero(d), b = hn::Zero(d), c = hn::Zero(d), e = hn::Zero(d);
     for (int j = 0; j < members; ++j) {
-        const double* row = tension_N[j] + node;
-        a = hn::Add(a, term(j, hn::LoadU(d, row), 0));
-        b = hn::Add(b, term(j, hn::LoadU(d, row + lanes), 1));
-        c = hn::Add(c, term(j, hn::LoadU(d, row + 2 * lanes), 2));
-        e = hn::Add(e, term(j, hn::LoadU(d, row + 3 * lanes), 3));
+        const double* row = tension_N[j];
+        a = hn::Add(a, term(j, hn::LoadU(d, row + at.a), 0));
+        b = hn::Add(b, term(j, hn::LoadU(d, row + at.b), 1));
+        c = hn::Add(c, term(j, hn::LoadU(d, row + at.c), 2));
+        e = hn::Add(e, term(j, hn::LoadU(d, row + at.d), 3));
     }
     return Four<decltype(a)>{a, b, c, e};
 }
@@ -74,26 +80,25 @@ void moments(const double* const* tension_N, int members, int nodes, double* HWY
         const auto off = hn::Sub(tension, mean);
         return hn::Mul(off, off);
     };
-    for_each_node(
+    for_each_node_by_four(
         nodes,
-        [&](int node) {
+        [&](FourPlaces at) {
             const Wide d;
-            const int lanes = static_cast<int>(hn::Lanes(d));
             const auto count = hn::Set(d, static_cast<double>(members));
-            const auto sum = four_sums_over(tension_N, members, node, [](int, auto t, int) { return t; });
+            const auto sum = four_sums_over(tension_N, members, at, [](int, auto t, int) { return t; });
             const auto a = hn::Div(sum.a, count), b = hn::Div(sum.b, count);
             const auto c = hn::Div(sum.c, count), e = hn::Div(sum.d, count);
-            hn::StoreU(a, d, mean_N + node);
-            hn::StoreU(b, d, mean_N + node + lanes);
-            hn::StoreU(c, d, mean_N + node + 2 * lanes);
-            hn::StoreU(e, d, mean_N + node + 3 * lanes);
-            const auto squares = four_sums_over(tension_N, members, node, [&](int, auto t, int which) {
+            hn::StoreU(a, d, mean_N + at.a);
+            hn::StoreU(b, d, mean_N + at.b);
+            hn::StoreU(c, d, mean_N + at.c);
+            hn::StoreU(e, d, mean_N + at.d);
+            const auto squares = four_sums_over(tension_N, members, at, [&](int, auto t, int which) {
                 return square(t, which == 0 ? a : which == 1 ? b : which == 2 ? c : e);
             });
-            finish(d, squares.a, node);
-            finish(d, squares.b, node + lanes);
-            finish(d, squares.c, node + 2 * lanes);
-            finish(d, squares.d, node + 3 * lanes);
+            finish(d, squares.a, at.a);
+            finish(d, squares.b, at.b);
+            finish(d, squares.c, at.c);
+            finish(d, squares.d, at.d);
         },
         [&](auto d, int node) {
             const auto sum = sum_over(d, tension_N, members, node, [](int, auto t) { return t; });
@@ -106,18 +111,17 @@ void moments(const double* const* tension_N, int members, int nodes, double* HWY
 
 void weighted_sums(const double* const* tension_N, const double* HWY_RESTRICT weight, int members, int nodes,
                    double* HWY_RESTRICT sum) {
-    for_each_node(
+    for_each_node_by_four(
         nodes,
-        [&](int node) {
+        [&](FourPlaces at) {
             const Wide d;
-            const int lanes = static_cast<int>(hn::Lanes(d));
-            const auto here = four_sums_over(tension_N, members, node, [&](int j, auto t, int) {
+            const auto here = four_sums_over(tension_N, members, at, [&](int j, auto t, int) {
                 return hn::Mul(hn::Set(d, weight[j]), t);
             });
-            hn::StoreU(here.a, d, sum + node);
-            hn::StoreU(here.b, d, sum + node + lanes);
-            hn::StoreU(here.c, d, sum + node + 2 * lanes);
-            hn::StoreU(here.d, d, sum + node + 3 * lanes);
+            hn::StoreU(here.a, d, sum + at.a);
+            hn::StoreU(here.b, d, sum + at.b);
+            hn::StoreU(here.c, d, sum + at.c);
+            hn::StoreU(here.d, d, sum + at.d);
         },
         [&](auto d, int node) {
             const auto here = sum_over(d, tension_N, members, node,
@@ -127,7 +131,7 @@ void weighted_sums(const double* const* tension_N, const double* HWY_RESTRICT we
 }
 
 void gains(const GainTerms& terms, int nodes, double* HWY_RESTRICT gain, double* HWY_RESTRICT deviation_N) {
-    rest_of_nodes(nodes, 0, [&](auto d, int node) {
+    for_each_node(nodes, [&](auto d, int node) {
         const auto zero = hn::Zero(d);
         const auto one = hn::Set(d, 1.0);
         const auto variance = hn::Set(d, terms.variance);
@@ -150,11 +154,15 @@ void gains(const GainTerms& terms, int nodes, double* HWY_RESTRICT gain, double*
     });
 }
 
-void pull_nodes(const double* HWY_RESTRICT gain, double pull, int nodes, double* HWY_RESTRICT value) {
-    rest_of_nodes(nodes, 0, [&](auto d, int node) {
-        const auto moved = hn::Mul(hn::LoadU(d, gain + node), hn::Set(d, pull));
-        hn::StoreU(hn::Add(hn::LoadU(d, value + node), moved), d, value + node);
-    });
+void pull_nodes(const double* HWY_RESTRICT gain, const double* HWY_RESTRICT pull, int members, int nodes,
+                double* const* value) {
+    for (int j = 0; j < members; ++j) {
+        double* HWY_RESTRICT row = value[j];
+        for_each_node(nodes, [&](auto d, int node) {
+            const auto moved = hn::Mul(hn::LoadU(d, gain + node), hn::Set(d, pull[j]));
+            hn::StoreU(hn::Add(hn::LoadU(d, row + node), moved), d, row + node);
+        });
+    }
 }
 
 }  // namespace capstan::HWY_NAMESPACE
@@ -184,8 +192,9 @@ void gains_of_sums(const GainTerms& terms, std::span<double> gain, std::span<dou
     HWY_DYNAMIC_DISPATCH(gains)(terms, static_cast<int>(gain.size()), gain.data(), deviation_N.data());
 }
 
-void add_pull(std::span<const double> gain, double pull, double* value) {
-    HWY_DYNAMIC_DISPATCH(pull_nodes)(gain.data(), pull, static_cast<int>(gain.size()), value);
+void add_pulls(std::span<const double> gain, std::span<const double> pull, MemberRows value) {
+    HWY_DYNAMIC_DISPATCH(pull_nodes)
+    (gain.data(), pull.data(), static_cast<int>(pull.size()), static_cast<int>(gain.size()), value.data());
 }
 
 }  // namespace capstan

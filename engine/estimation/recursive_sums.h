@@ -31,7 +31,9 @@ struct GainTerms {
 void gains_of_sums(const GainTerms& terms, std::span<double> gain,  // nodes
                    std::span<double> deviation_N);                  // nodes
 
-/// value += gain * pull
-void add_pull(std::span<const double> gain, double pull, double* value);  // nodes
+/// Of every member, each node's value += gain * pull.
+void add_pulls(std::span<const double> gain,  // nodes
+               std::span<const double> pull,  // members
+               MemberRows value);
 
 }  // namespace capstan

@@ -86,17 +86,14 @@ bool moves_with_proximal(const StepView& view, const EndConditions& ends, Direct
 }  // namespace
 
 [[gnu::noinline]] Candidate opposed_motion(const StepView& view, const EndConditions& ends,
-                                           Direction proximal, int& patterns_tried) {
+                                           Direction proximal) {
     // Nodes before the zero-velocity point move with the proximal end, those behind it do not.
-    ++patterns_tried;
     if (!moves_with_proximal(view, ends, proximal, 0)) return mass_motion(view, ends, opposite(proximal));
-    ++patterns_tried;
     if (moves_with_proximal(view, ends, proximal, view.segments())) return mass_motion(view, ends, proximal);
     int with = 0;
     int against = view.segments();
     while (against - with > 1) {
         const int middle = with + (against - with) / 2;
-        ++patterns_tried;
         (moves_with_proximal(view, ends, proximal, middle) ? with : against) = middle;
     }
 
@@ -113,7 +110,6 @@ bool moves_with_proximal(const StepView& view, const EndConditions& ends, Direct
         const double fraction = low + (high - low) * at_low / (at_low - at_high);
         within.solve(fraction);
         const double at_middle = within.mismatch_m();
-        ++patterns_tried;
         if (at_middle == 0.0 || high - low < 1e-15) break;
         if (at_middle > 0.0) {
             if (fraction == low) break;

@@ -12,32 +12,29 @@ namespace {
 // Sides that meet leave no node at rest. Driven against each other: the zero-velocity point is where it falls
 // (E7). Driven one way and met in one segment: its middle rests as long as friction holds it (E8). Else all
 // slides.
-Candidate from_sides(const StepView& view, const EndConditions& ends, const Sides& sides,
-                     int& patterns_tried) {
+Candidate from_sides(const StepView& view, const EndConditions& ends, const Sides& sides) {
     if (sides.rest() && view.before.last_motion.kind == MotionKind::slack) return slack(ends);
     if (!sides.meet(view)) return partial_motion(sides.proximal, sides.distal);
     if (sides.driven_against_each_other()) {
-        return opposed_motion(view, ends, sides.proximal.direction, patterns_tried);
+        return opposed_motion(view, ends, sides.proximal.direction);
     }
     if (sides.meet_in_one_segment(view)) {
         const Candidate held = partial_motion(sides.proximal, sides.distal);
         if (verifies(view, held)) return held;
     }
-    ++patterns_tried;
     return mass_motion(view, ends, sides.common_direction());
 }
 
 // The first candidate did not verify: a remembered front can be too far on, and the ends' own increments can
 // mislead about the complete pattern.
-std::optional<Candidate> another_that_verifies(const StepView& view, const EndConditions& ends,
-                                               int& patterns_tried) {
-    const Sides anew = find_sides(view, ends, FrontStart::end_of_cable, patterns_tried);
-    const Candidate again = from_sides(view, ends, anew, patterns_tried);
+std::optional<Candidate> another_that_verifies(const StepView& view, const EndConditions& ends) {
+    const Sides anew = find_sides(view, ends, FrontStart::end_of_cable);
+    const Candidate again = from_sides(view, ends, anew);
     if (verifies(view, again)) return again;
     for (const Direction direction : {Direction::forward, Direction::backward}) {
         const Candidate mass = mass_motion(view, ends, direction);
         if (verifies(view, mass)) return mass;
-        const Candidate opposed = opposed_motion(view, ends, direction, patterns_tried);
+        const Candidate opposed = opposed_motion(view, ends, direction);
         if (verifies(view, opposed)) return opposed;
     }
     return std::nullopt;
@@ -64,13 +61,12 @@ Candidate without_compression(const StepView& view, const EndConditions& ends, c
 }  // namespace
 
 PatternSearch search_pattern(const StepView& view, const EndConditions& ends) {
-    int patterns_tried = 0;
-    const Sides sides = find_sides(view, ends, FrontStart::remembered, patterns_tried);
-    const Candidate likely = from_sides(view, ends, sides, patterns_tried);
-    if (verifies(view, likely)) return {likely, true, patterns_tried};
-    const std::optional<Candidate> other = another_that_verifies(view, ends, patterns_tried);
-    if (!other) return {without_compression(view, ends, likely), false, patterns_tried};
-    return {*other, true, patterns_tried};
+    const Sides sides = find_sides(view, ends, FrontStart::remembered);
+    const Candidate likely = from_sides(view, ends, sides);
+    if (verifies(view, likely)) return {likely, true};
+    const std::optional<Candidate> other = another_that_verifies(view, ends);
+    if (!other) return {without_compression(view, ends, likely), false};
+    return {*other, true};
 }
 
 }  // namespace capstan

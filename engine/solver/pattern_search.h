@@ -8,7 +8,6 @@ namespace capstan {
 struct PatternSearch {
     Candidate candidate;
     bool verified = false;
-    int patterns_tried = 0;
 };
 
 /// Every way to find a step's pattern in turn, until one verifies (engine/README.md, "How a step finds its
@@ -17,7 +16,6 @@ PatternSearch search_pattern(const StepView& view, const EndConditions& ends);
 
 /// For ends that drive the cable against each other while no node rests: finds the zero-velocity point (E7),
 /// which is mass motion where it lies at an end. Bisection over nodes, then one scalar root inside a segment.
-Candidate opposed_motion(const StepView& view, const EndConditions& ends, Direction proximal,
-                         int& patterns_tried);
+Candidate opposed_motion(const StepView& view, const EndConditions& ends, Direction proximal);
 
 }  // namespace capstan

@@ -21,7 +21,7 @@ namespace {
              "1e150; check the units of the inputs, of the stiffness and of the lengths"});
     }
     write_state(view, search.candidate, ends, state);
-    return {search.candidate.pattern, search.verified, search.patterns_tried};
+    return {search.candidate.pattern, search.verified};
 }
 
 }  // namespace
@@ -47,8 +47,7 @@ void QuasiStaticStep::set_sliding_exponents(std::span<const double> exponents) {
 [[gnu::flatten]] StepReport QuasiStaticStep::advance(CableState& state, const EndConditions& ends) const {
     if (!solvable(ends)) refuse(ends);
     const StepView view{tables_, rules_, state};
-    int patterns_tried = 0;
-    const Sides sides = find_sides(view, ends, FrontStart::remembered, patterns_tried);
+    const Sides sides = find_sides(view, ends, FrontStart::remembered);
     Candidate likely;
     if (!sides.meet(view)) {
         if (sides.rest() && state.last_motion.kind == MotionKind::slack) {
@@ -59,10 +58,9 @@ void QuasiStaticStep::set_sliding_exponents(std::span<const double> exponents) {
         likely = partial_motion(sides.proximal, sides.distal);
     } else {
         if (sides.driven_against_each_other()) {
-            likely = opposed_motion(view, ends, sides.proximal.direction, patterns_tried);
+            likely = opposed_motion(view, ends, sides.proximal.direction);
         } else {
             likely = taut_mass_motion(view, ends, sides.common_direction());
-            ++patterns_tried;
         }
         if (!(likely.proximal.tension_N > 0.0)) return take_what_verifies(view, ends, state);
     }
@@ -72,7 +70,7 @@ void QuasiStaticStep::set_sliding_exponents(std::span<const double> exponents) {
     }
     pin_ends(likely.pattern, ends, state);
     state.last_motion = likely.pattern;
-    return {likely.pattern, true, patterns_tried};
+    return {likely.pattern, true};
 }
 
 }  // namespace capstan

@@ -12,8 +12,7 @@ namespace capstan {
 /// How a step went, beside the state that came out.
 struct StepReport {
     MotionPattern pattern;
-    bool verified = true;    ///< the pattern passed the rules' velocity check and friction cones
-    int patterns_tried = 0;  ///< closed-form solutions formed on the way
+    bool verified = true;  ///< the pattern passed the rules' velocity check and friction cones
 };
 
 /// One quasi-static step in closed form: from a state and what is known at both ends to the next state.

@@ -29,10 +29,13 @@ struct Sides {
     }
 };
 
-inline Sides find_sides(const StepView& view, const EndConditions& ends, FrontStart start,
-                        int& patterns_tried) {
-    return {side_from(CableEnd<End::proximal>(view, ends), start, patterns_tried),
-            side_from(CableEnd<End::distal>(view, ends), start, patterns_tried)};
+/// Each front as far as it goes; where they meet in more than one segment, one or both of them as if nothing
+/// held.
+inline Sides find_sides(const StepView& view, const EndConditions& ends, FrontStart start) {
+    const SideSearch<End::proximal> proximal({view, ends}, start);
+    const SideSearch<End::distal> distal({view, ends}, start);
+    const SideMotion near = proximal.front(view.nodes() - distal.first_count());
+    return {near, distal.front(view.nodes() - near.moving_nodes)};
 }
 
 }  // namespace capstan

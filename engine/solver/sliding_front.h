@@ -45,20 +45,6 @@ bool neighbour_gives_way(const CableEnd<which>& end, Direction direction, int mo
                                                  : last_tension_N >= resting_tension_N * ratio;
 }
 
-/// Moves a side's front on until its resting neighbour holds; `nodes` when nothing holds.
-template <End which>
-SideMotion find_front(const CableEnd<which>& end, Direction direction, int first_count, int& patterns_tried) {
-    const SideTable& table = end.table(direction);
-    const int nodes = end.view.nodes();
-    for (int count = std::max(first_count, 1); count < nodes; ++count) {
-        const EndValues values = end.partial_motion(table, count);
-        ++patterns_tried;
-        const double last_tension_N = values.tension_N * table.tension_ratio[end.node(count - 1)];
-        if (!neighbour_gives_way(end, direction, count, last_tension_N)) return {direction, count, values};
-    }
-    return {direction, nodes, {}};
-}
-
 /// How many nodes the side moved in the step before, if it goes on the same way; else 0: start at the end.
 template <End which>
 int remembered_front(const CableEnd<which>& end, Direction direction) {
@@ -70,11 +56,37 @@ enum class FrontStart { remembered, end_of_cable };
 
 /// The side as its end drives it; nothing moves where the input has not changed.
 template <End which>
-SideMotion side_from(const CableEnd<which>& end, FrontStart start, int& patterns_tried) {
-    const Direction direction = driven_direction(end);
-    if (direction == Direction::none) return {};
-    const int first = start == FrontStart::remembered ? remembered_front(end, direction) : 0;
-    return find_front(end, direction, first, patterns_tried);
-}
+class SideSearch {
+  public:
+    SideSearch(const CableEnd<which>& end, FrontStart start)
+        : end_(end),
+          direction_(driven_direction(end)),
+          first_count_(direction_ == Direction::none     ? 0
+                       : start == FrontStart::remembered ? std::max(remembered_front(end, direction_), 1)
+                                                         : 1) {}
+
+    /// At least so many nodes move.
+    int first_count() const { return first_count_; }
+
+    /// Moves the front on until its resting neighbour holds; all nodes when nothing holds it up to
+    /// `most_count`.
+    SideMotion front(int most_count) const {
+        if (direction_ == Direction::none) return {};
+        const SideTable& table = end_.table(direction_);
+        const int last_count = std::min(most_count, end_.view.segments());
+        for (int count = first_count_; count <= last_count; ++count) {
+            const EndValues values = end_.partial_motion(table, count);
+            const double last_tension_N = values.tension_N * table.tension_ratio[end_.node(count - 1)];
+            if (!neighbour_gives_way(end_, direction_, count, last_tension_N))
+                return {direction_, count, values};
+        }
+        return {direction_, end_.view.nodes(), {}};
+    }
+
+  private:
+    CableEnd<which> end_;
+    Direction direction_;
+    int first_count_;
+};
 
 }  // namespace capstan

@@ -7,6 +7,7 @@
 #include "capstan/cable/conduit.h"
 #include "capstan/cable_paths/cable_paths.h"
 #include "long_call.h"
+#include "signatures.h"
 
 namespace capstan::python {
 
@@ -27,10 +28,9 @@ std::vector<Bend> bends_of(const py::sequence& given) {
     return bends;
 }
 
-PythonCable make_cable(const py::handle& length_m, const py::sequence& bends,
-                       const py::handle& axial_stiffness_N, const py::handle& friction,
-                       const py::handle& static_friction, const py::handle& pretension_N,
-                       const py::handle& segments) {
+PythonCable make_cable(const Real& length_m, const Bends& bends, const Real& axial_stiffness_N,
+                       const Real& friction, const OptionalReal& static_friction, const Real& pretension_N,
+                       const Whole& segments) {
     CableSpecification cable;
     cable.curvature = pieces_of(bends_of(bends), number_of(length_m, "length_m"));
     cable.segments = static_cast<int>(integer_of(segments, "segments", {1, 100000}));
@@ -59,10 +59,11 @@ CableDraws draws_alike(CableDraws draws) {
     return draws;
 }
 
-py::tuple simulate(const PythonCable& held, const py::handle& motor_m, const std::string& load_kind,
-                   const py::handle& load_number, const py::handle& friction,
-                   const py::handle& axial_stiffness_N, const py::handle& pretension_N,
-                   const py::handle& jobs) {
+// Tension and displacement, and the number of steps that passed no check.
+std::tuple<py::array_t<double>, py::array_t<double>, std::int64_t> simulate(
+    const PythonCable& held, const Reals& motor_m, const std::string& load_kind,
+    const OptionalReals& load_number, const OptionalReals& friction, const OptionalReals& axial_stiffness_N,
+    const OptionalReals& pretension_N, const Whole& jobs) {
     struct Work {
         Cable cable;
         CableMotion motion;
@@ -93,8 +94,8 @@ py::tuple simulate(const PythonCable& held, const py::handle& motor_m, const std
     } else {
         run_long_call(py::none(), [work](CallWatch&) { work->run(); });
     }
-    return py::make_tuple(array_of(std::move(work->tension_N)), array_of(std::move(work->displacement_m)),
-                          work->report.unverified);
+    return {array_of(std::move(work->tension_N)), array_of(std::move(work->displacement_m)),
+            work->report.unverified};
 }
 
 py::array_t<double> places_m(const Cable& cable) {
@@ -107,12 +108,15 @@ py::array_t<double> places_m(const Cable& cable) {
 }  // namespace
 
 void bind_cables(py::module_& module) {
+    using namespace py::literals;
     py::class_<PythonCable>(module, "Cable")
-        .def(py::init(&make_cable))
+        .def(py::init(&make_cable), "length_m"_a, "bends"_a, "axial_stiffness_N"_a, "friction"_a,
+             "static_friction"_a, "pretension_N"_a, "segments"_a)
         .def_property_readonly("length_m", [](const PythonCable& held) { return held.cable.length_m(); })
         .def_property_readonly("segments", [](const PythonCable& held) { return held.cable.segments(); })
         .def_property_readonly("places_m", [](const PythonCable& held) { return places_m(held.cable); })
-        .def("simulate", &simulate);
+        .def("simulate", &simulate, "motor_m"_a, "load_kind"_a, "load_number"_a, "friction"_a,
+             "axial_stiffness_N"_a, "pretension_N"_a, "jobs"_a);
 }
 
 }  // namespace capstan::python

@@ -8,6 +8,7 @@
 #include "capstan/answers/recording_answers.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "long_call.h"
+#include "signatures.h"
 
 namespace capstan::python {
 
@@ -16,8 +17,8 @@ namespace {
 std::shared_ptr<PythonDiagnosis> diagnose(const std::shared_ptr<PythonRecording>& held,
                                           const std::vector<int>& runs, const std::vector<int>& calibrate_on,
                                           const std::vector<int>& fit, const std::vector<int>& hold,
-                                          bool with_simple_models, const py::handle& time_limit_s,
-                                          const py::handle& jobs, const py::object& on_progress) {
+                                          bool with_simple_models, const OptionalReal& time_limit_s,
+                                          const Whole& jobs, const Progress& on_progress) {
     gap::DiagnosisOptions options;
     options.threads = jobs_of(jobs);
     if (!time_limit_s.is_none()) options.time_limit_s = number_of(time_limit_s, "time_limit_s");
@@ -53,11 +54,13 @@ std::int64_t store(const PythonDiagnosis& found, const std::filesystem::path& da
 }  // namespace
 
 void bind_diagnoses(py::module_& module) {
+    using namespace py::literals;
     py::class_<PythonDiagnosis, std::shared_ptr<PythonDiagnosis>>(module, "Diagnosis")
         .def("answer", &answer_of)
         .def("corrected_model", &corrected_model)
-        .def("store", &store);
-    module.def("diagnose", &diagnose);
+        .def("store", &store, "db"_a, "log"_a);
+    module.def("diagnose", &diagnose, "recording"_a, "runs"_a, "calibrate_on"_a, "fit"_a, "hold"_a,
+               "baselines"_a, "time_limit_s"_a, "jobs"_a, "on_progress"_a);
 }
 
 }  // namespace capstan::python

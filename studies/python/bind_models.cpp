@@ -14,6 +14,7 @@
 #include "capstan/estimate/observed_cable.h"
 #include "capstan/reports/page_frame.h"
 #include "long_call.h"
+#include "signatures.h"
 
 namespace capstan::python {
 
@@ -35,11 +36,16 @@ BenchModel model_of(const PythonDiagnosis& found) {
     return bench_model::model_of(split, found.runs.left_over, origin, {});
 }
 
-// Of a cable of the model: length, bends, stiffness, both frictions and pretension; drag, extra friction, its
-// speed and its memory (E20, E21); what an observer of it leaves out.
-py::tuple observed_cable(const BenchModel& model, const std::string& name, const py::handle& pretension_N,
-                         const py::handle& session_s, const std::map<std::string, double>& conditions,
-                         bool speed_dependent) {
+using BendNumbers = std::tuple<double, double, double>;  // angle in degrees, radius, place
+// Length, bends, stiffness, both frictions and pretension.
+using CableNumbers = std::tuple<double, std::vector<BendNumbers>, double, double, double, double>;
+using FrictionNumbers =
+    std::tuple<double, double, double, double>;  // drag; extra friction, speed, memory (E20, E21)
+
+// A cable of the model, its friction that depends on the speed, and what an observer of it leaves out.
+std::tuple<CableNumbers, FrictionNumbers, std::vector<std::string>> observed_cable(
+    const BenchModel& model, const std::string& name, const OptionalReal& pretension_N, const Real& session_s,
+    const std::map<std::string, double>& conditions, bool speed_dependent) {
     if (name != "A" && name != "B")
         throw InvalidInput({fmt::format("cable: is '{}', but must be 'A' or 'B'", name)});
     const estimate::ObservedCable cable = estimate::observed_cable(
@@ -50,25 +56,25 @@ py::tuple observed_cable(const BenchModel& model, const std::string& name, const
                 .conditions = conditions,
                 .speed_dependent = speed_dependent});
     const CableSpecification& made = cable.specification;
-    py::list bends;
+    std::vector<BendNumbers> bends;
     double at_m = 0.0;
     for (const CurvaturePiece& piece : made.curvature) {
         if (piece.bend_radius_m != straight)
-            bends.append(py::make_tuple(piece.length_m / piece.bend_radius_m / rad_per_degree,
-                                        piece.bend_radius_m, at_m));
+            bends.emplace_back(piece.length_m / piece.bend_radius_m / rad_per_degree, piece.bend_radius_m,
+                               at_m);
         at_m += piece.length_m;
     }
     const Stribeck& stribeck = cable.rate_friction.stribeck;
-    return py::make_tuple(py::make_tuple(at_m, bends, made.axial_stiffness_N, made.dynamic_friction,
-                                         made.static_friction, made.pretension_N),
-                          py::make_tuple(cable.rate_friction.viscous.drag_N_s_per_m2, stribeck.extra_friction,
-                                         stribeck.speed_m_per_s, stribeck.memory_s),
-                          cable.not_used);
+    return {CableNumbers(at_m, bends, made.axial_stiffness_N, made.dynamic_friction, made.static_friction,
+                         made.pretension_N),
+            FrictionNumbers(cable.rate_friction.viscous.drag_N_s_per_m2, stribeck.extra_friction,
+                            stribeck.speed_m_per_s, stribeck.memory_s),
+            cable.not_used};
 }
 
 std::shared_ptr<PythonPrediction> predict(const BenchModel& model,
                                           const std::shared_ptr<PythonRecording>& held,
-                                          const std::vector<int>& runs, const py::handle& jobs) {
+                                          const std::vector<int>& runs, const Whole& jobs) {
     auto predicted = std::make_shared<PythonPrediction>();
     const int threads = jobs_of(jobs);
     run_long_call(py::none(), [=](CallWatch&) {
@@ -87,8 +93,8 @@ std::shared_ptr<reports::Answer> prediction_answer(const PythonPrediction& predi
 }
 
 // None where the model says nothing of the channel in this run.
-py::object predicted_samples(const py::object& self, int number, const std::string& channel,
-                             const std::string& of) {
+std::optional<py::array_t<double>> predicted_samples(const py::object& self, int number,
+                                                     const std::string& channel, const std::string& of) {
     const auto& held = self.cast<const PythonPrediction&>();
     const auto index = held.recording.channel(channel);
     if (!index) throw InvalidInput({held.recording.name + ": there is no channel '" + channel + "'"});
@@ -98,7 +104,7 @@ py::object predicted_samples(const py::object& self, int number, const std::stri
     for (std::size_t run = 0; run < held.recording.runs.size(); ++run) {
         if (held.recording.runs[run].number != number) continue;
         const std::vector<double>& samples = values.values[run][static_cast<std::size_t>(*index)];
-        if (samples.empty()) return py::none();
+        if (samples.empty()) return {};
         return view_of(samples, self);
     }
     throw InvalidInput({held.recording.name + ": there is no run " + std::to_string(number)});
@@ -107,19 +113,25 @@ py::object predicted_samples(const py::object& self, int number, const std::stri
 }  // namespace
 
 void bind_models(py::module_& module) {
+    using namespace py::literals;
     py::class_<PythonPrediction, std::shared_ptr<PythonPrediction>>(module, "Prediction")
         .def("answer", &prediction_answer)
-        .def("samples", &predicted_samples);
+        .def("samples", &predicted_samples, "run"_a, "channel"_a, "of"_a);
     py::class_<BenchModel>(module, "Model")
-        .def_static("of", &model_of)
-        .def_static("read", &bench_model::read_model)
         .def("text", &bench_model::model_text)
-        .def("save", [](const BenchModel& model,
-                        const std::filesystem::path& file) { bench_model::write_model(file, model); })
-        .def("observed_cable", &observed_cable)
+        .def(
+            "save",
+            [](const BenchModel& model, const std::filesystem::path& file) {
+                bench_model::write_model(file, model);
+            },
+            "file"_a)
+        .def("observed_cable", &observed_cable, "name"_a, "pretension_N"_a, "session_s"_a, "conditions"_a,
+             "speed_dependent"_a)
         .def_property_readonly("tension_noise_N",
                                [](const BenchModel& model) { return model.tension_noise_N; })
-        .def("predict", &predict);
+        .def("predict", &predict, "recording"_a, "runs"_a, "jobs"_a);
+    module.def("model_of", &model_of, "diagnosis"_a);
+    module.def("read_model", &bench_model::read_model, "file"_a);
 }
 
 }  // namespace capstan::python

@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/controller/observer.h"
+#include "signatures.h"
 
 namespace capstan::python {
 
@@ -60,11 +61,12 @@ RateFriction rate_friction_of(const py::sequence& given) {
             {number(1, "extra_friction"), number(2, "speed_m_per_s"), number(3, "memory_s")}};
 }
 
-std::unique_ptr<Observer> make_observer(const PythonCable& held, const py::sequence& given,
-                                        const py::handle& noise_N, const py::handle& load_wander_m,
-                                        const py::handle& motor_wander_m, const py::handle& members,
-                                        const py::handle& seed, const py::sequence& rate_friction) {
+std::unique_ptr<Observer> make_observer(const PythonCable& held, const Sensors& sensors_given,
+                                        const Real& noise_N, const Real& load_wander_m,
+                                        const Real& motor_wander_m, const Whole& members, const Whole& seed,
+                                        const FourReals& rate_friction) {
     std::vector<ObserverSensor> sensors;
+    const py::sequence given = sensors_given;
     for (std::size_t k = 0; k < given.size(); ++k) sensors.push_back(sensor_of(given[k], k));
     const ObserverSettings settings{
         .noise_N = number_of(noise_N, "noise_N"),
@@ -98,7 +100,9 @@ bool take_plainly(const py::handle& given, std::span<double> readings) {
     return true;
 }
 
-py::tuple update(Observer& observer, const py::handle& time_s, const py::handle& given) {
+using Row = py::array_t<double>;
+
+std::tuple<Row, Row, Row> update(Observer& observer, const Real& time_s, const Reals& given) {
     constexpr std::size_t few = 16;
     double plain[few];
     const double at_s =
@@ -114,18 +118,21 @@ py::tuple update(Observer& observer, const py::handle& time_s, const py::handle&
     const auto count = static_cast<std::size_t>(nodes);
     observer.write_estimate({estimate_N, count}, {estimate_N + count, count},
                             {estimate_N + 2 * count, count});
-    PyObject* rows = PyTuple_New(3);
-    for (py::ssize_t k = 0; k < 3; ++k) PyTuple_SET_ITEM(rows, k, PySequence_GetItem(memory.ptr(), k));
-    return py::reinterpret_steal<py::tuple>(rows);
+    const auto row = [&](py::ssize_t k) {
+        return py::reinterpret_steal<Row>(PySequence_GetItem(memory.ptr(), k));
+    };
+    return {row(0), row(1), row(2)};
 }
 
 }  // namespace
 
 void bind_observers(py::module_& module) {
+    using namespace py::literals;
     py::class_<Observer>(module, "Observer")
-        .def(py::init(&make_observer))
+        .def(py::init(&make_observer), "cable"_a, "sensors"_a, "noise_N"_a, "load_wander_m"_a,
+             "motor_wander_m"_a, "members"_a, "seed"_a, "rate_friction"_a)
         .def(
-            "update", &update, py::arg("time_s"), py::arg("readings"),
+            "update", &update, "time_s"_a, "readings"_a,
             "The mean and the limits of the 95% band at every node [N], after one more sample. `readings`: how much "
             "cable the motor has reeled in [m], then one of each sensor [N or m].")
         .def_property_readonly("slack_members", [](const Observer& o) { return o.report().slack; })

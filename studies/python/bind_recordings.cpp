@@ -9,6 +9,7 @@
 #include "capstan/recording/recording_keys.h"
 #include "capstan/recording/recording_reader.h"
 #include "long_call.h"
+#include "signatures.h"
 
 namespace capstan::python {
 
@@ -24,8 +25,7 @@ std::shared_ptr<PythonRecording> read(const path& file) {
 
 // Writes the recording, and gives what was repaired and what is doubtful: (words, repaired).
 std::vector<std::pair<std::string, bool>> import(const std::vector<path>& logs, const path& mapping,
-                                                 const path& name, bool strict,
-                                                 const py::object& on_progress) {
+                                                 const path& name, bool strict, const Progress& on_progress) {
     const auto report = std::make_shared<imports::ImportReport>();
     run_long_call(on_progress, [=](CallWatch& watch) {
         imports::ImportOptions options;
@@ -47,10 +47,10 @@ const RecordedRun& run_of(const PythonRecording& held, int number) {
     throw InvalidInput({held.recording.name + ": there is no run " + std::to_string(number)});
 }
 
-py::dict channels_of(const Recording& recording) {
+Units channels_of(const Recording& recording) {
     py::dict units;
     for (const Channel& channel : recording.channels) units[py::str(channel.name)] = channel.unit;
-    return units;
+    return Units(units);
 }
 
 py::array_t<double> samples_of(const py::object& self, int number, const std::string& channel) {
@@ -65,8 +65,9 @@ py::array_t<double> samples_of(const py::object& self, int number, const std::st
 }  // namespace
 
 void bind_recordings(py::module_& module) {
+    using namespace py::literals;
     py::class_<PythonRecording, std::shared_ptr<PythonRecording>>(module, "Recording")
-        .def(py::init(&read))
+        .def(py::init(&read), "file"_a)
         .def_property_readonly("name", [](const PythonRecording& held) { return held.recording.name; })
         .def_property_readonly(
             "kind", [](const PythonRecording& held) { return std::string(mode_name(held.recording.mode)); })
@@ -83,10 +84,11 @@ void bind_recordings(py::module_& module) {
                                        numbers.push_back(run.number);
                                    return numbers;
                                })
-        .def("conditions",
-             [](const PythonRecording& held, int number) { return run_of(held, number).conditions; })
-        .def("samples", &samples_of);
-    module.def("import_logs", &import);
+        .def(
+            "conditions",
+            [](const PythonRecording& held, int number) { return run_of(held, number).conditions; }, "run"_a)
+        .def("samples", &samples_of, "run"_a, "channel"_a);
+    module.def("import_logs", &import, "logs"_a, "mapping"_a, "name"_a, "strict"_a, "on_progress"_a);
 }
 
 }  // namespace capstan::python

@@ -18,6 +18,7 @@
 #include "capstan/worlds/diagnosed_world.h"
 #include "capstan/worlds/stored_worlds.h"
 #include "long_call.h"
+#include "signatures.h"
 
 namespace capstan::python {
 
@@ -25,7 +26,7 @@ namespace {
 
 using config::ReadConfig;
 
-ReadConfig with_settings(ReadConfig config, const py::handle& seed, const py::handle& repetitions) {
+ReadConfig with_settings(ReadConfig config, const OptionalWhole& seed, const OptionalWhole& repetitions) {
     constexpr IntegerRange seeds{0, 9200000000000000000};
     constexpr IntegerRange counts{2, 10000000};
     if (!seed.is_none()) config.plan.seed = static_cast<std::uint64_t>(integer_of(seed, "seed", seeds));
@@ -59,8 +60,8 @@ TableOptions table_options(int jobs, CallWatch& watch) {
 
 // The studies of a configuration, each stored with its number.
 std::vector<std::int64_t> run(const ReadConfig& config, const std::filesystem::path& file,
-                              const py::handle& seed, const py::handle& repetitions, const py::handle& jobs,
-                              const py::object& on_progress) {
+                              const OptionalWhole& seed, const OptionalWhole& repetitions, const Whole& jobs,
+                              const Progress& on_progress) {
     const auto ids = std::make_shared<std::vector<std::int64_t>>();
     const ReadConfig asked = with_settings(config, seed, repetitions);
     const int threads = jobs_of(jobs);
@@ -94,7 +95,7 @@ py::object value_of(const storage::QueryValue& value) {
 }
 
 // Column names, and the rows as tuples.
-py::tuple query(const std::filesystem::path& file, const std::string& sql) {
+std::pair<std::vector<std::string>, Rows> query(const std::filesystem::path& file, const std::string& sql) {
     storage::QueryResult result;
     {
         const py::gil_scoped_release others_run;
@@ -107,7 +108,7 @@ py::tuple query(const std::filesystem::path& file, const std::string& sql) {
         for (std::size_t k = 0; k < row.size(); ++k) values[k] = value_of(row[k]);
         rows.append(values);
     }
-    return py::make_tuple(py::cast(result.columns), rows);
+    return {result.columns, Rows(rows)};
 }
 
 int noise_index(const StudyPlan& plan, const std::optional<std::string>& label) {
@@ -152,11 +153,11 @@ std::optional<DiagnosedWorld> world_about(const std::shared_ptr<PythonDiagnosis>
 }
 
 std::shared_ptr<reports::Answer> place(const ReadConfig& config,
-                                       const std::shared_ptr<PythonDiagnosis>& found,
-                                       const std::optional<std::string>& noise, const py::handle& runners_up,
-                                       const py::handle& resolve_to_N, const py::handle& seed,
-                                       const py::handle& repetitions, const py::handle& jobs,
-                                       const py::object& on_progress) {
+                                       const std::optional<std::shared_ptr<PythonDiagnosis>>& found,
+                                       const std::optional<std::string>& noise, const Whole& runners_up,
+                                       const OptionalReal& resolve_to_N, const OptionalWhole& seed,
+                                       const OptionalWhole& repetitions, const Whole& jobs,
+                                       const Progress& on_progress) {
     auto answer = std::make_shared<reports::Answer>();
     const ReadConfig asked = with_settings(config, seed, repetitions);
     const bool of_worlds = asked.plan.uncertainty.is_stated;
@@ -172,7 +173,8 @@ std::shared_ptr<reports::Answer> place(const ReadConfig& config,
     if (!resolve_to_N.is_none()) options.resolve_to_N = number_of(resolve_to_N, "resolve_to_N");
     if (options.resolve_to_N && !(*options.resolve_to_N >= 1e-6 && *options.resolve_to_N <= 1e6))
         throw InvalidInput({"resolve_to_N: must be 1e-6 to 1e6 N"});
-    const std::optional<DiagnosedWorld> world = world_about(found, config.plan.transmission.arrangement);
+    const std::optional<DiagnosedWorld> world =
+        world_about(found.value_or(nullptr), config.plan.transmission.arrangement);
     run_long_call(on_progress, [=](CallWatch& watch) mutable {
         options.on_progress = [&](const std::string& activity) { watch.tell(activity, 0.0); };
         if (world) {
@@ -191,14 +193,18 @@ std::shared_ptr<reports::Answer> place(const ReadConfig& config,
 }  // namespace
 
 void bind_studies(py::module_& module) {
+    using namespace py::literals;
     py::class_<ReadConfig, std::shared_ptr<ReadConfig>>(module, "Config")
-        .def_static("read", &config::read_config)
-        .def_static("parse", [](const std::string& toml) { return config::parse_config(toml, "the text"); })
         .def_property_readonly("name", [](const ReadConfig& config) { return config.plan.name; })
-        .def("run", &run)
-        .def("place", &place);
-    module.def("conclusions", &conclusions);
-    module.def("query", &query);
+        .def("run", &run, "db"_a, "seed"_a, "repetitions"_a, "jobs"_a, "on_progress"_a)
+        .def("place", &place, "world"_a, "noise"_a, "runners_up"_a, "resolve_to_N"_a, "seed"_a,
+             "repetitions"_a, "jobs"_a, "on_progress"_a);
+    module.def("read_config", &config::read_config, "file"_a);
+    module.def(
+        "parse_config", [](const std::string& toml) { return config::parse_config(toml, "the text"); },
+        "toml"_a);
+    module.def("conclusions", &conclusions, "db"_a, "study_id"_a);
+    module.def("query", &query, "db"_a, "sql"_a);
 }
 
 }  // namespace capstan::python

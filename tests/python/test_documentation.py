@@ -16,6 +16,8 @@ import capstan as cp
 from surroundings import SOURCE
 
 DOCUMENTS = [SOURCE / "README.md", SOURCE / "studies/python/README.md"]
+PAGES = sorted(SOURCE.glob("reports/book/pages/**/*.md"))  # their blocks run in the test of the book
+NOTEBOOKS = sorted(SOURCE.glob("reports/book/notebooks/*.py"))  # and so do they
 
 
 def modules() -> list[str]:
@@ -23,14 +25,20 @@ def modules() -> list[str]:
     return ["capstan", *(name for name in names if name != "capstan._core")]
 
 
-def python_blocks() -> list[tuple[str, str]]:
+def python_blocks(documents: list[Path]) -> list[tuple[str, str]]:
     """The Python blocks of a document, as one program each, with its name."""
     found = []
-    for document in DOCUMENTS:
+    for document in documents:
         blocks = re.findall(r"^```python\n(.*?)^```", document.read_text(), re.MULTILINE | re.DOTALL)
         if blocks:
             found.append((str(document.relative_to(SOURCE)), "\n".join(blocks)))
     return found
+
+
+def docstring_examples() -> list[tuple[str, str]]:
+    """The example of each docstring, as a program with its name."""
+    docstrings = [each for name in modules() for each in doctest.DocTestFinder().find(importlib.import_module(name))]
+    return [(each.name, doctest.script_from_examples(each.docstring)) for each in docstrings if each.examples and each.docstring]
 
 
 class Documentation(unittest.TestCase):
@@ -49,8 +57,8 @@ class Documentation(unittest.TestCase):
             self.assertTrue(getattr(cp, name).__doc__, name)
 
     def test_each_block_runs(self) -> None:
-        self.assertTrue(python_blocks())
-        for name, program in python_blocks():
+        self.assertEqual(len(python_blocks(DOCUMENTS)), len(DOCUMENTS))
+        for name, program in python_blocks(DOCUMENTS):
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
                 os.symlink(SOURCE / "configs", Path(folder) / "configs")
                 done = subprocess.run([sys.executable, "-c", program], cwd=folder, capture_output=True, text=True, check=False)
@@ -74,11 +82,14 @@ class Types(unittest.TestCase):
         self.check("mypy", "--strict", "--python-executable", sys.executable, "-p", "capstan")
 
     def test_each_example(self) -> None:
-        for name, program in python_blocks():
-            with self.subTest(name):
-                file = Path(self.cache) / "example.py"
-                file.write_text(program)
-                self.check("mypy", "--strict", "--python-executable", sys.executable, str(file))
+        examples = python_blocks(DOCUMENTS + PAGES) + docstring_examples() + [(each.stem, each.read_text()) for each in NOTEBOOKS]
+        self.assertGreater(len(examples), 20)
+        for k, (name, program) in enumerate(examples):
+            Path(self.cache, f"example_{k}.py").write_text(f"# {name}\n{program}")
+        settings = Path(self.cache, "mypy.ini")
+        settings.write_text("[mypy]\n[mypy-matplotlib.*]\nignore_missing_imports = True\n")  # Debian's has no types
+        files = [f"example_{k}.py" for k in range(len(examples))]
+        self.check("mypy", "--strict", "--config-file", str(settings), "--python-executable", sys.executable, *files)
 
     def test_the_stubs_are_those_of_the_extension(self) -> None:
         allowed = Path(self.cache) / "allowed"

@@ -103,7 +103,7 @@ class Diagnosis(Answer):
     @property
     def model(self) -> Model:
         """What was found, as a model of the bench that predicts other runs."""
-        return Model(_core.Model.of(self._diagnosis))
+        return Model(_core.model_of(self._diagnosis))
 
     def corrected_model(self) -> str:
         """The corrected model of the cable as text, for `capstan study run CONFIG --truth FILE`."""

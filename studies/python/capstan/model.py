@@ -135,4 +135,4 @@ class Model:
 
 def read_model(file: FileName) -> Model:
     """Reads a model that `Model.save` or `capstan diagnose --save` wrote."""
-    return Model(_core.Model.read(os.fspath(file)))
+    return Model(_core.read_model(os.fspath(file)))

@@ -1,7 +1,7 @@
 """The tension along a cable, estimated while it moves."""
 
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from typing import Union
 
 from capstan import _core
@@ -71,7 +71,8 @@ class Observer(_core.Observer):
         self.not_used: tuple[str, ...] = ()
         if not isinstance(rate_friction, RateFriction):
             raise Error([f"rate_friction: is {str(rate_friction)[:80]}, but must be a RateFriction"])
-        friction = astuple(rate_friction)
+        rate = rate_friction
+        friction = (rate.drag_N_s_per_m2, rate.extra_friction, rate.speed_m_per_s, rate.memory_s)
         super().__init__(cable._core, self.sensors, noise_N, load_wander_m, motor_wander_m, members, seed, friction)
 
     def __repr__(self) -> str:

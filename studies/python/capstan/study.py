@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def _config(config: FileName) -> _core.Config:
     text = os.fspath(config)
-    return _core.Config.parse(text) if "\n" in text else _core.Config.read(text)
+    return _core.parse_config(text) if "\n" in text else _core.read_config(text)
 
 
 class Study:

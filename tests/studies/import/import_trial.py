@@ -3,8 +3,9 @@
     CAPSTAN=build/capstan CAPSTAN_CONFIGS=configs python3 tests/studies/import/import_trial.py --logs 500 --seed 1
 
 Each log is a simulated bench written in a laboratory's way by an independent writer, with no fault, one or two. A fault is
-found if a finding of its kind names its channel, a clock's offset if it is found within 1 ms or one sample; every finding that no fault explains is a false one; every repair has to
-be one that was planted. Prints a table by kind of fault and by format.
+found if a finding of its kind names its channel, a clock's offset if that of one of its channels is found within 1 ms or one
+sample. The clocks of all channels are counted apart, also those of which the stated range has the truth. Every finding that no
+fault explains is a false one; every repair has to be one that was planted. Prints a table by kind of fault and by format.
 """
 
 import argparse
@@ -324,6 +325,7 @@ def write_mcap(log, path, _chance):
 
 WRITERS = {"text": write_text, "mat": write_mat, "hdf5": write_hdf5, "xlsx": write_xlsx, "bag": write_bag, "rosbag2": write_db3,
            "mcap": write_mcap}
+LONGEST_OFFSET_S = 1.0  # a range so wide says nothing
 BAGS = ("bag", "rosbag2", "mcap")
 FAULTS = ("repeated samples", "gap", "missing readings", "jitter", "clock offset", "clock offset of torque", "wrapped counter", "saturated",
           "constant channel", "wrong unit", "wrong sign", "swapped channels", "time unit")
@@ -378,12 +380,17 @@ def is_doubt(finding):
 
 
 def judge(log, report, text):
-    """(found by fault, false findings, numbers of the faults of which the import says that it cannot tell)."""
+    """(found by fault, false findings, numbers of the faults of which the import says that it cannot tell, clocks).
+
+    A clock is (number of the fault, channel, error of the offset, its stated uncertainty, whether nothing was shifted), of each
+    channel with the wrong clock; where nothing is shifted, the stated range lies about 0, and where nothing is said, it is 0.
+    """
     findings = report["findings"] if report else []
     found = []
     explained = set()
     names = lambda finding: finding["channel"]
     doubted = set()
+    clocks = []
     for kind, channel, size in log.faults:
         hit = False
         for index, finding in enumerate(findings):
@@ -403,6 +410,11 @@ def judge(log, report, text):
                 continue
             explained.add(index)
             hit = True
+        if kind.startswith("clock offset"):
+            said = {names(finding): finding for finding in findings if finding["what"] == "clock offset"}
+            for each in (each for each in log.moving() if log.clock_of[each] == "b"):
+                finding = said.get(each, {"amount": 0.0, "uncertainty": 0.0, "repaired": True})
+                clocks.append((len(found), each, abs(finding["amount"] - size), finding["uncertainty"], each in said and is_doubt(finding)))
         if not report and kind in ("wrong unit", "wrong sign", "swapped channels", "constant channel", "time unit", "gap"):
             hit = any(word in text for word in ([channel] if channel else []) + [kind])
         found.append(hit)
@@ -419,7 +431,7 @@ def judge(log, report, text):
         follows |= {"clock offset", "gap", "short stretch", "jitter"}
     false = [finding for index, finding in enumerate(findings)
              if index not in explained and finding["what"] not in follows and not is_doubt(finding)]
-    return found, false, {fault for fault in doubted if not found[fault]}
+    return found, false, {fault for fault in doubted if not found[fault]}, clocks
 
 
 def run(logs, seed, formats, out=sys.stdout, keep=None):
@@ -469,7 +481,8 @@ def run(logs, seed, formats, out=sys.stdout, keep=None):
             done = subprocess.run([PROGRAM, "import", *names, "--mapping", str(place / "import.toml"), "--try", "--json",
                                    "--progress", "none"], capture_output=True, text=True)
             report = json.loads(done.stdout) if done.returncode == 0 else None
-            found, false, doubted = judge(log, report, done.stderr)
+            found, false, doubted, clocks = judge(log, report, done.stderr)
+            offsets += [(number, bench, channel, log.faults[fault][2], error, uncertainty, unknown) for fault, channel, error, uncertainty, unknown in clocks]
             for number_of_fault, ((kind, channel, size), hit) in enumerate(zip(log.faults, found)):
                 by_kind[kind][0] += 1
                 by_kind[kind][1] += hit
@@ -491,11 +504,17 @@ def run(logs, seed, formats, out=sys.stdout, keep=None):
         planted, hit, doubted = by_kind[kind]
         if planted:
             print(f"{kind:23} {planted:8} {hit:6}  {hit / planted:6.1%} {doubted or '':>10}", file=out)
+    print("clocks of                channels  within 1 ms or a sample  or in the stated range  said to be unknown", file=out)
+    for kind in ("angle", "torque"):
+        of_kind = [each for each in offsets if kind_of(each[2]) == kind]
+        within = [error <= max(1e-3, 1.0 / bench.rate) for _, bench, _, _, error, _, _ in of_kind]
+        covered = [hit or error <= uncertainty < LONGEST_OFFSET_S for hit, (_, _, _, _, error, uncertainty, _) in zip(within, of_kind)]
+        print(f"{kind:24} {len(of_kind):8} {sum(within):24} {sum(covered):23} {sum(each[-1] for each in of_kind):19}", file=out)
     print("format    logs  faults  found", file=out)
     for style, (count, planted, hit) in by_format.items():
         print(f"{style:8} {count:5} {planted:7} {hit:6}", file=out)
     print(f"findings that no fault explains: {len(false_findings)}", file=out)
-    return by_kind, false_findings, missed
+    return by_kind, false_findings, missed, offsets
 
 
 def main():
@@ -506,12 +525,15 @@ def main():
     options.add_argument("--keep", help="a folder for the logs that were not judged right")
     options.add_argument("--verbose", action="store_true")
     given = options.parse_args()
-    _, false, missed = run(given.logs, given.seed, given.formats, keep=given.keep)
+    _, false, missed, offsets = run(given.logs, given.seed, given.formats, keep=given.keep)
     if given.verbose:
         for each in missed:
             print("missed:", *each)
         for each in false:
             print("false:", *each)
+        for number, bench, channel, size, error, uncertainty, unknown in offsets:
+            print(f"clock: log {number}, {bench.name}, {channel}: offset {1e3 * size:.2f} ms, error {1e3 * error:.3f} ms ({error * bench.rate:.2f} samples), "
+                  f"stated to {1e3 * uncertainty:.3f} ms{', not shifted' if unknown else ''}")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ class PlantedFaults(unittest.TestCase):
     def test_faults_are_named_and_nothing_else_is(self):
         formats = [name for name in import_trial.WRITERS if importlib.util.find_spec(NEEDS.get(name, "json"))]
         print("formats:", ", ".join(formats))
-        by_kind, false, missed = import_trial.run(12 * len(formats), 20, formats)
+        by_kind, false, missed, _ = import_trial.run(12 * len(formats), 20, formats)
         planted = sum(count - doubted for count, _, doubted in by_kind.values())
         found = sum(hit for _, hit, _ in by_kind.values())
         self.assertGreater(planted, 10 * len(formats))
