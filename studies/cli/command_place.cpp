@@ -254,7 +254,7 @@ ExitCode run_bands(const Invocation& invocation) {
             config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
         if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
         config::require_runnable(config);
-        found.push_back({.plan = config.plan, .worlds = config.plan.repetitions});
+        found.push_back({.plan = config.plan, .bands = {}, .worlds = config.plan.repetitions});
     }
     for (answers::ConfigurationBands& each : found) {
         const WatchedTable watched =

@@ -34,7 +34,9 @@ def main() -> None:
     imprecise = [line for line in text.splitlines() if re.search(IMPRECISE, line)]
     if imprecise:
         raise SystemExit("These bindings need more precise types (signatures.h):\n" + "\n".join(imprecise))
-    (package / "_core.pyi").write_text(text)
+    stub = package / "_core.pyi"
+    stub.unlink(missing_ok=True)  # a link from an older build leads into the sources
+    stub.write_text(text)
 
 
 main()
