@@ -1,5 +1,6 @@
 // What a fit shows: what it leaves, how clear each cause is, how unusual and how certain its numbers are.
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +10,58 @@
 #include "capstan/platform/statistics.h"
 
 namespace capstan::gap {
+
+namespace {
+
+// Each nominal number gets the widest prior of all causes.
+double prior_std_of_bench(const Hypothesis& hypothesis, Eigen::Index number) {
+    double spread = hypothesis.bench->numbers[static_cast<std::size_t>(number)].prior_std;
+    for (const CandidateCause* cause : hypothesis.causes)
+        spread = std::max(spread, cause->nominal_std(number));
+    return spread;
+}
+
+}  // namespace
+
+Eigen::VectorXd CauseFitter::prior_residuals(const Hypothesis& hypothesis,
+                                             const Eigen::VectorXd& coordinates) const {
+    Eigen::VectorXd priors(coordinates.size());
+    Eigen::Index row = 0;
+    for (; row < hypothesis.bench->size(); ++row)
+        priors[row] = prior_weight_ * coordinates[row] / prior_std_of_bench(hypothesis, row);
+    for (const CandidateCause* cause : hypothesis.causes) {
+        for (const OpenNumber& number : cause->numbers) {
+            priors[row] = prior_weight_ * (coordinates[row] - number.prior_mean()) / number.prior_std();
+            ++row;
+        }
+    }
+    return priors;
+}
+
+// E57. The Jacobian is that of the last step, with the weights of the search.
+double CauseFitter::log_volume_ratio(const CauseFit& fit, const Eigen::MatrixXd& jacobian) const {
+    const auto data_rows = static_cast<Eigen::Index>(data_rows_);
+    Eigen::VectorXd widths(fit.coordinates.size());
+    Eigen::Index row = 0;
+    for (; row < fit.bench->size(); ++row) widths[row] = prior_std_of_bench(fit.hypothesis(), row);
+    double log_ratio = 0.0;
+    for (const CandidateCause* cause : fit.causes) {
+        for (const OpenNumber& number : cause->numbers) {
+            log_ratio -= number.log_choices();
+            widths[row] = number.prior_width(fit.coordinates[row]);
+            ++row;
+        }
+    }
+    Eigen::VectorXd left = fit.residuals;
+    apply(fit.weights, left);
+    constexpr double as_good_as_noise = 1.0;  // less than noise and floor determines no number better
+    const double scale = std::max(as_good_as_noise, left.head(data_rows).squaredNorm() / determined_rows_);
+    const Eigen::MatrixXd told = jacobian.topRows(data_rows) * widths.asDiagonal();
+    const Eigen::MatrixXd information = told.transpose() * told / (prior_weight_ * prior_weight_ * scale);
+    const Eigen::Index count = widths.size();
+    const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(count, count) + information);
+    return log_ratio - factor.matrixLLT().diagonal().array().log().sum();
+}
 
 Visibility CauseFitter::visibility(const CauseFit& fit) const {
     std::vector<Hypothesis> hypotheses = {fit.hypothesis()};
