@@ -170,6 +170,38 @@ CREATE TABLE computed_with (
     program_version TEXT    NOT NULL,              -- of the capstan that computed units or conclusions
     PRIMARY KEY (study_id, simd, compiler, program_version)
 ) STRICT, WITHOUT ROWID;
+)sql"},
+        {6,
+         R"sql(DROP VIEW v_best_method;
+-- The best method per regime, noise level, layout family and count, of those that need not know the direction; of a study
+-- with [uncertainty] every set of sensors that was tried.
+CREATE VIEW v_best_method AS
+-- study_id: its study
+-- study: its name
+-- regime: of the instants; of a study with [uncertainty] 'whole motion'
+-- noise_level_id: its noise level; none of a study with [uncertainty], whose sensors have each their own noise
+-- noise: its label
+-- family: of a study with [uncertainty] all named sets that it is, or the set in words
+-- method_title: as figures write it
+-- mean_abs_error_N: over instants and variants of the layout, or over worlds and the whole motion
+-- interval_low_N: 95% interval of mean_abs_error_N
+-- interval_high_N: upper end of that interval
+SELECT e.study_id, t.name AS study, e.regime, e.noise_level_id, n.label AS noise, e.family, e.sensor_count, e.method,
+       f.title AS method_title, e.mean_abs_error_N,
+       e.mean_abs_error_N - 1.959963984540054 * e.standard_error_N AS interval_low_N,
+       e.mean_abs_error_N + 1.959963984540054 * e.standard_error_N AS interval_high_N
+FROM (SELECT study_id, regime, noise_level_id, family, sensor_count, method, mean_abs_error_N, standard_error_N
+      FROM layout_error WHERE best = 1
+      UNION ALL
+      SELECT study_id, regime, noise_level_id, family, sensor_count, method, mean_abs_error_N, standard_error_N
+      FROM v_running_layout_error WHERE best = 1) e
+CROSS JOIN study t USING (study_id) CROSS JOIN noise_level n USING (noise_level_id) CROSS JOIN fusion_method f USING (study_id, method)
+UNION ALL
+SELECT e.study_id, e.study, 'whole motion', NULL, 'of each sensor', iif(c.families = '', c.words, c.families), c.sensor_count,
+       'ensemble_filter', 'Ensemble filter', e.mean_abs_error_N,
+       e.mean_abs_error_N - 1.959963984540054 * e.standard_error_N,
+       e.mean_abs_error_N + 1.959963984540054 * e.standard_error_N
+FROM v_world_error e CROSS JOIN world_candidate c USING (study_id, candidate_index) WHERE e.condition = 'as_stated';
 )sql"}};
     return steps;
 }

@@ -7,7 +7,7 @@
 namespace capstan::storage {
 
 constexpr std::uint32_t application_id = 0x43505354;  // "CPST", in the file's header
-constexpr int schema_version = 6;                     // SQLite's user_version; raised with every migration
+constexpr int schema_version = 7;                     // SQLite's user_version; raised with every migration
 
 const std::string& schema_text();  // schema.sql, as it was when the program was built
 

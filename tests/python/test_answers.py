@@ -68,6 +68,18 @@ class Answers(unittest.TestCase):
         counted = self.study.frame("SELECT count(*) AS n FROM v_best_method")
         self.assertEqual(list(counted["n"]), [len(best)])
 
+    def test_the_best_methods_of_uncertain_worlds_are_their_sets_of_sensors(self) -> None:
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            self.skipTest("pandas is missing")
+        with tempfile.TemporaryDirectory() as folder:
+            study = cp.Study(CONFIGS / "noise-sweep.toml").run(db=f"{folder}/results.db", repetitions=20)
+            best = study.frame("v_best_method")
+        self.assertEqual(set(best["method"]), {"ensemble_filter"})
+        self.assertEqual(list(best["family"][best["sensor_count"] == 0]), ["no sensor"])
+        self.assertTrue((best["interval_low_N"] <= best["mean_abs_error_N"]).all())
+
     def test_a_query_changes_nothing(self) -> None:
         with self.assertRaises(cp.Error):
             self.study.query("DELETE FROM study")
