@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "capstan/reference/sign_system.h"
+#include "capstan/solver/candidate.h"
 
 namespace capstan::reference {
 
