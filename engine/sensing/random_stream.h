@@ -21,6 +21,8 @@ enum class RandomPurpose : std::uint32_t {
     bench_reading =
         12,  ///< of a simulated recording: `scenario` is the sample, `repetition` the run, `node` the channel
     centre_line = 11,  ///< `scenario` is the point, `repetition` the replicate, `node` the coordinates
+    driven_reading = 13,  ///< of a recorded channel that drives a model: `seed` is the measurement, `scenario`
+                          ///< the sample, `repetition` the run, `node` the channel
 };
 
 /// Where a random number lives: the same address gives the same number, whoever asks, in whatever order.

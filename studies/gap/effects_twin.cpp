@@ -94,6 +94,12 @@ EffectsTwin::EffectsTwin(const Recording& recording, const EffectsTwinOptions& o
     for (const RecordedRun& run : recording.runs) inputs_.push_back(driven_inputs(recording, run));
 }
 
+EffectsTwin EffectsTwin::moved_by(std::vector<DrivenInputs> inputs) const {
+    EffectsTwin twin = *this;
+    twin.inputs_ = std::move(inputs);
+    return twin;
+}
+
 int EffectsTwin::samples(std::size_t run) const {
     return (recording_.runs[run].samples() + options_.stride - 1) / options_.stride;
 }

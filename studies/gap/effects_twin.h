@@ -68,6 +68,9 @@ class EffectsTwin {
     /// channels that determine no motion.
     EffectsTwin(const Recording& recording, const EffectsTwinOptions& options);
 
+    /// The same bench, moved by other inputs: one set for each run of the recording.
+    EffectsTwin moved_by(std::vector<DrivenInputs> inputs) const;
+
     /// The samples of a run that are predicted: 0, stride, 2 stride...
     int samples(std::size_t run) const;
     int stride() const { return options_.stride; }

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "capstan/gap/cause_fit.h"
+#include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
@@ -24,6 +26,24 @@ double standard_deviation(const std::vector<double>& values) {
     double squares = 0.0;
     for (const double value : values) squares += (value - mean) * (value - mean);
     return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+double rms_difference(std::span<const double> a, std::span<const double> b) {
+    double squares = 0.0;
+    for (std::size_t sample = 0; sample < a.size(); ++sample)
+        squares += (a[sample] - b[sample]) * (a[sample] - b[sample]);
+    return std::sqrt(squares / static_cast<double>(a.size()));
+}
+
+// Other measurements of the driven channels, as many times as a rare large one does not decide.
+constexpr int measurements = 5;
+
+// The bench as another measurement of its driven channels would move it.
+EffectsTwin measured_again(const Recording& recording, const EffectsTwin& twin, int measurement) {
+    std::vector<DrivenInputs> inputs;
+    for (const RecordedRun& run : recording.runs)
+        inputs.push_back(driven_inputs_again(recording, run, measurement));
+    return twin.moved_by(std::move(inputs));
 }
 
 // The first sample at which the driving channel has been near both its extremes. Until then friction depends
@@ -143,16 +163,27 @@ std::size_t ResidualSeries::determined_rows() const {
 std::vector<ResidualSeries> residual_series(const Recording& recording, const EffectsTwin& twin) {
     std::vector<ResidualSeries> all;
     std::size_t next_row = 0;
+    std::vector<EffectsTwin> again;
+    for (int measurement = 0; measurement < measurements; ++measurement)
+        again.push_back(measured_again(recording, twin, measurement));
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
         const TwinRun nominal = twin.run(run, {});
+        std::vector<TwinRun> moved_again;
+        for (const EffectsTwin& each : again) moved_again.push_back(each.run(run, {}));
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
             if (nominal.values[channel].empty()) continue;
             const Channel& described = recording.channels[channel];
+            const int first = end_of_first_loading(recording, recording.runs[run]) / twin.stride();
+            const auto later = [&](const TwinRun& moved) {
+                return std::span(moved.values[channel]).subspan(static_cast<std::size_t>(first));
+            };
             const double floor = model_floor(described.name, recording.runs[run].output == OutputKind::locked,
                                              standard_deviation(recording.runs[run].values[channel]));
-            const double scale = std::hypot(sample_noise(described), floor);
-            const int first = end_of_first_loading(recording, recording.runs[run]) / twin.stride();
-            const std::size_t rows = nominal.values[channel].size() - static_cast<std::size_t>(first);
+            std::vector<double> of_inputs;
+            for (const TwinRun& each : moved_again)
+                of_inputs.push_back(rms_difference(later(nominal), later(each)));
+            const double scale = std::hypot(sample_noise(described), floor, upper_median(of_inputs));
+            const std::size_t rows = later(nominal).size();
             all.push_back({run, channel, first, scale > 0.0 ? scale : 1.0, next_row, rows});
             all.back().is_determined = determined_rows(recording, all.back(), twin.stride());
             next_row += rows;

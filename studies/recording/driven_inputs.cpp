@@ -5,6 +5,7 @@
 
 #include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
+#include "capstan/sensing/random_stream.h"
 
 namespace capstan {
 
@@ -12,9 +13,15 @@ namespace {
 
 // A tenth of a second at 200 Hz: a hand's motion is close to a parabola for at most this long.
 constexpr int widest_half_window = 20;
-// A parabola explains the samples if its residual is at most this many times the noise.
-constexpr double explained = 1.2;
 constexpr int parabola_numbers = 3;
+
+// What the residual of a parabola that explains the samples is at most, in units of their noise, in 96 of 100
+// cases: the quantile of chi-square over its degrees of freedom (Wilson and Hilferty 1931).
+double largest_by_chance(int half) {
+    constexpr double quantile = 1.75;
+    const double spread = 2.0 / (9.0 * (2 * half + 1 - parabola_numbers));
+    return std::pow(1.0 - spread + quantile * std::sqrt(spread), 1.5);
+}
 
 struct LocalParabola {
     double at_centre = 0.0;
@@ -59,7 +66,7 @@ std::vector<double> smoothed(const std::vector<double>& samples, double noise_st
         int half = std::min({widest_half_window, centre, count - 1 - centre});
         for (; half >= 2; half = 2 * half / 3) {
             const LocalParabola parabola = parabola_around(samples, centre, half);
-            if (parabola.residual_std <= explained * noise_std) {
+            if (parabola.residual_std <= largest_by_chance(half) * noise_std) {
                 smooth[static_cast<std::size_t>(centre)] = parabola.at_centre;
                 break;
             }
@@ -84,6 +91,26 @@ DrivenInputs driven_inputs(const Recording& recording, const RecordedRun& run) {
         const bool held = channel.name == channel::load_angle && run.output == OutputKind::locked;
         inputs.values[index] = held ? std::vector<double>(samples.size(), upper_median(samples))
                                     : smoothed(samples, sample_noise(channel));
+    }
+    return inputs;
+}
+
+DrivenInputs driven_inputs_again(const Recording& recording, const RecordedRun& run, int measurement) {
+    DrivenInputs inputs = driven_inputs(recording, run);
+    for (std::size_t index = 0; index < recording.channels.size(); ++index) {
+        std::vector<double>& samples = inputs.values[index];
+        const double noise = sample_noise(recording.channels[index]);
+        const bool held =
+            recording.channels[index].name == channel::load_angle && run.output == OutputKind::locked;
+        if (noise <= 0.0 || held) continue;
+        for (std::size_t sample = 0; sample < samples.size(); ++sample)
+            samples[sample] += noise * standard_normals({.seed = static_cast<std::uint64_t>(measurement),
+                                                         .purpose = RandomPurpose::driven_reading,
+                                                         .scenario = static_cast<std::uint32_t>(sample),
+                                                         .repetition = static_cast<std::uint32_t>(run.number),
+
+                                                         .node = static_cast<std::uint32_t>(index)})[0];
+        samples = smoothed(samples, noise);
     }
     return inputs;
 }

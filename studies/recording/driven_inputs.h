@@ -17,6 +17,11 @@ struct DrivenInputs {
 /// where no window fits, the sample stays. A locked load stays at the median of its samples.
 DrivenInputs driven_inputs(const Recording& recording, const RecordedRun& run);
 
+/// The inputs that another measurement of the same motion could give: `driven_inputs` with fresh noise of each
+/// channel, smoothed again. They differ from `driven_inputs` as those do from the true motion. The noise
+/// depends on the number of the measurement, the run's number, the channel and the sample alone.
+DrivenInputs driven_inputs_again(const Recording& recording, const RecordedRun& run, int measurement);
+
 /// Standard deviation of a channel's samples: the noise stated and the rounding to encoder steps; 0 if
 /// neither is.
 double sample_noise(const Channel& channel);

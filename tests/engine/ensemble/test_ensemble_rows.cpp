@@ -83,7 +83,9 @@ TEST(EnsembleRows, CorrelationsByChanceAreMostlyLeftOutAndClearOnesKept) {
     for (double r = 0.02; r < 0.97; r += 0.05) {
         EXPECT_LT(expected_fraction(r, 64.0, 1.0), expected_fraction(r + 0.05, 64.0, 1.0)) << r;
         // What is clear of chance is less so where chance is larger.
-        if (r > 0.2) EXPECT_LT(expected_fraction(r, 64.0, 2.0), expected_fraction(r, 64.0, 1.0)) << r;
+        if (r > 0.2) {
+            EXPECT_LT(expected_fraction(r, 64.0, 2.0), expected_fraction(r, 64.0, 1.0)) << r;
+        }
     }
 }
 

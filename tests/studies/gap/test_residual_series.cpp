@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "lumped_session.h"
+#include "session_with_effects.h"
 
 namespace capstan::gap {
 namespace {
@@ -70,6 +74,49 @@ TEST(ResidualSeries, SamplesThatDetermineNothingHaveNoResidual) {
         if (torque.determines(row)) continue;
         EXPECT_EQ(residuals[static_cast<Eigen::Index>(torque.first_row + row)], 0.0);
     }
+}
+
+std::vector<double> residuals_of(const Recording& recording, const EffectsTwin& twin,
+                                 const ResidualSeries& series) {
+    const std::vector<double> predicted = twin.run(series.run, {}).values[series.channel];
+    std::vector<double> residuals;
+    for (std::size_t row = 0; row < series.rows; ++row) {
+        const std::size_t sample = static_cast<std::size_t>(series.first_sample) + row;
+        residuals.push_back(recording.runs[series.run].values[series.channel][sample] - predicted[sample]);
+    }
+    return residuals;
+}
+
+// What a stiff cable makes of the noise of an angle that a hand moves is no gap: a channel's scale holds it.
+TEST(ResidualSeries, NoiseOfADrivenAngleIsPartOfTheScaleOfWhatItMoves) {
+    Recording exact = exact_session({}, coarse_twin);
+    std::erase_if(exact.runs, [](const RecordedRun& run) { return run.output != OutputKind::handle; });
+    for (Channel& channel : exact.channels) channel.noise_std.reset();
+    const double without =
+        series_of(residual_series(exact, EffectsTwin(exact, coarse_twin)), exact, "load_torque").scale;
+
+    Recording noisy = exact;
+    const auto angle = static_cast<std::size_t>(*exact.channel("load_angle"));
+    constexpr double noise_rad = 4e-3;
+    noisy.channels[angle].noise_std = noise_rad;
+    std::vector<double> left;
+    for (unsigned seed = 1; seed <= 9; ++seed) {
+        std::mt19937_64 random(seed);
+        std::normal_distribution<double> normal(0.0, noise_rad);
+        noisy.runs = exact.runs;
+        for (double& value : noisy.runs.at(0).values[angle]) value += normal(random);
+        const EffectsTwin twin(noisy, coarse_twin);
+        const std::vector<ResidualSeries> all = residual_series(noisy, twin);
+        const ResidualSeries& torque = series_of(all, noisy, "load_torque");
+        EXPECT_GT(torque.scale, 1.5 * without);
+        const std::vector<double> residuals = residuals_of(noisy, twin, torque);
+        const double squares =
+            std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+        left.push_back(std::sqrt(squares / static_cast<double>(residuals.size())) / torque.scale);
+    }
+    std::nth_element(left.begin(), left.begin() + 4, left.end());
+    // One large noise at a reversal moves the torque of a whole stroke, so that single recordings scatter.
+    EXPECT_NEAR(left[4], 1.0, 0.4);
 }
 
 }  // namespace

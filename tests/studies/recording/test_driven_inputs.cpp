@@ -60,5 +60,20 @@ TEST(DrivenInputs, WithoutStatedNoiseSamplesStayAsTheyAre) {
     EXPECT_EQ(smoothed(noisy, 0.0), noisy);
 }
 
+TEST(DrivenInputs, AnotherMeasurementDiffersFromTheFirstAsThatDoesFromTheMotion) {
+    constexpr double noise = 0.003;
+    const auto motion = sampled([](double t) { return 0.3 * std::sin(2.0 * std::numbers::pi * t); });
+    Recording recording;
+    recording.channels = {{"load_angle", "rad", noise, {}}};
+    RecordedRun run;
+    run.output = OutputKind::handle;
+    run.driven = {"load_angle"};
+    run.values = {with_noise(motion, noise)};
+    const auto once = driven_inputs(recording, run).values[0];
+    const auto again = driven_inputs_again(recording, run, 0).values[0];
+    EXPECT_NEAR(rms_error(again, once) / rms_error(once, motion), 1.0, 0.35);
+    EXPECT_EQ(driven_inputs_again(recording, run, 0).values[0], again);
+}
+
 }  // namespace
 }  // namespace capstan
