@@ -107,8 +107,7 @@ void number_runs(ImportState& state) {
 }
 
 ordered_json imported_sidecar(const ImportState& state) {
-    ordered_json sidecar = {{"case", state.mapping.recording.value("case", state.report.files.front())},
-                            {"schema", 1}};
+    ordered_json sidecar = {{"case", state.report.recording.name}, {"schema", 1}};
     if (state.mapping.recording.is_object()) {
         for (const auto& [key, value] : state.mapping.recording.items()) sidecar[key] = value;
     }

@@ -196,6 +196,7 @@ void plan_runs(ImportState& state, std::vector<Finding>& findings) {
 ImportReport import_logs(const std::vector<std::filesystem::path>& files, const Mapping& mapping,
                          const std::filesystem::path& name, const ImportOptions& options) {
     ImportState state = prepared(files, mapping, options);
+    state.report.recording.name = recording_paths(name).samples.stem().string();
     write(state, name);
     return std::move(state.report);
 }

@@ -27,7 +27,9 @@ std::vector<CurvaturePiece> curvature_of(const JsonObject& nominal, Assumptions&
         const double to_m = piece.number("s1");
         if (std::abs(from_m - reached_m) > length_tolerance_m)
             piece.add_problem("s0",
-                              fmt::format("is {} m, but the pieces before end at {} m", from_m, reached_m));
+                              fmt::format("is {} m, but the pieces before end at {} m; state every piece, a "
+                                          "straight one without R",
+                                          from_m, reached_m));
         if (to_m <= from_m) piece.add_problem("s1", "must lie beyond s0");
         pieces.push_back({to_m - from_m, piece.has("R") ? piece.positive("R") : straight});
         reached_m = to_m;
