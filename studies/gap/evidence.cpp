@@ -77,7 +77,7 @@ double tenable_mean_square(const ScoredFit& fit) {
     return 1.0 + std::pow(law_error * clearest_law(fit), 2);
 }
 
-// Less than noise and floor is no sign of anything: the floor is an upper value (E56).
+// Less than noise and floor is not a sign of anything: the floor is an upper value (E56).
 double scale_penalty(const ScoredFit& fit) {
     double penalty = 0.0;
     for (const double mean_square : fit.channel_misfits) {
@@ -143,7 +143,7 @@ double Evidence::with_unknown(const ScoredFit& fit) const {
     return prior + most + std::log(0.5 * (std::exp(function - most) + std::exp(any - most)));
 }
 
-// What comes once, wanders or interferes is no function of the motion. Its size is one more fitted number,
+// What comes once, wanders or interferes is not a function of the motion. Its size is one more fitted number,
 // and it is as visible as any cause.
 double Evidence::of_any_residuals(const ScoredFit& fit) const {
     const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());

@@ -97,7 +97,7 @@ std::vector<TimeGap> merged(std::vector<TimeGap> gaps) {
 }
 
 double rounded_rate(double period_s) {
-    // Five digits: the median of printed times is no better.
+    // Five digits: the median of printed times is not better.
     const double rate = 1.0 / period_s;
     const double digit = std::pow(10.0, std::floor(std::log10(rate)) - 4.0);
     return std::round(rate / digit) * digit;

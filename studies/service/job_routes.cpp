@@ -15,7 +15,7 @@ namespace capstan::service {
 
 namespace {
 
-// A bench is simulated at the shell; it is no study.
+// A bench is simulated at the shell; it is not a study.
 bool is_study(const std::filesystem::path& file) {
     return read_file(file).find("\nkind = \"bench\"") == std::string::npos;
 }

@@ -1,7 +1,7 @@
 """2,500 shards on a Slurm whose arrays end at 1000, as by default, with four nodes: one is ten times slower, one is killed.
 
 The work of a shard is to wait for a slow disk, so that the nodes need not share this machine's processors. Ideal is the work
-divided by what the nodes that live can do at each moment. Both are printed; a busy machine is no failure."""
+divided by what the nodes that live can do at each moment. Both are printed; a busy machine is not a failure."""
 
 import json
 import os

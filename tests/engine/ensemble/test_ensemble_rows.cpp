@@ -79,7 +79,7 @@ TEST(EnsembleRows, CorrelationsByChanceAreMostlyLeftOutAndClearOnesKept) {
     EXPECT_LT(expected_fraction(1.0 / 8.0, 64.0, 1.0), 0.1);
     EXPECT_GT(expected_fraction(0.5, 64.0, 1.0), 0.9);
     EXPECT_NEAR(expected_fraction(1.0, 64.0, 1.0), 1.0, 1e-6);
-    EXPECT_GT(expected_fraction(1.0 / 8.0, 1024.0, 1.0), 0.9);  // with many members it is no chance
+    EXPECT_GT(expected_fraction(1.0 / 8.0, 1024.0, 1.0), 0.9);  // with many members it is not chance
     for (double r = 0.02; r < 0.97; r += 0.05) {
         EXPECT_LT(expected_fraction(r, 64.0, 1.0), expected_fraction(r + 0.05, 64.0, 1.0)) << r;
         // What is clear of chance is less so where chance is larger.

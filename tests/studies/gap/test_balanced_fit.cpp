@@ -55,7 +55,7 @@ class DriveWithAnErrorInItsTorque : public testing::Test {
 TEST_F(DriveWithAnErrorInItsTorque, DoesNotSpoilTheFitOfTheAngle) {
     const CauseFit plain = fitted(false);
     const CauseFit balanced = fitted(true);
-    ASSERT_GT(rms(balanced, "motor_torque"), 10.0) << "the ripple is no part of the model";
+    ASSERT_GT(rms(balanced, "motor_torque"), 10.0) << "the ripple is not part of the model";
     EXPECT_LT(rms(balanced, "load_angle"), 0.7 * rms(plain, "load_angle"));
     EXPECT_LT(rms(balanced, "motor_torque"), 1.5 * rms(plain, "motor_torque"));
 }

@@ -91,7 +91,7 @@ ScoredFit leaving(double misfit, double visibility, const CandidateCause& cause)
 TEST(CauseSearch, LooksForAFurtherCauseOnlyWhereMoreThanNoiseAndLawsErrorIsLeft) {
     ThreeCauses known;
     EXPECT_FALSE(worth_a_further_cause(leaving(1.05, 2.0, known.bend)));  // little beyond noise
-    // What a law that is good to a tenth may leave. A wrong number is no law.
+    // What a law that is good to a tenth may leave. A wrong number is not a law.
     EXPECT_FALSE(worth_a_further_cause(leaving(3.0, 30.0, known.bend)));
     known.friction.is_exact = true;
     EXPECT_TRUE(worth_a_further_cause(leaving(3.0, 30.0, known.friction)));

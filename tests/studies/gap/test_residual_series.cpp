@@ -87,7 +87,7 @@ std::vector<double> residuals_of(const Recording& recording, const EffectsTwin& 
     return residuals;
 }
 
-// What a stiff cable makes of the noise of an angle that a hand moves is no gap: a channel's scale holds it.
+// What a stiff cable makes of the noise of an angle that a hand moves is not a gap: a channel's scale holds it.
 TEST(ResidualSeries, NoiseOfADrivenAngleIsPartOfTheScaleOfWhatItMoves) {
     Recording exact = exact_session({}, coarse_twin);
     std::erase_if(exact.runs, [](const RecordedRun& run) { return run.output != OutputKind::handle; });
