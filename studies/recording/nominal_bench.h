@@ -1,6 +1,8 @@
 #pragma once
 // What a recording's description states of its bench, and what is taken where it states nothing.
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
