@@ -9,11 +9,6 @@ namespace capstan {
 
 namespace {
 
-// Torques and the load's position tell the difference of a pair's tensions and nothing of their sum, but a
-// correlation by chance with the sum corrects it at every sample, so that it counts as that of half as many
-// members. A tension sensor tells of the sum, and the stronger screening would then cost accuracy.
-constexpr double chance_without_sum = 2.0;
-
 // A slack member reads 0 however far it is from becoming taut, so where most members are slack and the cable
 // is not, a reading tells them nothing and the filter loses the cable. From this many standard deviations of
 // an innovation on, slack members count as if they could push.
@@ -183,7 +178,7 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
     const double degrees = static_cast<double>(count) - 1.0;
     RowCorrection correction{sensed_,         taut_move_,
                              found.off,       found.variance * degrees,
-                             total * degrees, tells_sum_ ? 1.0 : chance_without_sum};
+                             total * degrees, draws_.expected(tells_sum_)};
     for (EnsembleCable& cable : cables_) {
         for (std::size_t j = 0; j < count; ++j)
             taut_move_[j] = cable.is_slack(static_cast<int>(j)) ? 0.0 : 1.0;

@@ -63,9 +63,9 @@ void correct_together(const RowCorrection& correction, double* const* rows, std:
     for (int k = 0; k < together; ++k) {
         const double own = hn::GetLane(hn::SumOfLanes(d, own_sums[k]));
         const double cross = hn::GetLane(hn::SumOfLanes(d, cross_sums[k]));
-        if (!(own > 0.0)) continue;
-        const double correlation = cross / std::sqrt(own * correction.sensed_squares);
-        const double screened = expected_fraction(correlation, count, correction.chance);
+        const double certain = own * correction.sensed_squares;
+        if (!(certain > 0.0)) continue;
+        const double screened = correction.expected.of_squared(cross * cross / certain);
         const double gain = cross / correction.total_squares;
         const double explained = screened * screened;
         const double closer_by = explained / (1.0 + std::sqrt(1.0 - explained * seen_fraction));
@@ -116,6 +116,14 @@ double expected_fraction(double correlation, double members, double chance) {
     const double odds = correlated_probability / (1.0 - correlated_probability) / std::sqrt(1.0 + spread) *
                         std::exp(std::min(0.5 * sharpness * z * z * kept, 600.0));
     return std::tanh(kept * z) / found * odds / (1.0 + odds);
+}
+
+// The function changes fastest within 1 / members of the square; near 1 it bends as a power below 1, the more
+// the fewer the members.
+ExpectedFraction::ExpectedFraction(int members, double chance) : intervals_(8.0 * std::max(members, 256)) {
+    for (double k = 0.0; k <= intervals_; ++k)
+        table_.push_back(expected_fraction(std::sqrt(k / intervals_), members, chance));
+    table_.push_back(table_.back());
 }
 
 HWY_EXPORT(row_moments);
