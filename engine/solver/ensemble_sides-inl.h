@@ -37,10 +37,11 @@ struct LaneSide {
     Lanes displacement_m;
 };
 
-// The cables of the members `at` to `at + lanes`, and what each side of them does.
+// The cables of the members `at` to `at + lanes`, and what each side of them does. View and inputs are copies,
+// which no store through a row's pointer can change, so that they stay in registers.
 struct LaneSides {
-    const EnsembleView& view;
-    const EnsembleInputs& inputs;
+    EnsembleView view;
+    EnsembleInputs inputs;
     std::size_t at;
     int last = view.nodes - 1;
     Lanes mean_half = hn::Mul(lanes_of(0.5), hn::Load(EnsembleTag(), view.compliance_m_per_N + at));
