@@ -107,7 +107,8 @@ void EnsembleFilter::hold_motor() {
     oppose_far_end();
 }
 
-void EnsembleFilter::find_tension_N(std::size_t cable, const SensorSpot& spot, std::vector<double>& to) const {
+void EnsembleFilter::find_tension_N(std::size_t cable, const SensorSpot& spot,
+                                    std::vector<double>& to) const {
     const EnsembleCable& own = cables_[cable];
     own.find_tension_N(spot, to);
     if (!pushes_[cable]) return;

@@ -40,8 +40,8 @@ RowMoments row_moments(const double* HWY_RESTRICT row, std::size_t members) {
 }
 
 // `together` rows at once: their sums do not wait for one another. Distances from the first member, which is
-// within a few deviations of the mean, so that one pass finds the mean and the squares; what is sensed adds up
-// to none.
+// within a few deviations of the mean, so that one pass finds the mean and the squares; what is sensed adds
+// up to none.
 template <int together>
 void correct_together(const RowCorrection& correction, double* const* rows, std::size_t members) {
     const RowTag d;

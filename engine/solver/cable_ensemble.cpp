@@ -148,11 +148,11 @@ MotionPattern CableEnsemble::pattern_of(int member) const {
     pattern.distal_direction = direction_of(row(motion_, 2)[member]);
     pattern.distal_moving_nodes = static_cast<int>(row(motion_, 3)[member]);
     const int moving = pattern.proximal_moving_nodes + pattern.distal_moving_nodes;
-    pattern.kind = is_slack(member)    ? MotionKind::slack
-                   : moving == 0       ? MotionKind::rest
-                   : moving < nodes_   ? MotionKind::partial
-                   : moving == nodes_  ? MotionKind::opposed
-                                       : MotionKind::mass;
+    pattern.kind = is_slack(member)   ? MotionKind::slack
+                   : moving == 0      ? MotionKind::rest
+                   : moving < nodes_  ? MotionKind::partial
+                   : moving == nodes_ ? MotionKind::opposed
+                                      : MotionKind::mass;
     return pattern;
 }
 

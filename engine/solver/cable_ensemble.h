@@ -82,8 +82,8 @@ class CableEnsemble {
     NodeTable next_tension_N_;             // nodes x members: what a step would write
     NodeTable next_displacement_m_;        // nodes x members
     NodeTable motion_;  // 4 x members: direction and count of the proximal side, of the distal side
-    NodeTable slack_;  // members: 1 where slack
-    NodeTable left_;   // members: 1 for those that the search has to solve
+    NodeTable slack_;   // members: 1 where slack
+    NodeTable left_;    // members: 1 for those that the search has to solve
     CableState scratch_;
     PrefixTables scratch_tables_;
 };

@@ -37,8 +37,8 @@ struct LaneSide {
     Lanes displacement_m;
 };
 
-// The cables of the members `at` to `at + lanes`, and what each side of them does. View and inputs are copies,
-// which no store through a row's pointer can change, so that they stay in registers.
+// The cables of the members `at` to `at + lanes`, and what each side of them does. View and inputs are
+// copies, which no store through a row's pointer can change, so that they stay in registers.
 struct LaneSides {
     EnsembleView view;
     EnsembleInputs inputs;
@@ -91,8 +91,8 @@ struct LaneSides {
         return hn::IfThenElseZero(hn::Gt(hn::Abs(change), rounding), way);
     }
 
-    // E3 and E4: how far the side's front goes. A tension is a pull over a compliance, and tensions are compared
-    // by multiplying with the latter, so that each side divides once.
+    // E3 and E4: how far the side's front goes. A tension is a pull over a compliance, and tensions are
+    // compared by multiplying with the latter, so that each side divides once.
     template <int outward>
     HWY_INLINE LaneSide front(Lanes direction, Lanes value, double displacement_factor, double tension_factor,
                               Lanes first_count) const {
@@ -119,8 +119,8 @@ struct LaneSides {
             // Positive: the proximal end is prescribed, the distal one has no negative factors.
             const Lanes size = hn::Sub(hn::Mul(lanes_of(displacement_factor), compliance),
                                        lanes_of(outward * tension_factor));
-            const Lanes pull = hn::Mul(lanes_of(-outward),
-                                       hn::Sub(value, hn::Mul(lanes_of(displacement_factor), anchor)));
+            const Lanes pull =
+                hn::Mul(lanes_of(-outward), hn::Sub(value, hn::Mul(lanes_of(displacement_factor), anchor)));
             const Lanes front = hn::Mul(pull, ratio);
             const Lanes rest = hn::Mul(rest_N, size);
             const Lanes hold = holding_ratio(segment);
@@ -140,8 +140,8 @@ struct LaneSides {
             ratio = next;
         }
         side.tension_N = hn::Div(stopped_pull, stopped_size);
-        side.displacement_m = hn::Sub(
-            stopped_anchor, hn::Mul(lanes_of(outward), hn::Mul(stopped_compliance, side.tension_N)));
+        side.displacement_m =
+            hn::Sub(stopped_anchor, hn::Mul(lanes_of(outward), hn::Mul(stopped_compliance, side.tension_N)));
         return side;
     }
 

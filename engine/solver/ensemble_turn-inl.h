@@ -80,8 +80,7 @@ struct LaneTurn : LaneSides {
 
         ratio = one;
         elongation = zero;
-        const Lanes pull_of_all =
-            hn::Sub(value, hn::Mul(lanes_of(inputs.displacement_factor), proximal_m));
+        const Lanes pull_of_all = hn::Sub(value, hn::Mul(lanes_of(inputs.displacement_factor), proximal_m));
         Turn turn{one, zero, one, zero, zero, zero, zero, zero};
         Lanes count = zero;
         Lanes ratio_before = one;
