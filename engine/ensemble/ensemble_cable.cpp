@@ -68,14 +68,7 @@ void EnsembleCable::add_numbers(std::vector<double*>& rows) {
 
 void EnsembleCable::settle(std::span<const double> far_end_m) {
     std::vector<double>& highest_N = workspace_;
-    std::fill(highest_N.begin(), highest_N.end(), 0.0);
-    for (int node = 0; node < members_.nodes(); ++node) {
-        const auto row = members_.tension_N(node);
-        for (std::size_t j = 0; j < row.size(); ++j) {
-            row[j] = std::max(row[j], 0.0);
-            highest_N[j] = std::max(highest_N[j], row[j]);
-        }
-    }
+    clip_tensions(rows(), highest_N.data());
     for (std::size_t j = 0; j < highest_N.size(); ++j)
         if (!(highest_N[j] > 0.0) && !is_slack(static_cast<int>(j))) members_.make_slack(static_cast<int>(j));
     take_numbers();
@@ -99,31 +92,14 @@ double EnsembleCable::rest_m(std::size_t member) const {
 
 void EnsembleCable::stretch(std::span<const double> far_end_by_m, std::span<const double> proximal_by_m) {
     const double stiffness = support_.spring_stiffness_N_per_m;
-    const double spring_m_per_N = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
-    const auto compliance = members_.compliance_m_per_N();
-    std::vector<double>& further_N = workspace_;
-    for (std::size_t j = 0; j < further_N.size(); ++j) {
-        const double all_m_per_N = members_.segments() * compliance[j] + spring_m_per_N;
-        further_N[j] = (far_end_by_m[j] - proximal_by_m[j]) / all_m_per_N;
-        if (is_slack(static_cast<int>(j))) further_N[j] = 0.0;
-    }
-    double relative_m_per_N = 0.0;  // beyond the distal end, in compliances
-    for (int node = members_.segments(); node >= 0; --node) {
-        const auto tension_N = members_.tension_N(node);
-        const auto displacement_m = members_.displacement_m(node);
-        for (std::size_t j = 0; j < further_N.size(); ++j) {
-            if (is_slack(static_cast<int>(j))) continue;
-            displacement_m[j] +=
-                far_end_by_m[j] - further_N[j] * (spring_m_per_N + relative_m_per_N * compliance[j]);
-            tension_N[j] = std::max(tension_N[j] + further_N[j], 0.0);
-        }
-        if (node > 0) relative_m_per_N += members_.relative_length()[static_cast<std::size_t>(node - 1)];
-    }
+    stretch_rows(rows(), far_end_by_m.data(), proximal_by_m.data(), stiffness > 0.0 ? 1.0 / stiffness : 0.0);
 }
 
-double EnsembleCable::tension_N(const SensorSpot& spot, int member) const {
-    return (1.0 - spot.fraction) * members_.tension_N(spot.node)[member] +
-           spot.fraction * members_.tension_N(spot.node + 1)[member];
+void EnsembleCable::find_tension_N(const SensorSpot& spot, std::span<double> tension_N) const {
+    const auto here_N = members_.tension_N(spot.node);
+    const auto next_N = members_.tension_N(spot.node + 1);
+    for (std::size_t j = 0; j < tension_N.size(); ++j)
+        tension_N[j] = (1.0 - spot.fraction) * here_N[j] + spot.fraction * next_N[j];
 }
 
 double EnsembleCable::pushing_tension_N(int member, std::span<const double> far_end_m) const {
@@ -134,11 +110,13 @@ double EnsembleCable::pushing_tension_N(int member, std::span<const double> far_
     return pretension_N_[j] + (far_end_m[j] - moved_m_) / all_m_per_N;
 }
 
-double EnsembleCable::beyond_wall_m(int member) const {
+void EnsembleCable::find_distal_m(std::span<const double> far_end_m, std::span<double> distal_m) const {
+    std::copy(far_end_m.begin(), far_end_m.end(), distal_m.begin());
     const double stiffness = support_.spring_stiffness_N_per_m;
-    if (!(stiffness > 0.0)) return 0.0;
-    const double distal_N = members_.tension_N(members_.segments())[member];
-    return (pretension_N_[static_cast<std::size_t>(member)] - distal_N) / stiffness;
+    if (!(stiffness > 0.0)) return;
+    const auto distal_N = members_.tension_N(members_.segments());
+    for (std::size_t j = 0; j < distal_m.size(); ++j)
+        distal_m[j] += (pretension_N_[j] - distal_N[j]) / stiffness;
 }
 
 void EnsembleCable::take_numbers() {
@@ -176,26 +154,19 @@ void EnsembleCable::add_wrap(int bend, std::span<const double> factor) {
         wrap_rad_[k] += nominal_rad[k / factor.size()] * factor[k % factor.size()];
 }
 
-// E2 with the mean of both nodes' tensions, back from where the distal end is.
 void EnsembleCable::take_displacements(std::span<const double> far_end_m) {
-    const int last = members_.segments();
-    const auto compliance = members_.compliance_m_per_N();
-    const auto distal_m = members_.displacement_m(last);
-    for (std::size_t j = 0; j < distal_m.size(); ++j) {
-        if (is_slack(static_cast<int>(j))) continue;
-        distal_m[j] = far_end_m[j] + beyond_wall_m(static_cast<int>(j));
-    }
-    for (int node = last - 1; node >= 0; --node) {
-        const auto here_m = members_.displacement_m(node);
-        const auto next_m = members_.displacement_m(node + 1);
-        const auto here_N = members_.tension_N(node);
-        const auto next_N = members_.tension_N(node + 1);
-        const double half = 0.5 * members_.relative_length()[node];
-        for (std::size_t j = 0; j < here_m.size(); ++j) {
-            if (is_slack(static_cast<int>(j))) continue;
-            here_m[j] = next_m[j] - half * compliance[j] * (here_N[j] + next_N[j]);
-        }
-    }
+    find_distal_m(far_end_m, workspace_);
+    place_nodes(rows(), workspace_.data());
+}
+
+CableRows EnsembleCable::rows() {
+    return {static_cast<std::size_t>(members_.members()),
+            members_.nodes(),
+            members_.tension_N(0).data(),
+            members_.displacement_m(0).data(),
+            members_.compliance_m_per_N().data(),
+            members_.relative_length().data(),
+            members_.slack().data()};
 }
 
 }  // namespace capstan

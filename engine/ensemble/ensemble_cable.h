@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "capstan/ensemble/cable_belief.h"
+#include "capstan/ensemble/cable_rows.h"
 #include "capstan/ensemble/ensemble_draws.h"
 #include "capstan/ensemble/ensemble_rows.h"
 #include "capstan/estimation/tension_reading.h"
@@ -40,11 +41,12 @@ class EnsembleCable {
 
     int nodes() const { return members_.nodes(); }
     bool is_slack(int member) const { return members_.is_slack(member); }
-    double tension_N(const SensorSpot& spot, int member) const;
+    std::span<const double> slack() const { return members_.slack(); }  ///< members: 1 where slack, else 0
+    void find_tension_N(const SensorSpot& spot, std::span<double> tension_N) const;  ///< members
     /// The tension of a slack member if a cable could push: negative, the same everywhere (E2).
     double pushing_tension_N(int member, std::span<const double> far_end_m) const;
-    /// By how much the distal end is beyond the spring's wall; 0 without a spring.
-    double beyond_wall_m(int member) const;
+    /// Where the distal end is while it, or its spring's wall, is at `far_end_m` (both members).
+    void find_distal_m(std::span<const double> far_end_m, std::span<double> distal_m) const;
     RowMoments tension_moments_N(int node) const { return moments_of_row(members_.tension_N(node)); }
     RowMoments log_friction() const { return moments_of_row(log_friction_); }
 
@@ -53,6 +55,7 @@ class EnsembleCable {
     void take_numbers();
     void add_wrap(int bend, std::span<const double> factor);
     void take_displacements(std::span<const double> far_end_m);
+    CableRows rows();
 
     const UncertainCable& cable_;
     CableEnsemble members_;

@@ -8,6 +8,11 @@ namespace capstan {
 
 namespace {
 
+// Torques and the load's position tell the difference of a pair's tensions and nothing of their sum, but a
+// correlation by chance with the sum corrects it at every sample, so that it counts as that of half as many
+// members. A tension sensor tells of the sum, and the stronger screening would then cost accuracy.
+constexpr double chance_without_sum = 2.0;
+
 // Exactly as many as the members, without the chance in their mean and variance.
 void standardise(std::span<double> row) {
     const double count = static_cast<double>(row.size());
@@ -26,7 +31,10 @@ void standardise(std::span<double> row) {
 
 EnsembleDraws::EnsembleDraws(const EnsembleAddress& address, int members, int parameters, int sensors,
                              int samples)
-    : members_(members), samples_(samples) {
+    : members_(members),
+      samples_(samples),
+      expected_(members, 1.0),
+      expected_without_sum_(members, chance_without_sum) {
     const auto count = static_cast<std::size_t>(members);
     const auto at = [&](RandomPurpose purpose, std::size_t scenario, std::size_t node) {
         return standard_normals({address.seed, purpose, static_cast<std::uint32_t>(scenario), address.world,

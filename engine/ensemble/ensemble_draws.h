@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "capstan/ensemble/ensemble_rows.h"
+
 namespace capstan {
 
 /// Whose draws: estimators of one world share them, so that the differences between sensors are paired.
@@ -12,7 +14,8 @@ struct EnsembleAddress {
     std::uint32_t world = 0;
 };
 
-/// The standard normal numbers of an ensemble, each row with mean 0 and variance 1 over the members.
+/// The standard normal numbers of an ensemble, each row with mean 0 and variance 1 over the members; and the
+/// tables that follow from how many they are.
 class EnsembleDraws {
   public:
     EnsembleDraws(const EnsembleAddress& address, int members, int parameters, int sensors, int samples);
@@ -25,6 +28,10 @@ class EnsembleDraws {
     /// Of the far end's motion into a sample, from 0.
     std::span<const double> first(int sample) const { return row(far_end_, 2 * sample); }       ///< members
     std::span<const double> second(int sample) const { return row(far_end_, 2 * sample + 1); }  ///< members
+    /// Of a correlation, where sensors tell of every tension, or only of the difference of a pair's.
+    const ExpectedFraction& expected(bool tells_sum) const {
+        return tells_sum ? expected_ : expected_without_sum_;
+    }
 
   private:
     std::span<const double> row(const std::vector<double>& rows, int index) const {
@@ -33,6 +40,8 @@ class EnsembleDraws {
 
     int members_;
     int samples_;
+    ExpectedFraction expected_;
+    ExpectedFraction expected_without_sum_;
     std::vector<double> parameters_;  // parameters x members
     std::vector<double> sensors_;     // 2 sensors x members
     std::vector<double> far_end_;     // 2 samples x members

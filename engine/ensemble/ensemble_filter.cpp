@@ -9,11 +9,6 @@ namespace capstan {
 
 namespace {
 
-// Torques and the load's position tell the difference of a pair's tensions and nothing of their sum, but a
-// correlation by chance with the sum corrects it at every sample, so that it counts as that of half as many
-// members. A tension sensor tells of the sum, and the stronger screening would then cost accuracy.
-constexpr double chance_without_sum = 2.0;
-
 // A slack member reads 0 however far it is from becoming taut, so where most members are slack and the cable
 // is not, a reading tells them nothing and the filter loses the cable. From this many standard deviations of
 // an innovation on, slack members count as if they could push.
@@ -33,7 +28,7 @@ EnsembleFilter::EnsembleFilter(const UncertainCable& cable, const CableBelief& b
     for (int which = 0; which < cables; ++which) cables_.emplace_back(cable, belief, draws, which);
     const auto count = static_cast<std::size_t>(draws.members());
     for (auto* row : {&far_end_m_, &far_end_m_per_s_, &opposite_m_, &off_m_[0], &off_m_[1], &far_end_by_m_,
-                      &sensed_, &taut_move_})
+                      &sensed_, &workspace_, &taut_move_})
         row->assign(count, 0.0);
     all_move_.assign(count, 1.0);
     mean_N_.assign(static_cast<std::size_t>(cables * cables_.front().nodes()), 0.0);
@@ -112,38 +107,39 @@ void EnsembleFilter::hold_motor() {
     oppose_far_end();
 }
 
-double EnsembleFilter::tension_N(std::size_t cable, const SensorSpot& spot, int member) const {
+void EnsembleFilter::find_tension_N(std::size_t cable, const SensorSpot& spot,
+                                    std::vector<double>& to) const {
     const EnsembleCable& own = cables_[cable];
-    if (pushes_[cable] && own.is_slack(member)) return own.pushing_tension_N(member, far_end_m(cable));
-    return own.tension_N(spot, member);
+    own.find_tension_N(spot, to);
+    if (!pushes_[cable]) return;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+        const int member = static_cast<int>(j);
+        if (own.is_slack(member)) to[j] = own.pushing_tension_N(member, far_end_m(cable));
+    }
 }
 
-// E16 over the pulley's radius, or the tension of a single cable's end.
-double EnsembleFilter::end_tension_N(const SensorSpot& spot, int member) const {
-    const double of_a_N = tension_N(0, spot, member);
-    return cables_.size() == 1 ? of_a_N : of_a_N - tension_N(1, spot, member);
-}
-
-double EnsembleFilter::sensed(const Fitted& sensor, int member) const {
-    const auto j = static_cast<std::size_t>(member);
-    double value = 0.0;
+void EnsembleFilter::sense(const Fitted& sensor) {
     switch (sensor.offer.kind) {
         case SensorKind::tension:
-            value = tension_N(static_cast<std::size_t>(sensor.offer.cable), sensor.spot, member);
+            find_tension_N(static_cast<std::size_t>(sensor.offer.cable), sensor.spot, sensed_);
             break;
         case SensorKind::motor_torque:
-        case SensorKind::load_torque:
-            value = end_tension_N(sensor.spot, member);
+        case SensorKind::load_torque:  // E16 over the pulley's radius, or the tension of a single cable's end
+            find_tension_N(0, sensor.spot, sensed_);
+            if (cables_.size() == 1) break;
+            find_tension_N(1, sensor.spot, workspace_);
+            for (std::size_t j = 0; j < sensed_.size(); ++j) sensed_[j] -= workspace_[j];
             break;
         case SensorKind::load_displacement:
-            value = far_end_m_[j] + cables_.front().beyond_wall_m(member);
+            cables_.front().find_distal_m(far_end_m_, sensed_);
             break;
     }
-    return value * (1.0 + sensor.gain[j]) + sensor.zero[j];
+    for (std::size_t j = 0; j < sensed_.size(); ++j)
+        sensed_[j] = sensed_[j] * (1.0 + sensor.gain[j]) + sensor.zero[j];
 }
 
 EnsembleFilter::Innovation EnsembleFilter::innovation(const Fitted& sensor, double reading) {
-    for (std::size_t j = 0; j < sensed_.size(); ++j) sensed_[j] = sensed(sensor, static_cast<int>(j));
+    sense(sensor);
     const RowMoments before = moments_of_row(sensed_);
     const double variance = before.deviation * before.deviation;
     const SensorErrors& errors = sensor.offer.errors;
@@ -183,10 +179,9 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
     const double degrees = static_cast<double>(count) - 1.0;
     RowCorrection correction{sensed_,         taut_move_,
                              found.off,       found.variance * degrees,
-                             total * degrees, tells_sum_ ? 1.0 : chance_without_sum};
+                             total * degrees, draws_.expected(tells_sum_)};
     for (EnsembleCable& cable : cables_) {
-        for (std::size_t j = 0; j < count; ++j)
-            taut_move_[j] = cable.is_slack(static_cast<int>(j)) ? 0.0 : 1.0;
+        for (std::size_t j = 0; j < count; ++j) taut_move_[j] = 1.0 - cable.slack()[j];
         corrected_.clear();
         cable.add_tensions(corrected_);
         correct_rows(correction, corrected_);

@@ -64,12 +64,11 @@ class EnsembleFilter {
     };
     Innovation innovation(const Fitted& sensor, double reading);
     bool find_pushes(const Fitted& sensor, const Innovation& found);
-    double tension_N(std::size_t cable, const SensorSpot& spot, int member) const;
-    double end_tension_N(const SensorSpot& spot, int member) const;
+    void find_tension_N(std::size_t cable, const SensorSpot& spot, std::vector<double>& to) const;
+    void sense(const Fitted& sensor);
     void oppose_far_end();
     void hold_motor();
     void correct(Fitted& sensor, double reading);
-    double sensed(const Fitted& sensor, int member) const;
     void take_moments();
 
     const EnsembleDraws& draws_;
@@ -85,6 +84,7 @@ class EnsembleFilter {
     std::vector<double> far_end_by_m_;     // members
     std::vector<Fitted> sensors_;
     std::vector<double> sensed_;       // members: what each would read, then its distance from their mean
+    std::vector<double> workspace_;    // members
     std::vector<double> all_move_;     // members: 1
     std::vector<double> taut_move_;    // members: 1, or 0 for those that are slack
     std::vector<double*> corrected_;   // rows that a reading corrects

@@ -39,7 +39,9 @@ RowMoments row_moments(const double* HWY_RESTRICT row, std::size_t members) {
     return {mean, std::sqrt(squares / (count - 1.0))};
 }
 
-// `together` rows at once: their sums do not wait for one another.
+// `together` rows at once: their sums do not wait for one another. Distances from the first member, which is
+// within a few deviations of the mean, so that one pass finds the mean and the squares; what is sensed adds
+// up to none.
 template <int together>
 void correct_together(const RowCorrection& correction, double* const* rows, std::size_t members) {
     const RowTag d;
@@ -49,23 +51,22 @@ void correct_together(const RowCorrection& correction, double* const* rows, std:
     const double count = static_cast<double>(members);
     hn::Vec<RowTag> sums[together], own_sums[together], cross_sums[together];
     for (int k = 0; k < together; ++k) sums[k] = own_sums[k] = cross_sums[k] = hn::Zero(d);
-    for (std::size_t j = 0; j < members; j += hn::Lanes(d))
-        for (int k = 0; k < together; ++k) sums[k] = hn::Add(sums[k], hn::LoadU(d, rows[k] + j));
-    for (int k = 0; k < together; ++k) sums[k] = hn::Set(d, hn::GetLane(hn::SumOfLanes(d, sums[k])) / count);
     for (std::size_t j = 0; j < members; j += hn::Lanes(d)) {
         const auto seen = hn::LoadU(d, sensed + j);
         for (int k = 0; k < together; ++k) {
-            const auto off = hn::Sub(hn::LoadU(d, rows[k] + j), sums[k]);
-            own_sums[k] = hn::Add(own_sums[k], hn::Mul(off, off));
-            cross_sums[k] = hn::Add(cross_sums[k], hn::Mul(off, seen));
+            const auto off = hn::Sub(hn::LoadU(d, rows[k] + j), hn::Set(d, rows[k][0]));
+            sums[k] = hn::Add(sums[k], off);
+            own_sums[k] = hn::MulAdd(off, off, own_sums[k]);
+            cross_sums[k] = hn::MulAdd(off, seen, cross_sums[k]);
         }
     }
     for (int k = 0; k < together; ++k) {
-        const double own = hn::GetLane(hn::SumOfLanes(d, own_sums[k]));
+        const double sum = hn::GetLane(hn::SumOfLanes(d, sums[k]));
+        const double own = hn::GetLane(hn::SumOfLanes(d, own_sums[k])) - sum * sum / count;
         const double cross = hn::GetLane(hn::SumOfLanes(d, cross_sums[k]));
-        if (!(own > 0.0)) continue;
-        const double correlation = cross / std::sqrt(own * correction.sensed_squares);
-        const double screened = expected_fraction(correlation, count, correction.chance);
+        const double certain = own * correction.sensed_squares;
+        if (!(certain > 0.0)) continue;
+        const double screened = correction.expected.of_squared(cross * cross / certain);
         const double gain = cross / correction.total_squares;
         const double explained = screened * screened;
         const double closer_by = explained / (1.0 + std::sqrt(1.0 - explained * seen_fraction));
@@ -73,8 +74,8 @@ void correct_together(const RowCorrection& correction, double* const* rows, std:
         const auto closer = hn::Set(d, gain * closer_by);
         double* row = rows[k];
         for (std::size_t j = 0; j < members; j += hn::Lanes(d)) {
-            const auto by = hn::Sub(mean_by, hn::Mul(closer, hn::LoadU(d, sensed + j)));
-            hn::StoreU(hn::Add(hn::LoadU(d, row + j), hn::Mul(hn::LoadU(d, moves + j), by)), d, row + j);
+            const auto by = hn::NegMulAdd(closer, hn::LoadU(d, sensed + j), mean_by);
+            hn::StoreU(hn::MulAdd(hn::LoadU(d, moves + j), by, hn::LoadU(d, row + j)), d, row + j);
         }
     }
 }
@@ -116,6 +117,14 @@ double expected_fraction(double correlation, double members, double chance) {
     const double odds = correlated_probability / (1.0 - correlated_probability) / std::sqrt(1.0 + spread) *
                         std::exp(std::min(0.5 * sharpness * z * z * kept, 600.0));
     return std::tanh(kept * z) / found * odds / (1.0 + odds);
+}
+
+// The function changes fastest within 1 / members of the square; near 1 it bends as a power below 1, the more
+// the fewer the members.
+ExpectedFraction::ExpectedFraction(int members, double chance) : intervals_(8.0 * std::max(members, 256)) {
+    for (double k = 0.0; k <= intervals_; ++k)
+        table_.push_back(expected_fraction(std::sqrt(k / intervals_), members, chance));
+    table_.push_back(table_.back());
 }
 
 HWY_EXPORT(row_moments);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 namespace capstan {
 
@@ -12,6 +14,28 @@ struct RowMoments {
 };
 RowMoments moments_of_row(std::span<const double> row);
 
+/// Which fraction of a correlation of so many members is to be expected in truth: a correlation is none, or
+/// any between -1 and 1, each as likely (E58). `chance` is the variance of a correlation by chance, in that
+/// of so many independent members.
+double expected_fraction(double correlation, double members, double chance);
+
+/// The same from a table over the square of the correlation, within 1e-4.
+class ExpectedFraction {
+  public:
+    ExpectedFraction(int members, double chance);
+
+    double of_squared(double squared_correlation) const {
+        const double at = (squared_correlation < 1.0 ? squared_correlation : 1.0) * intervals_;
+        const auto below = static_cast<std::size_t>(at);
+        const double fraction = at - static_cast<double>(below);
+        return table_[below] + fraction * (table_[below + 1] - table_[below]);
+    }
+
+  private:
+    double intervals_;
+    std::vector<double> table_;  // the intervals' ends, the last of them twice
+};
+
 /// What a reading says to every row (E58).
 struct RowCorrection {
     std::span<const double> sensed;  ///< members: what each would read, less their mean
@@ -19,12 +43,8 @@ struct RowCorrection {
     double off = 0.0;                ///< the reading less the mean of what the members would read
     double sensed_squares = 0.0;     ///< sum of the squares of `sensed`
     double total_squares = 0.0;      ///< the same with the reading's noise
-    double chance = 1.0;  ///< variance of a correlation by chance, in that of so many independent members
+    const ExpectedFraction& expected;
 };
-
-/// Which fraction of a correlation of so many members is to be expected in truth: a correlation is none, or
-/// any between -1 and 1, each as likely (E58).
-double expected_fraction(double correlation, double members, double chance);
 
 /// Moves the mean of each row by the correlation with what is sensed, as far as it is to be expected in
 /// truth, and draws its members together by as much as that explains.

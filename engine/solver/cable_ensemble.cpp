@@ -62,7 +62,7 @@ CableEnsemble::CableEnsemble(const Cable& cable, int members)
     compliance_m_per_N_.assign(members_, cable.mean_segment_compliance_m_per_N());
     relative_length_.assign(cable.relative_length().begin(), cable.relative_length().end());
     motion_.assign(4 * static_cast<std::size_t>(members_), 0.0);
-    slack_.assign(members_, 0);
+    slack_.assign(members_, 0.0);
     left_.assign(members_, 0.0);
     for (int node = 0; node < nodes_; ++node) {
         for (double& each : tension_N(node)) each = scratch_.tension_N[node];
@@ -88,7 +88,7 @@ CableState CableEnsemble::state_of(int member) const {
 }
 
 void CableEnsemble::make_slack(int member) {
-    slack_[member] = 1;
+    slack_[member] = 1.0;
     for (int k = 0; k < 4; ++k) row(motion_, k)[member] = 0.0;
 }
 
@@ -96,7 +96,7 @@ EnsembleReport CableEnsemble::advance(double proximal_increment_m, const DistalE
     bool finite = std::isfinite(proximal_increment_m);
     for (const double value : distal.value) finite = finite && std::isfinite(value);
     if (!finite) throw InvalidInput({"cable ensemble: an input of this step is not a finite number"});
-    for (int member = 0; member < members_; ++member) left_[member] = slack_[member];
+    left_ = slack_;
     step_ensemble(EnsembleLanes::view_of(*this), {proximal_increment_m, distal.displacement_factor,
                                                   distal.tension_factor, distal.value.data(), left_.data()});
     EnsembleReport report;
@@ -132,7 +132,7 @@ bool CableEnsemble::search(int member, const EndConditions& ends) {
         displacement_m(node)[member] = scratch_.displacement_m[node];
     }
     const MotionPattern& pattern = scratch_.last_motion;
-    slack_[member] = pattern.kind == MotionKind::slack ? 1 : 0;
+    slack_[member] = pattern.kind == MotionKind::slack ? 1.0 : 0.0;
     row(motion_, 0)[member] = sign(pattern.proximal_direction);
     row(motion_, 1)[member] = pattern.proximal_moving_nodes;
     row(motion_, 2)[member] = sign(pattern.distal_direction);
@@ -148,11 +148,11 @@ MotionPattern CableEnsemble::pattern_of(int member) const {
     pattern.distal_direction = direction_of(row(motion_, 2)[member]);
     pattern.distal_moving_nodes = static_cast<int>(row(motion_, 3)[member]);
     const int moving = pattern.proximal_moving_nodes + pattern.distal_moving_nodes;
-    pattern.kind = slack_[member] != 0 ? MotionKind::slack
-                   : moving == 0       ? MotionKind::rest
-                   : moving < nodes_   ? MotionKind::partial
-                   : moving == nodes_  ? MotionKind::opposed
-                                       : MotionKind::mass;
+    pattern.kind = is_slack(member)   ? MotionKind::slack
+                   : moving == 0      ? MotionKind::rest
+                   : moving < nodes_  ? MotionKind::partial
+                   : moving == nodes_ ? MotionKind::opposed
+                                      : MotionKind::mass;
     return pattern;
 }
 

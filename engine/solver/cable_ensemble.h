@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -47,7 +46,8 @@ class CableEnsemble {
     std::span<const double> relative_length() const { return relative_length_; }        ///< segments
     void retune();
 
-    bool is_slack(int member) const { return slack_[member] != 0; }
+    std::span<const double> slack() const { return slack_; }  ///< members: 1 where slack, else 0
+    bool is_slack(int member) const { return slack_[member] != 0.0; }
     /// The member carries nothing from now on.
     void make_slack(int member);
     CableState state_of(int member) const;
@@ -82,8 +82,8 @@ class CableEnsemble {
     NodeTable next_tension_N_;             // nodes x members: what a step would write
     NodeTable next_displacement_m_;        // nodes x members
     NodeTable motion_;  // 4 x members: direction and count of the proximal side, of the distal side
-    std::vector<std::uint8_t> slack_;  // members
-    NodeTable left_;                   // members: 1 for those that the search has to solve
+    NodeTable slack_;   // members: 1 where slack
+    NodeTable left_;    // members: 1 for those that the search has to solve
     CableState scratch_;
     PrefixTables scratch_tables_;
 };

@@ -20,12 +20,19 @@ void make_ratios(const EnsembleView& view) {
     const Lanes one = lanes_of(1.0);
     for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
         const Lanes exponent = hn::Load(d, view.exponent + k);
-        const bool is_straight = hn::AllTrue(d, hn::Eq(exponent, hn::Zero(d)));
-        const Lanes ratio = is_straight ? one : hn::Exp(d, exponent);
+        Lanes ratio = one;
+        Lanes inverse = one;
+        Lanes breakaway = one;
+        if (!hn::AllTrue(d, hn::Eq(exponent, hn::Zero(d)))) {
+            ratio = hn::Exp(d, exponent);
+            inverse = hn::Div(one, ratio);
+            breakaway = view.static_to_dynamic == 1.0
+                            ? ratio
+                            : hn::Exp(d, hn::Mul(exponent, lanes_of(view.static_to_dynamic)));
+        }
         hn::Store(ratio, d, view.sliding_ratio + k);
-        hn::Store(is_straight ? one : hn::Div(one, ratio), d, view.inverse_ratio + k);
-        hn::Store(is_straight ? one : hn::Exp(d, hn::Mul(exponent, lanes_of(view.static_to_dynamic))), d,
-                  view.breakaway_ratio + k);
+        hn::Store(inverse, d, view.inverse_ratio + k);
+        hn::Store(breakaway, d, view.breakaway_ratio + k);
     }
 }
 

@@ -37,10 +37,11 @@ struct LaneSide {
     Lanes displacement_m;
 };
 
-// The cables of the members `at` to `at + lanes`, and what each side of them does.
+// The cables of the members `at` to `at + lanes`, and what each side of them does. View and inputs are
+// copies, which no store through a row's pointer can change, so that they stay in registers.
 struct LaneSides {
-    const EnsembleView& view;
-    const EnsembleInputs& inputs;
+    EnsembleView view;
+    EnsembleInputs inputs;
     std::size_t at;
     int last = view.nodes - 1;
     Lanes mean_half = hn::Mul(lanes_of(0.5), hn::Load(EnsembleTag(), view.compliance_m_per_N + at));
@@ -90,7 +91,8 @@ struct LaneSides {
         return hn::IfThenElseZero(hn::Gt(hn::Abs(change), rounding), way);
     }
 
-    // E3 and E4: how far the side's front goes.
+    // E3 and E4: how far the side's front goes. A tension is a pull over a compliance, and tensions are
+    // compared by multiplying with the latter, so that each side divides once.
     template <int outward>
     HWY_INLINE LaneSide front(Lanes direction, Lanes value, double displacement_factor, double tension_factor,
                               Lanes first_count) const {
@@ -102,6 +104,10 @@ struct LaneSides {
         side.count = hn::IfThenElseZero(open, lanes_of(view.nodes));
         Lanes ratio = lanes_of(1.0);
         Lanes elongation = zero;
+        Lanes stopped_pull = zero;
+        Lanes stopped_size = ratio;
+        Lanes stopped_anchor = zero;
+        Lanes stopped_compliance = zero;
         for (int count = 1; count <= last && !hn::AllFalse(d, open); ++count) {
             const int resting = outward > 0 ? count : last - count;
             const int segment = outward > 0 ? count - 1 : last - count;
@@ -110,27 +116,32 @@ struct LaneSides {
             const Lanes rest_N = tension_N(resting);
             const Lanes anchor =
                 hn::Sub(displacement_m(resting), hn::Mul(lanes_of(outward), hn::Mul(half, rest_N)));
-            const Lanes over = hn::Sub(lanes_of(tension_factor),
-                                       hn::Mul(lanes_of(outward * displacement_factor), compliance));
-            const Lanes tension =
-                hn::Div(hn::Sub(value, hn::Mul(lanes_of(displacement_factor), anchor)), over);
-            const Lanes front_N = hn::Mul(tension, ratio);
+            // Positive: the proximal end is prescribed, the distal one has no negative factors.
+            const Lanes size = hn::Sub(hn::Mul(lanes_of(displacement_factor), compliance),
+                                       lanes_of(outward * tension_factor));
+            const Lanes pull =
+                hn::Mul(lanes_of(-outward), hn::Sub(value, hn::Mul(lanes_of(displacement_factor), anchor)));
+            const Lanes front = hn::Mul(pull, ratio);
+            const Lanes rest = hn::Mul(rest_N, size);
             const Lanes hold = holding_ratio(segment);
-            const Which gives_growing = hn::And(grows, hn::Ge(rest_N, hn::Mul(front_N, hold)));
-            const Which gives_falling = hn::AndNot(grows, hn::Ge(front_N, hn::Mul(rest_N, hold)));
+            const Which gives_growing = hn::And(grows, hn::Ge(rest, hn::Mul(front, hold)));
+            const Which gives_falling = hn::AndNot(grows, hn::Ge(front, hn::Mul(rest, hold)));
             const Which holds =
                 hn::AndNot(hn::Or(gives_growing, gives_falling), hn::Ge(lanes_of(count), first_count));
             const Which stops = hn::And(open, holds);
             side.count = hn::IfThenElse(stops, lanes_of(count), side.count);
-            side.tension_N = hn::IfThenElse(stops, tension, side.tension_N);
-            side.displacement_m = hn::IfThenElse(
-                stops, hn::Sub(anchor, hn::Mul(lanes_of(outward), hn::Mul(compliance, tension))),
-                side.displacement_m);
+            stopped_pull = hn::IfThenElse(stops, pull, stopped_pull);
+            stopped_size = hn::IfThenElse(stops, size, stopped_size);
+            stopped_anchor = hn::IfThenElse(stops, anchor, stopped_anchor);
+            stopped_compliance = hn::IfThenElse(stops, compliance, stopped_compliance);
             open = hn::AndNot(stops, open);
             const Lanes next = beyond<outward>(ratio, segment, grows);
             elongation = hn::Add(elongation, hn::Mul(half, hn::Add(ratio, next)));
             ratio = next;
         }
+        side.tension_N = hn::Div(stopped_pull, stopped_size);
+        side.displacement_m =
+            hn::Sub(stopped_anchor, hn::Mul(lanes_of(outward), hn::Mul(stopped_compliance, side.tension_N)));
         return side;
     }
 

@@ -80,6 +80,7 @@ struct LaneTurn : LaneSides {
 
         ratio = one;
         elongation = zero;
+        const Lanes pull_of_all = hn::Sub(value, hn::Mul(lanes_of(inputs.displacement_factor), proximal_m));
         Turn turn{one, zero, one, zero, zero, zero, zero, zero};
         Lanes count = zero;
         Lanes ratio_before = one;
@@ -89,12 +90,17 @@ struct LaneTurn : LaneSides {
         for (int node = 0; node <= last && !hn::AllFalse(d, open); ++node) {
             const Lanes far_ratio = hn::Load(d, stored(view.next_tension_N, node));
             const Lanes far_elongation = hn::Load(d, stored(view.next_displacement_m, node));
-            const Lanes all_ratio = hn::Div(ratio, far_ratio);
-            const Lanes tension = end_tension(proximal_m, value, all_ratio,
-                                              hn::Add(elongation, hn::Mul(all_ratio, far_elongation)));
-            const Lanes here_m = hn::Add(proximal_m, hn::Mul(tension, elongation));
-            const Lanes moved = hn::Mul(direction, hn::Sub(here_m, displacement_m(node)));
-            const Which with_proximal = hn::And(hn::Gt(tension, zero), hn::Gt(moved, zero));
+            // Which way the node moves if the direction changes there: the signs of end_tension() and of the
+            // node's increment, without their divisions.
+            const Lanes pull = hn::Mul(pull_of_all, far_ratio);
+            const Lanes all_elongation =
+                hn::Add(hn::Mul(elongation, far_ratio), hn::Mul(ratio, far_elongation));
+            const Lanes size = hn::Add(hn::Mul(lanes_of(inputs.displacement_factor), all_elongation),
+                                       hn::Mul(lanes_of(inputs.tension_factor), ratio));
+            const Lanes ahead_m = hn::Sub(displacement_m(node), proximal_m);
+            const Lanes moved =
+                hn::Mul(direction, hn::Sub(hn::Mul(pull, elongation), hn::Mul(ahead_m, size)));
+            const Which with_proximal = hn::And(hn::Gt(pull, zero), hn::Gt(moved, zero));
             const Which stops = hn::AndNot(with_proximal, open);
             if (node == 0) {
                 mass_way = hn::IfThenElse(stops, hn::Neg(direction), mass_way);

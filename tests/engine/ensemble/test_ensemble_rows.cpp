@@ -32,8 +32,9 @@ struct SensedRow {
     void correct(double off, double noise_variance) {
         const double squares = dot(sensed, sensed);
         const double noise = noise_variance * (static_cast<double>(row.size()) - 1.0);
+        const ExpectedFraction expected(static_cast<int>(row.size()), 1.0);
         double* rows[] = {row.data()};
-        correct_rows({sensed, moves, off, squares, squares + noise, 1.0}, rows);
+        correct_rows({sensed, moves, off, squares, squares + noise, expected}, rows);
     }
 
     static double dot(const std::vector<double>& a, const std::vector<double>& b) {
@@ -64,7 +65,7 @@ TEST(EnsembleRows, TheSpreadFallsByWhatTheExpectedCorrelationExplains) {
         SensedRow sensed(64, correlation, 2);
         const double deviation = moments_of_row(sensed.sensed).deviation;
         const double before = std::pow(moments_of_row(sensed.row).deviation, 2);
-        const double expected = expected_fraction(correlation, 64.0, 1.0);
+        const double expected = ExpectedFraction(64, 1.0).of_squared(correlation * correlation);
         sensed.correct(0.7, 0.5);
         const RowMoments after = moments_of_row(sensed.row);
         const double total = deviation * deviation + 0.5;
@@ -87,6 +88,19 @@ TEST(EnsembleRows, CorrelationsByChanceAreMostlyLeftOutAndClearOnesKept) {
             EXPECT_LT(expected_fraction(r, 64.0, 2.0), expected_fraction(r, 64.0, 1.0)) << r;
         }
     }
+}
+
+// From the fewest to the most members of a configuration.
+TEST(EnsembleRows, TheTableOfExpectedFractionsIsWithinItsError) {
+    for (const int members : {16, 64, 128, 264, 1024})
+        for (const double chance : {1.0, 2.0}) {
+            const ExpectedFraction table(members, chance);
+            for (double r = 0.0; r < 1.0; r += 1.3e-5)
+                ASSERT_NEAR(table.of_squared(r * r), expected_fraction(r, members, chance), 1e-4)
+                    << members << " members, chance " << chance << ", r " << r;
+            EXPECT_NEAR(table.of_squared(1.0 + 1e-12), 1.0, 1e-6);
+            EXPECT_NEAR(table.of_squared(std::nan("")), 1.0, 1e-6);
+        }
 }
 
 TEST(EnsembleRows, AMemberThatIsLeftAloneKeepsItsValue) {
