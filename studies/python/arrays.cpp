@@ -1,8 +1,10 @@
 #include "arrays.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <limits>
+#include <memory>
 
 #include "capstan/cable/invalid_input.h"
 
@@ -92,6 +94,18 @@ std::vector<double> draws_of(const py::handle& given, const std::string& name) {
     return copied(array);
 }
 
+namespace {
+
+// Threads that write new memory take turns at the kernel for each page, so large arrays ask for large pages.
+void ask_for_large_pages(void* memory, std::size_t bytes) {
+    constexpr std::size_t page_bytes = std::size_t{2} << 20;
+    void* first = memory;
+    if (std::align(page_bytes, page_bytes, first, bytes) == nullptr) return;
+    madvise(first, bytes / page_bytes * page_bytes, MADV_HUGEPAGE);  // a hint: without it all is as before
+}
+
+}  // namespace
+
 ArrayMemory::ArrayMemory(std::vector<py::ssize_t> of_shape) : shape(std::move(of_shape)) {
     constexpr auto most = static_cast<std::size_t>(std::numeric_limits<py::ssize_t>::max()) / sizeof(double);
     std::size_t count = 1;
@@ -100,6 +114,7 @@ ArrayMemory::ArrayMemory(std::vector<py::ssize_t> of_shape) : shape(std::move(of
         count *= static_cast<std::size_t>(length);
     }
     numbers = std::make_unique_for_overwrite<double[]>(count);
+    ask_for_large_pages(numbers.get(), count * sizeof(double));
 }
 
 std::size_t ArrayMemory::size() const {

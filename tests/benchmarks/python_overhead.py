@@ -85,7 +85,7 @@ def main(build):
         cpp, python = (tuple(of(pair[side][k] for pair in pairs) for k in (0, 1)) for side in (0, 1))
         print(f"{name} of {ROUNDS}: batch of 128 draws x 1000 times x 41 nodes, one thread: C++ {1e3 * cpp[0]:.1f} ms, Python {1e3 * python[0]:.1f} ms, {100 * (python[0] / cpp[0] - 1):+.1f}%")
         print(f"{name} of {ROUNDS}: observer update, 12 segments, 32 members: C++ {1e6 * cpp[1]:.2f} us, Python {1e6 * python[1]:.2f} us, {1e6 * (python[1] - cpp[1]):+.2f} us")
-    many = lambda: [work() for _ in range(5)]  # 0.4 s: threads that begin may share a processor for a moment
+    many = lambda: [work() for _ in range(12)]  # 0.5 s: threads that begin may share a processor for a moment
     # In turn, and the shortest of many: other work on the machine leaves both processors free now and then.
     turns = [(shortest_s(1, many), shortest_s(1, lambda: in_two_threads(many))) for _ in range(25)]
     one, two = (min(turn[k] for turn in turns) for k in (0, 1))
