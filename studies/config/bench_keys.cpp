@@ -248,6 +248,12 @@ BenchKeys bench_keys() {
     return keys;
 }
 
+std::vector<KeyProblem> complete_bench(BenchPlan& plan, const KeyLines& lines,
+                                       const std::optional<std::filesystem::path>&) {
+    complete_static_friction(plan.cable, "cable", lines);
+    return {};
+}
+
 }  // namespace
 
 template <>
@@ -256,7 +262,7 @@ const ConfigSchema<BenchPlan>& config_schema<BenchPlan>() {
         "A bench for capstan: two cables between a motor pulley and a load pulley, and their inputs. "
         "Every key is listed with its default, which applies where the key is left out. Check a file "
         "with `capstan config check FILE`, run it with `capstan simulate FILE`.",
-        bench_sections(), bench_keys()};
+        bench_sections(), bench_keys(), complete_bench};
     return schema;
 }
 

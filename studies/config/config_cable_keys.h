@@ -3,6 +3,7 @@
 
 #include "capstan/cable/conduit.h"
 #include "capstan/config/config_key_makers.h"
+#include "capstan/config/config_problem.h"
 
 namespace capstan::config {
 
@@ -12,6 +13,14 @@ struct CableText {
     double default_pretension_N = 0.0;
     std::string segments_help;
 };
+
+/// The paper's static friction belongs to its dynamic friction: beside another one, static friction that
+/// section `at` leaves out is the same as dynamic friction.
+inline void complete_static_friction(CableSpecification& cable, const std::string& at,
+                                     const KeyLines& lines) {
+    if (lines.contains(at + ".dynamic_friction") && !lines.contains(at + ".static_friction"))
+        cable.static_friction = cable.dynamic_friction;
+}
 
 /// Keys of section `at` and of its repeated section `at`.curvature; `cable(plan)` refers to the
 /// specification.
@@ -35,7 +44,8 @@ void add_cable_keys(std::vector<ConfigKey<Plan>>& keys, const std::string& at, c
     add({at, "dynamic_friction", "", "Friction coefficient of a segment that slides."}, zero_or_more, 0.21,
         &CableSpecification::dynamic_friction);
     add({at, "static_friction", "",
-         "Friction coefficient of a segment about to slide; at least dynamic_friction."},
+         "Friction coefficient of a segment about to slide; at least dynamic_friction. Left out where "
+         "dynamic_friction is stated: the same as that."},
         zero_or_more, 0.63, &CableSpecification::static_friction);
     add({at, "pretension_N", "N", "Tension of the complete cable before the motion starts."}, zero_or_more,
         text.default_pretension_N, &CableSpecification::pretension_N);

@@ -315,6 +315,7 @@ std::vector<KeyProblem> complete_study(StudyPlan& plan, const KeyLines& lines,
     std::vector<KeyProblem> problems = make_pieces(plan, lines, folder);
     if (!lines.contains("transmission.cut"))
         plan.transmission.cut = plan.uncertainty.is_stated ? CableCut::at_bends : CableCut::even;
+    complete_static_friction(plan.transmission.cable, "transmission", lines);
     place_nodes(plan);
     if (plan.uncertainty.is_stated && !lines.contains("transmission.segments") && problems.empty())
         cut_by_rule(plan, lines);

@@ -40,7 +40,8 @@ std::optional<std::string> nearest_name(std::string_view name, std::span<const s
     for (const std::string& candidate : known) {
         const std::string other = lower_case(candidate);
         const bool begun = wanted.size() >= 3 && other.starts_with(wanted);
-        const std::size_t distance = begun ? 1 : edit_distance(wanted, other);
+        const bool is_part = wanted.size() >= 4 && other.find(wanted) != std::string::npos;
+        const std::size_t distance = begun ? 1 : is_part ? 2 : edit_distance(wanted, other);
         if (distance >= best || distance >= other.size()) continue;
         best = distance;
         nearest = candidate;

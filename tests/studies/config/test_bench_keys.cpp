@@ -94,8 +94,13 @@ TEST(BenchKeys, EveryEffectOfTheCatalogueHasItsKeys) {
 }
 
 TEST(BenchKeys, FrictionAtRestIsAtLeastThatOfSliding) {
-    EXPECT_THAT(bench_problems_in("[cable]\ndynamic_friction = 0.7\n"),
+    EXPECT_THAT(bench_problems_in("[cable]\ndynamic_friction = 0.7\nstatic_friction = 0.6\n"),
                 ElementsAre(HasSubstr("below dynamic_friction")));
+}
+
+TEST(BenchKeys, StaticFrictionFollowsAStatedDynamicFriction) {
+    EXPECT_EQ(plan_of("[cable]\ndynamic_friction = 0.7\n").cable.static_friction, 0.7);
+    EXPECT_EQ(plan_of("").cable.static_friction, 0.63);
 }
 
 }  // namespace

@@ -56,6 +56,17 @@ TEST(ConfigReader, UnknownKeyIsNamedWithLineAndNearestName) {
 TEST(ConfigReader, KeyWithoutItsUnitIsUnknownAndTheFullNameIsOffered) {
     EXPECT_THAT(problems_in("[transmission]\npretension = 5\n"),
                 ElementsAre(HasSubstr("did you mean 'pretension_N'?")));
+    EXPECT_THAT(problems_in("[transmission]\nfriction = 0.1\n"),
+                ElementsAre(HasSubstr("did you mean 'dynamic_friction'?")));
+}
+
+TEST(ConfigReader, StaticFrictionFollowsAStatedDynamicFriction) {
+    const auto static_friction = [](const std::string& keys) {
+        return parse_config("[transmission]\n" + keys, "x.toml").plan.transmission.cable.static_friction;
+    };
+    EXPECT_EQ(static_friction("dynamic_friction = 0.15\n"), 0.15);
+    EXPECT_EQ(static_friction("dynamic_friction = 0.15\nstatic_friction = 0.3\n"), 0.3);
+    EXPECT_EQ(static_friction(""), 0.63);
 }
 
 TEST(ConfigReader, KeyInTheWrongSectionIsReportedWithTheRightOne) {
