@@ -22,7 +22,10 @@ constexpr double named_offset_periods = 0.75;
 // where an offset is not to be expected.
 constexpr double named_offset_gain = 1.5;
 constexpr double named_delay_gain = 2.5;
-constexpr double named_offset_deviations = 3.0;  // it is larger than so many times its uncertainty
+// It is larger than so many times its uncertainty, in which the error of the model is not.
+constexpr double named_offset_uncertainties = 3.0;
+// A channel that is not shifted is off by no more than its offset and so many times that uncertainty.
+constexpr double stated_uncertainties = 2.0;
 // How wrong the model of friction may be, as a part of a channel's variance. Angles follow one another
 // exactly but for stretch.
 constexpr double angle_model_error = 1e-6;
@@ -169,7 +172,7 @@ bool settle_offset(ImportState& state, const ChannelOffset& found, const LogRun&
     const double gain = found.other_clock ? named_offset_gain : named_delay_gain;
     if (offset.unexplained_at_zero <= gain * offset.unexplained) return false;
     if (std::abs(offset.offset_s) <
-        std::max(named_offset_periods * found.period_s, named_offset_deviations * offset.uncertainty_s))
+        std::max(named_offset_periods * found.period_s, named_offset_uncertainties * offset.uncertainty_s))
         return false;
     for (std::size_t k = 0; k < state.kept.size(); ++k) {
         if (k == found.channel || (found.other_clock && same_clock(state, run, k, found.channel) &&
@@ -179,26 +182,40 @@ bool settle_offset(ImportState& state, const ChannelOffset& found, const LogRun&
     return found.other_clock;
 }
 
-// `offset`: nothing where no shift explains the channel.
-void note_doubt(ImportState& state, std::size_t k, const std::optional<ChannelOffset>& offset) {
-    if (is_constant(state, k)) return;
-    const std::string& name = state.report.channels[k];
-    const double known_to_s =
-        offset ? std::abs(offset->offset.offset_s) + named_offset_deviations * offset->offset.uncertainty_s
-               : 0.0;
-    if (offset && known_to_s <= named_offset_deviations * offset->period_s) return;
+// How far a channel that is not shifted is off at most. `offset`: nothing where no shift explains the
+// channel.
+double known_to_s(const std::optional<ChannelOffset>& offset) {
+    return offset ? std::abs(offset->offset.offset_s) + stated_uncertainties * offset->offset.uncertainty_s
+                  : longest_offset_s;
+}
+
+bool is_aligned(const std::optional<ChannelOffset>& offset) {
+    return offset && known_to_s(offset) <= 2.0 * offset->period_s;
+}
+
+// Said of all channels of the clock.
+void note_doubt(ImportState& state, std::size_t doubted, const std::optional<ChannelOffset>& offset,
+                const LogRun& run) {
     const std::string how =
         offset
-            ? fmt::format("this log tells how far they are off only to {:.0f} ms", 1e3 * known_to_s)
+            ? fmt::format("this log tells how far they are off only to {:.0f} ms", 1e3 * known_to_s(offset))
             : "this log does not tell how far they are off, as the other channels explain too little of it";
-    state.report.findings.push_back(
-        {.kind = FindingKind::clock_offset,
-         .channel = name,
-         .uncertainty = offset ? known_to_s : longest_offset_s,
-         .words = fmt::format(
-             "{} has times of its own (another file, table or topic), and {}; it is not shifted. State "
-             "clock_offset_s if it is known, or log a motion with several speeds",
-             name, how)});
+    for (std::size_t k = 0; k < state.kept.size(); ++k) {
+        if (!same_clock(state, run, k, doubted) || is_constant(state, k)) continue;
+        const std::string& name = state.report.channels[k];
+        state.report.findings.push_back(
+            {.kind = FindingKind::clock_offset,
+             .channel = name,
+             .uncertainty = known_to_s(offset),
+             .words =
+                 k == doubted
+                     ? fmt::format(
+                           "{} has times of its own (another file, table or topic), and {}; it is not "
+                           "shifted. State clock_offset_s if it is known, or log a motion with several speeds",
+                           name, how)
+                     : fmt::format("{} has the times of {}, and is not shifted either", name,
+                                   state.report.channels[doubted])});
+    }
 }
 
 }  // namespace
@@ -232,7 +249,8 @@ void align_clocks(ImportState& state) {
                 std::any_of(order.begin() + static_cast<std::ptrdiff_t>(at) + 1, order.end(),
                             [&](std::size_t later) { return same_clock(state, run, k, later); });
             if (!known && !offset && another_may_tell) continue;
-            if (!known && !settled) note_doubt(state, k, offset);
+            if (!known && !settled && !is_aligned(offset) && !is_constant(state, k))
+                note_doubt(state, k, offset, run);
         }
         aligned.push_back(k);
     }

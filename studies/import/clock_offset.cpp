@@ -94,8 +94,8 @@ class ShiftFit {
 struct BestShift {
     double shift = 0.0;  ///< samples, by a parabola through the three smallest
     double unexplained = 1.0;
-    bool inside = false;      ///< not at an end of the range
-    double half_range = 0.0;  ///< of the shifts that are as good within the model's error
+    bool inside = false;  ///< not at an end of the range
+    double reach = 0.0;   ///< to the farthest shift that is as good within the model's error
 };
 
 BestShift best_shift(const ShiftFit& fit, const Eigen::VectorXd& channel, Eigen::Index centre,
@@ -110,7 +110,7 @@ BestShift best_shift(const ShiftFit& fit, const Eigen::VectorXd& channel, Eigen:
     const double as_good = std::max(2.0 * *best, *best + model_error);
     const auto first = std::find_if(left.begin(), left.end(), [&](double each) { return each <= as_good; });
     const auto last = std::find_if(left.rbegin(), left.rend(), [&](double each) { return each <= as_good; });
-    found.half_range = 0.5 * static_cast<double>(last.base() - 1 - first);
+    found.reach = static_cast<double>(std::max(best - first, last.base() - 1 - best));
     if (found.inside) {
         const double curvature =
             left[static_cast<std::size_t>(at - 1)] + left[static_cast<std::size_t>(at + 1)] - 2 * *best;
@@ -120,6 +120,17 @@ BestShift best_shift(const ShiftFit& fit, const Eigen::VectorXd& channel, Eigen:
                            curvature;
     }
     return found;
+}
+
+// Half the 95% interval of the mean of independent estimates (Student), of which there are at least two.
+double half_interval(const std::vector<double>& estimates) {
+    constexpr std::array quantiles = {12.706, 4.303, 3.182};  // 97.5% of 1, 2 and 3 degrees of freedom
+    const auto count = static_cast<double>(estimates.size());
+    double mean = 0.0;
+    for (const double each : estimates) mean += each / count;
+    double squares = 0.0;
+    for (const double each : estimates) squares += (each - mean) * (each - mean);
+    return quantiles.at(estimates.size() - 2) * std::sqrt(squares / (count - 1.0) / count);
 }
 
 std::vector<double> every(const std::vector<double>& values, std::size_t step) {
@@ -166,11 +177,11 @@ std::optional<ClockOffset> offset_beside(const std::vector<double>& channel,
         if (quarter.inside && quarter.unexplained < largest_unexplained) estimates.push_back(quarter.shift);
     }
     if (!found.inside || found.unexplained > largest_unexplained || estimates.size() < 2) return std::nullopt;
-    const auto [low, high] = std::minmax_element(estimates.begin(), estimates.end());
     // A channel that shows something k samples later has a clock that is k samples behind.
-    const double wide = first.half_range >= 1.0 ? first.half_range * static_cast<double>(step) : 0.0;
-    return ClockOffset{-found.shift / sample_rate_Hz, std::max(0.5 * (*high - *low), wide) / sample_rate_Hz,
-                       found.unexplained, fine.unexplained(all, 0)};
+    const double wide = first.reach * static_cast<double>(step);
+    return ClockOffset{-found.shift / sample_rate_Hz,
+                       std::max(half_interval(estimates), wide) / sample_rate_Hz, found.unexplained,
+                       fine.unexplained(all, 0)};
 }
 
 }  // namespace
