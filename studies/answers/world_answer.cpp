@@ -124,6 +124,7 @@ std::vector<reports::Column> price_columns(const WorldAnswer& found) {
                                             {"covered_fraction", "in band", "", ".1%"},
                                             {"discretisation_error_N", "discretisation", "N", "+.3f"},
                                             {"error_95_discretisation_error_N", "of 95%", "N", "+.3f"},
+                                            {"same_reading", "same readings"},
                                             {"not_distinguished", "as good"}};
     if (found.bound) columns.push_back({"at_most_worse_N", "at most worse", "N", ".3f"});
     return columns;
@@ -228,8 +229,9 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
         .tables = {{"prices", "", price_columns(found), answer.values["prices"]}},
         .note = fmt::format(
             "All numbers are from {} worlds that had no part in choosing the set of a price; the price was chosen on them. Error: {}. 95% of worlds: the error stays below this in "
-            "95% of them. In band: true tensions within the estimator's 95% band; 95% if it is honest. As good: other sets of "
-            "the price that a paired t test does not tell from the best (5% over all sets and looks).{} {}",
+            "95% of them. In band: true tensions within the estimator's 95% band; 95% if it is honest. Same readings: sets with the sensors "
+            "elsewhere in the same straight pieces of conduit, where the tension is the same; they have the same errors, and the first of them is "
+            "named. As good: further sets of the price that a paired t test does not tell from the best (5% over all sets and looks).{} {}",
             found.worlds, objective_words(plan.placement.objective), bound_note(found),
             grid_words(plan, found))};
     reports::AnswerSection gains{
