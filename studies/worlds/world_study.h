@@ -26,6 +26,7 @@ struct Expected {
     double whole_cable_N = 0.0;
     double worst_place_N = 0.0;
     double covered_fraction = 0.0;  ///< of the true tensions within the 95% band
+    double covered_at_most = 0.0;   ///< upper end of its 95% interval over worlds
     /// Richardson's estimate of the objective's error - its exact value, on part of the worlds.
     double discretisation_N = 0.0;
     double error_95_discretisation_N = 0.0;  ///< the same of `error_95_N`
