@@ -55,6 +55,8 @@ std::string answer_csv(const Answer& answer);
 std::string answer_markdown(const Answer& answer);
 /// One page that needs no network. A figure without rows is left out.
 std::string answer_html(const Answer& answer);
+/// The same as the page of a study in `capstan serve`, which adds what can be asked there.
+std::string answer_live_html(const Answer& answer);
 
 enum class AnswerFormat { text, json, csv, markdown, html };
 std::string answer_in(const Answer& answer, AnswerFormat format);

@@ -66,9 +66,7 @@ std::string making_html(const Answer& answer) {
            "<h3>All tables</h3>\n<p>Six significant digits, as drawn.</p>\n<ul id=\"downloads\"></ul>\n";
 }
 
-}  // namespace
-
-std::string answer_html(const Answer& answer) {
+std::string answer_page(const Answer& answer, PageFiles files) {
     const Tables drawn(answer.drawn);
     PageFrame frame;
     std::vector<SectionLink> links;
@@ -91,7 +89,17 @@ std::string answer_html(const Answer& answer) {
     frame.navigation_html = navigation_html(frame.main_html, links, "");
     frame.footer = "Made by capstan " + program_version() + ".";
     frame.data_json = page_data(drawn, answer.id);
-    return page_html(frame);
+    return page_html(frame, files);
+}
+
+}  // namespace
+
+std::string answer_html(const Answer& answer) {
+    return answer_page(answer, PageFiles::inside);
+}
+
+std::string answer_live_html(const Answer& answer) {
+    return answer_page(answer, PageFiles::served);
 }
 
 }  // namespace capstan::reports

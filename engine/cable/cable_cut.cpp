@@ -67,4 +67,19 @@ CableSpecification refined(CableSpecification specification, int pieces) {
     return specification;
 }
 
+CableSpecification with_straight_joined(CableSpecification specification) {
+    const Cable cable(specification);
+    const auto is_straight = [&](int segment) {
+        return cable.wrap_angle_rad()[static_cast<std::size_t>(segment)] < smallest_wrap_rad;
+    };
+    std::vector<double> kept_m;
+    for (int node = 1; node < cable.segments(); ++node)
+        if (!is_straight(node - 1) || !is_straight(node)) kept_m.push_back(cable.node_position_m(node));
+    const int segments = static_cast<int>(kept_m.size()) + 1;
+    if (segments == specification.segments) return specification;
+    specification.node_places_m = std::move(kept_m);
+    specification.segments = segments;
+    return specification;
+}
+
 }  // namespace capstan

@@ -8,6 +8,8 @@ namespace capstan {
 
 /// Two places closer than this are one.
 inline constexpr double same_place_m = 1e-6;
+/// A segment with less is straight: it is rounding of where a bend ends.
+inline constexpr double smallest_wrap_rad = 1e-9;
 
 double length_m(const std::vector<CurvaturePiece>& pieces);
 
@@ -22,5 +24,9 @@ std::vector<double> node_positions_m(const CableSpecification& specification);
 
 /// The specification with every segment cut into `pieces` equal ones.
 CableSpecification refined(CableSpecification specification, int pieces);
+
+/// The specification with neighbouring straight segments made one: without friction between its ends (E1)
+/// nothing is different at the nodes that are left, but for rounding.
+CableSpecification with_straight_joined(CableSpecification specification);
 
 }  // namespace capstan

@@ -40,6 +40,8 @@ struct SensorErrors {
     double additive = 0.0;
     double zero = 0.0;
     double gain_ratio = 0.0;
+
+    bool operator==(const SensorErrors&) const = default;
 };
 
 /// A sensor that can be had at a place.

@@ -99,6 +99,27 @@ std::string narrow_band_words(const WorldAnswer& found) {
     return {};
 }
 
+// Where the band of a stated set promises more than it holds, in worlds as they are stated.
+std::string missed_band_words(const StudyPlan& plan, const WorldAnswer& found) {
+    constexpr double too_few = 0.93;
+    int sets = 0;
+    double least = 1.0;
+    for (const PriceBest& best : found.prices) {
+        if (best.expected.covered_at_most >= too_few) continue;
+        ++sets;
+        least = std::min(least, best.expected.covered_fraction);
+    }
+    if (sets == 0) return {};
+    const CableSpecification& cable = plan.transmission.cable;
+    return fmt::format(
+        " Bands that are too narrow, because they hold less than 93%: {} of {}, the worst {:.0f}%.{}", sets,
+        found.prices.size(), 100.0 * least,
+        cable.static_friction > cable.dynamic_friction
+            ? " With static friction above the dynamic one a segment sticks or slides, but the estimator takes what it "
+              "believes as normal; more segments or better sensors help."
+            : "");
+}
+
 std::string bound_note(const WorldAnswer& found) {
     if (!found.bound) return {};
     return fmt::format(
@@ -124,6 +145,7 @@ std::vector<reports::Column> price_columns(const WorldAnswer& found) {
                                             {"covered_fraction", "in band", "", ".1%"},
                                             {"discretisation_error_N", "discretisation", "N", "+.3f"},
                                             {"error_95_discretisation_error_N", "of 95%", "N", "+.3f"},
+                                            {"same_reading", "same readings"},
                                             {"not_distinguished", "as good"}};
     if (found.bound) columns.push_back({"at_most_worse_N", "at most worse", "N", ".3f"});
     return columns;
@@ -228,10 +250,11 @@ reports::Answer world_answer(const StudyPlan& plan, const WorldAnswer& found, st
         .tables = {{"prices", "", price_columns(found), answer.values["prices"]}},
         .note = fmt::format(
             "All numbers are from {} worlds that had no part in choosing the set of a price; the price was chosen on them. Error: {}. 95% of worlds: the error stays below this in "
-            "95% of them. In band: true tensions within the estimator's 95% band; 95% if it is honest. As good: other sets of "
-            "the price that a paired t test does not tell from the best (5% over all sets and looks).{} {}",
-            found.worlds, objective_words(plan.placement.objective), bound_note(found),
-            grid_words(plan, found))};
+            "95% of them. In band: true tensions within the estimator's 95% band; 95% if it is honest. Same readings: sets with the sensors "
+            "elsewhere in the same straight pieces of conduit, where the tension is the same; they have the same errors, and the first of them is "
+            "named. As good: further sets of the price that a paired t test does not tell from the best (5% over all sets and looks).{}{} {}",
+            found.worlds, objective_words(plan.placement.objective), missed_band_words(plan, found),
+            bound_note(found), grid_words(plan, found))};
     reports::AnswerSection gains{
         .id = "gains",
         .heading = "What else would help",

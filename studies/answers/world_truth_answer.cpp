@@ -22,10 +22,14 @@ reports::Answer world_truth_answer(const StudyPlan& told, const WorldAnswer& nom
     };
     const std::vector<std::string> effects = effects_there(told.truth.effects);
     const bool changes = advised(nominal) != advised(about_truth);
-    const bool is_tie =
-        changes && nominal.recommended && about_truth.recommended &&
-        std::any_of(about_truth.best().ties.begin(), about_truth.best().ties.end(),
-                    [&](int tie) { return about_truth.set(tie).sensors == advised(nominal); });
+    const auto is_as_good = [](const WorldAnswer& found, const std::vector<int>& sensors) {
+        const auto is_it = [&](int set) { return found.set(set).sensors == sensors; };
+        const PriceBest& best = found.best();
+        return std::any_of(best.ties.begin(), best.ties.end(), is_it) ||
+               std::any_of(best.alike.begin(), best.alike.end(), is_it);
+    };
+    const bool is_tie = changes && nominal.recommended && about_truth.recommended &&
+                        is_as_good(about_truth, advised(nominal));
     reports::Answer answer;
     answer.id = "world_truth";
     answer.kind = "Sensor placement with and without what was found";

@@ -123,6 +123,12 @@ Data recommendation_data(const StudyPlan& plan, const WorldAnswer& found) {
     data["beats_no_sensor"] = found.recommended.has_value();
     data["gain_over_no_sensor"] = gain_data("the recommended sensors", found.gain_over_none);
     data["gains"] = gains_data(plan, found);
+    Data anywhere = Data::list();
+    for (const int sensor : found.set(expected.candidate).sensors) {
+        const StraightPiece& piece = found.pieces[static_cast<std::size_t>(sensor)];
+        anywhere.push_back(Data::list({piece.from_m, piece.to_m}));
+    }
+    data["same_reading_m"] = std::move(anywhere);
     Data ties = Data::list();
     if (found.recommended)
         for (const int tie : found.best().ties) ties.push_back(found.words(tie));
@@ -151,6 +157,7 @@ Data prices_data(const StudyPlan& plan, const WorldAnswer& found) {
                                          : best.on_front        ? "best of its price"
                                                                 : "no gain over cheaper");
         row["compared"] = best.candidates;
+        row["same_reading"] = best.alike.size();
         row["not_distinguished"] = best.ties.size();
         row["selected_error_N"] = best.selected_N;
         if (found.bound) row["at_most_worse_N"] = found.bound->of_prices[k].value_N;

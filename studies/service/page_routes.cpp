@@ -3,6 +3,7 @@
 #include <openssl/evp.h>
 
 #include "capstan/answers/glossary.h"
+#include "capstan/answers/placement_answers.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/reports/embedded_files.h"
 #include "capstan/reports/page_frame.h"
@@ -76,6 +77,14 @@ std::string diagnosis_page(RouteContext& context, std::int64_t id) {
     return reports::answer_html(stored_answer_of(context, id));
 }
 
+// A complete study over worlds has an answer of its own.
+std::string study_page(storage::Database& database, std::int64_t id) {
+    const StudyPlan plan = load_stored_study(database, id).plan;
+    if (!plan.uncertainty.is_stated || !study_state(database, id).is_complete)
+        return reports::study_live_html(database, id);
+    return reports::answer_live_html(answers::stored_world_answer(database, id, plan));
+}
+
 std::string comparison_page(RouteContext& context, std::int64_t first, std::int64_t second) {
     storage::Database database = context.open();
     for (const std::int64_t id : {first, second}) {
@@ -132,10 +141,8 @@ void add_page_routes(http::Server& server, RouteContext& context) {
     const auto study = [&context](const http::Request& request, http::Response& response) {
         storage::Database database = context.open();
         const std::int64_t id = number_in_path(request);
-        send_kept(
-            response,
-            context.about_study("page", database, id, [&] { return reports::study_live_html(database, id); }),
-            html);
+        send_kept(response,
+                  context.about_study("page", database, id, [&] { return study_page(database, id); }), html);
     };
     const auto reports_lane = static_cast<std::size_t>(Lane::reports);
     server.add("GET", "/studies/{study_id}", study, reports_lane);

@@ -67,14 +67,17 @@ class Choice {
         result.objective = mean_of(contributions(objective_, all));
         result.error_95_N = quantile_of(all, 0.95);
         double squares = 0.0;
+        std::vector<double> covered;
         for (int world = first; world < last; ++world) {
             const WorldError& error = table_.at(Condition::as_stated, candidate, world);
             squares += error.mean_square_N2 / worlds();
             result.load_end_N += error.load_end_N / worlds();
             result.whole_cable_N += error.mean_abs_N / worlds();
             result.worst_place_N += error.worst_place_N / worlds();
-            result.covered_fraction += error.covered_fraction / worlds();
+            covered.push_back(error.covered_fraction);
         }
+        result.covered_fraction = mean_of(covered).value_N;
+        result.covered_at_most = mean_of(covered).high_N;
         result.rms_N = std::sqrt(squares);
         return result;
     }

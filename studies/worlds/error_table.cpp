@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/worlds/sensor_places.h"
+#include "capstan/worlds/straight_pieces.h"
 
 namespace capstan {
 
 namespace {
 
-// A task draws its world once; with this many candidates that costs nothing beside the trials.
-constexpr std::size_t candidates_at_once = 32;
+// A task draws its world once; with this many questions to the filter that costs nothing beside them.
+constexpr std::size_t questions_at_once = 32;
 // Tasks whose entries are kept together: progress and stopping come no more often.
 constexpr std::size_t tasks_at_once = 32;
 
@@ -112,6 +114,7 @@ ErrorTable::ErrorTable(const StudyPlan& plan, TableOptions options)
     questions_.resize(conditions);
     rows_.resize(conditions);
     candidates_ = candidates_of(plan_, question_of(Condition::as_stated).offers);
+    first_alike_ = first_alike(plan_, offers());
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
         const int number = static_cast<int>(k);
         if (candidates_[k].is_bound) bound_ = number;
@@ -135,6 +138,9 @@ const WorldQuestion& ErrorTable::question_of(Condition condition) {
         StudyPlan plan = plan_under(condition, plan_);
         if (condition == Condition::sensors_known) plan.sensors = calibrated_sensors(plan);
         question = std::make_unique<WorldQuestion>(world_question(plan, pieces_under(condition)));
+        // The paper's methods average over patterns of all segments, and effects act along straight conduit.
+        if (paper_method(condition) == nullptr && !plan_.truth.has_effects())
+            question->cable = UncertainCable(with_straight_joined(question->cable.nominal()));
         // The offers stay where they are, whatever the grid.
         question->offers = condition == Condition::sensors_known ? sensor_offers(plan) : sensor_offers(plan_);
     }
@@ -156,26 +162,47 @@ void ErrorTable::offer(const TableEntry& entry) {
     offered_.insert({{entry.condition, entry.candidate, entry.world}, entry.error});
 }
 
-void ErrorTable::fill(Condition condition, std::span<const int> candidates, int first, int last,
-                      std::string_view activity, int stride) {
+// What the estimator is asked: sensors whose readings are the same stand for one another in the ensemble
+// filter; the paper's methods take each at its own place.
+std::vector<int> ErrorTable::sensors_asked(Condition condition, int candidate) const {
+    std::vector<int> sensors = candidates_[static_cast<std::size_t>(candidate)].sensors;
+    if (paper_method(condition) != nullptr) return sensors;
+    for (int& sensor : sensors) sensor = first_alike_[static_cast<std::size_t>(sensor)];
+    return sensors;
+}
+
+// What is missing, candidates with the same question side by side.
+std::vector<ErrorTable::Task> ErrorTable::tasks(Condition condition, std::span<const int> candidates,
+                                                int first, int last, int stride) const {
+    std::map<std::vector<int>, std::vector<int>> by_question;
+    for (const int candidate : candidates)
+        by_question[sensors_asked(condition, candidate)].push_back(candidate);
     std::vector<Task> tasks;
-    std::size_t trials = 0;
     for (int world = first; world < last; world += stride) {
         Task task{world, {}};
-        for (const int candidate : candidates) {
-            if (has(condition, candidate, world)) continue;
-            task.candidates.push_back(candidate);
-            ++trials;
-            if (task.candidates.size() < candidates_at_once) continue;
+        for (const auto& [sensors, alike] : by_question) {
+            const std::size_t before = task.candidates.size();
+            std::copy_if(alike.begin(), alike.end(), std::back_inserter(task.candidates),
+                         [&](int candidate) { return !has(condition, candidate, world); });
+            if (task.candidates.size() > before) ++task.questions;
+            if (task.questions < questions_at_once) continue;
             tasks.push_back(std::move(task));
             task = {world, {}};
         }
         if (!task.candidates.empty()) tasks.push_back(std::move(task));
     }
+    return tasks;
+}
+
+void ErrorTable::fill(Condition condition, std::span<const int> candidates, int first, int last,
+                      std::string_view activity, int stride) {
+    const std::vector<Task> tasks = this->tasks(condition, candidates, first, last, stride);
+    double trials = 0.0;
+    for (const Task& task : tasks) trials += static_cast<double>(task.candidates.size());
     if (tasks.empty()) return;
     const WorldQuestion& question = question_of(condition);
     if (const FusionMethod* paper = paper_method(condition); paper != nullptr && paper->uses_weights)
-        weigh(candidates);
+        weigh(condition, candidates);
     std::size_t done = 0;
     for (std::size_t from = 0; from < tasks.size(); from += tasks_at_once) {
         if (options_.stop != nullptr && *options_.stop) throw TableStopped{};
@@ -190,14 +217,13 @@ void ErrorTable::fill(Condition condition, std::span<const int> candidates, int 
         for (const TableEntry& entry : entries) take(entry);
         if (options_.keep) options_.keep(entries);
         done += entries.size();
-        if (options_.on_progress)
-            options_.on_progress({activity, static_cast<double>(done), static_cast<double>(trials)});
+        if (options_.on_progress) options_.on_progress({activity, static_cast<double>(done), trials});
     }
 }
 
 // The weights of the candidates' tension sensors, as the W methods need them.
-void ErrorTable::weigh(std::span<const int> candidates) {
-    const WorldQuestion& question = question_of(Condition::as_stated);
+void ErrorTable::weigh(Condition condition, std::span<const int> candidates) {
+    const WorldQuestion& question = question_of(condition);
     paper_weight_.resize(question.offers.size(), 0.0);
     std::vector<int> missing;
     for (const int candidate : candidates) {
@@ -229,12 +255,16 @@ std::vector<TableEntry> ErrorTable::run(Condition condition, const WorldQuestion
     const World world = draw_world(question, static_cast<std::uint32_t>(task.world));
     const EnsembleDraws draws = ensemble_draws(question, static_cast<std::uint32_t>(task.world));
     const CableBelief belief = belief_under(condition, question.belief, world);
+    const FusionMethod* paper = paper_method(condition);
+    std::vector<int> asked;
+    std::optional<WorldError> answer;
     for (const int candidate : candidates) {
-        const std::vector<int>& sensors = candidates_[static_cast<std::size_t>(candidate)].sensors;
-        const FusionMethod* paper = paper_method(condition);
-        entries.push_back({condition, candidate, task.world,
-                           paper != nullptr ? paper_error(question, world, sensors, *paper, paper_weight_)
-                                            : filter_error(question, belief, world, draws, sensors)});
+        const std::vector<int> sensors = sensors_asked(condition, candidate);
+        if (!answer || sensors != asked)
+            answer = paper != nullptr ? paper_error(question, world, sensors, *paper, paper_weight_)
+                                      : filter_error(question, belief, world, draws, sensors);
+        asked = sensors;
+        entries.push_back({condition, candidate, task.world, *answer});
     }
     return entries;
 }

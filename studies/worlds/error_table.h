@@ -67,7 +67,9 @@ struct TableOptions {
 struct TableStopped {};
 
 /// The one table of errors, candidate x condition x world, filled as it is asked. An entry depends on nothing
-/// but its address, so it does not matter which were there before, or who computed them.
+/// but its address, so it does not matter which were there before, or who computed them. Sets of sensors
+/// whose readings are the same (first_alike()) are one question to the ensemble filter: it answers with the
+/// first place of each straight piece, for all of them.
 class ErrorTable {
   public:
     ErrorTable(const StudyPlan& plan, TableOptions options);
@@ -90,6 +92,10 @@ class ErrorTable {
     void fill(Condition condition, std::span<const int> candidates, int first, int last,
               std::string_view activity, int stride = 1);
 
+    /// Whether the sensors of two candidates read the same in every world.
+    bool are_alike(int candidate, int other) const {
+        return sensors_asked(Condition::as_stated, candidate) == sensors_asked(Condition::as_stated, other);
+    }
     bool has(Condition condition, int candidate, int world) const;
     /// How many entries there are of the worlds before `last`.
     std::size_t entries(Condition condition, int last) const;
@@ -104,16 +110,21 @@ class ErrorTable {
     struct Task {
         int world = 0;
         std::vector<int> candidates;
+        std::size_t questions = 0;
     };
     using Row = std::vector<std::optional<WorldError>>;  // worlds
 
     const WorldQuestion& question_of(Condition condition);
-    void weigh(std::span<const int> candidates);
+    std::vector<int> sensors_asked(Condition condition, int candidate) const;
+    std::vector<Task> tasks(Condition condition, std::span<const int> candidates, int first, int last,
+                            int stride) const;
+    void weigh(Condition condition, std::span<const int> candidates);
     std::vector<TableEntry> run(Condition condition, const WorldQuestion& question, const Task& task) const;
 
     StudyPlan plan_;
     TableOptions options_;
     std::vector<Candidate> candidates_;
+    std::vector<int> first_alike_;  // offers
     std::optional<int> bound_;
     std::map<std::vector<int>, int> number_of_;              // sensors: candidate
     std::vector<double> paper_weight_;                       // offers; 0: not needed yet

@@ -61,6 +61,9 @@ std::vector<PriceBest> best_of_each_price(Choice& choice, std::vector<Group>& gr
         best.selected_N = choice.score(group.left.front(), 0, group.worlds);
         best.ties.assign(group.left.begin() + 1, group.left.end());
         best.ties.insert(best.ties.end(), group.settled.begin(), group.settled.end());
+        const auto is_alike = [&](int tie) { return choice.table().are_alike(tie, group.left.front()); };
+        std::copy_if(best.ties.begin(), best.ties.end(), std::back_inserter(best.alike), is_alike);
+        std::erase_if(best.ties, is_alike);
         best.on_front = best.expected.objective.value_N < least_N;
         least_N = std::min(least_N, best.expected.objective.value_N);
         prices.push_back(std::move(best));
@@ -136,6 +139,7 @@ WorldAnswer choose_of_each_price(Choice& choice) {
     if (choice.table().grows()) search_greedily(choice);
     WorldAnswer answer;
     answer.offers = choice.table().offers();
+    answer.pieces = straight_pieces(choice.table().plan(), answer.offers);
     answer.candidates = choice.table().candidates();
     answer.worlds = choice.worlds();
     answer.resolution_N = choice.resolution_N();

@@ -108,6 +108,20 @@ std::string_view thing_known(Condition condition) {
     }
 }
 
+// Where else the recommended sensors would do as well.
+std::string pieces_words(const WorldAnswer& answer) {
+    std::vector<std::string> pieces;
+    for (const int sensor : answer.set(answer.best().expected.candidate).sensors) {
+        const StraightPiece& piece = answer.pieces[static_cast<std::size_t>(sensor)];
+        if (!(piece.from_m < piece.to_m)) continue;
+        const std::string words = fmt::format("from {:.3g} to {:.3g} m", piece.from_m, piece.to_m);
+        if (pieces.empty() || pieces.back() != words) pieces.push_back(words);
+    }
+    if (pieces.empty()) return {};
+    return fmt::format(" A sensor reads the same anywhere in its straight piece of conduit: {}.",
+                       fmt::join(pieces, ", "));
+}
+
 std::string bound_words(const WorldAnswer& answer) {
     if (!answer.bound) return {};
     const Estimated& gap = answer.bound->gap;
@@ -131,6 +145,7 @@ std::string sentence_of(const StudyPlan& plan, const WorldAnswer& answer) {
     std::string text = fmt::format(
         "Use {}. {} Without any sensor it is {:.3f} N.", answer.words(answer.best().expected.candidate),
         expectation(objective, answer.best().expected), answer.no_sensor.objective.value_N);
+    text += pieces_words(answer);
     text += bound_words(answer);
     if (answer.further)
         text +=

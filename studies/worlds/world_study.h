@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "capstan/worlds/error_table.h"
+#include "capstan/worlds/straight_pieces.h"
 
 namespace capstan {
 
@@ -25,6 +26,7 @@ struct Expected {
     double whole_cable_N = 0.0;
     double worst_place_N = 0.0;
     double covered_fraction = 0.0;  ///< of the true tensions within the 95% band
+    double covered_at_most = 0.0;   ///< upper end of its 95% interval over worlds
     /// Richardson's estimate of the objective's error - its exact value, on part of the worlds.
     double discretisation_N = 0.0;
     double error_95_discretisation_N = 0.0;  ///< the same of `error_95_N`
@@ -37,6 +39,7 @@ struct PriceBest {
     int candidates = 0;  ///< of this price
     Expected expected;
     double selected_N = 0.0;  ///< the objective on the worlds that chose it
+    std::vector<int> alike;   ///< others whose sensors read the same, so that their errors are the same
     std::vector<int> ties;    ///< others that the worlds do not tell from it (paired t, Bonferroni, 5%), or
                               ///< that can be better by no more than the resolution
     bool on_front = false;    ///< better than everything cheaper
@@ -88,6 +91,7 @@ struct PaperComparison {
 
 struct WorldAnswer {
     std::vector<SensorOffer> offers;
+    std::vector<StraightPiece> pieces;  ///< offers: where else each would read the same
     std::vector<Candidate> candidates;  ///< what `candidate` counts everywhere
     int worlds = 0;                     ///< for choosing, and as many others for what is expected
     double resolution_N = 0.0;          ///< differences below this were not followed up

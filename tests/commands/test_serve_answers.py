@@ -1,6 +1,7 @@
 """Questions that the service answers on a page of their own: the same bits as at the shell, behind the same queue."""
 
 import json
+import re
 import signal
 import unittest
 
@@ -40,6 +41,31 @@ class ServeAnswers(ServiceTest):
             expected = self.run_capstan(command, "shell.toml", *words, "--json", "--progress", "none").stdout
             self.assertEqual(self.answer_of(job), expected, command)
         self.assertEqual(self.get("/api/studies"), [])  # nothing is stored in the database
+
+    def test_one_question_over_worlds_has_one_answer(self):
+        """Through study run, recommend, place, the service and its page, with and without constraints."""
+        self.serve()
+        for number, toml in enumerate((ARM, ARM + CONSTRAINTS), 1):
+            self.write("arm.toml", toml)
+            ran = json.loads(self.run_capstan("study", "run", "arm.toml", "--db", f"{number}.db", "--json").stdout)
+            job = self.post("/api/studies", {"config_toml": toml}, expect=202)[0]
+            self.assertEqual(self.await_job(job["job"], "done")["state"], "done")
+            for answer in (json.loads(self.run_capstan("recommend", "--db", f"{number}.db", "--json").stdout),
+                           json.loads(self.run_capstan("place", "arm.toml", "--json").stdout),
+                           self.get(f"/api/studies/{number}/recommendation")):
+                for key in ("recommendations", "prices", "robustness"):
+                    self.assertEqual(answer[key], ran[key], key)
+            self.run_capstan("report", "--db", f"{number}.db", "-o", "report.html")
+            page = self.ask("GET", f"/studies/{number}")[2].decode()
+            self.assertEqual(self.drawn(page), self.drawn((self.folder / "report.html").read_text()))
+            self.assertIn(f"use {ran['recommendations'][0]['set']}: expected error "
+                          f"{ran['recommendations'][0]['expected_error_N']:.3f} N", page)
+
+    @staticmethod
+    def drawn(page):
+        """The numbers behind the figures of a page."""
+        tables = json.loads(re.search(r'id="study-data">(.*?)</script>', page)[1])["tables"]
+        return {name: tables[name] for name in ("world_front", "world_place")}
 
     def test_of_a_recording(self):
         self.serve()

@@ -58,6 +58,48 @@ forbidden_m = [0.0, 0.3]
 required_m = [0.8]
 """
 
+# A sensor at the motor whose noise is a tenth of a large tension, and segments that stick.
+STICKING = """
+name = "sticking"
+repetitions = 20
+
+[transmission]
+segments = 4
+cut = "even"
+axial_stiffness_N = 7300
+dynamic_friction = 0.36
+static_friction = 0.69
+pretension_N = 21
+
+[[transmission.curvature]]
+length_m = 2.6
+bend_radius_m = 0.35
+
+[motion]
+sample_rate_Hz = 100
+samples = 120
+
+[motion.proximal]
+amplitude_m = 0.0013
+frequency_Hz = 1
+
+[uncertainty]
+far_end_range_m = 0.002
+stiffness_fraction = 0.15
+pretension_fraction = 0.3
+
+[[sensor]]
+kind = "tension"
+places_m = [0.0]
+noise_ratio = 0.1
+noise_N = 0.1
+zero_N = 0.13
+
+[layouts]
+families = "all"
+counts = [1]
+"""
+
 
 class Worlds(CapstanTest):
     def setUp(self):
@@ -167,6 +209,14 @@ class Worlds(CapstanTest):
         self.assertIn("calibrating friction", gains)
         words = self.run_capstan("place", "arm.toml").stdout
         self.assertIn("Without any sensor it is", words)
+
+    def test_a_band_that_is_too_narrow_is_named(self):
+        self.write("sticking.toml", STICKING)
+        self.write("sliding.toml", STICKING.replace("static_friction = 0.69", "static_friction = 0.36"))
+        words = {name: " ".join(self.run_capstan("place", f"{name}.toml").stdout.split()) for name in ("sticking", "sliding")}
+        self.assertIn("Bands that are too narrow, because they hold less than 93%: 1 of 1", words["sticking"])
+        self.assertIn("a segment sticks or slides", words["sticking"])
+        self.assertNotIn("too narrow, because", words["sliding"])
 
     def test_constraints_are_obeyed_and_named_where_they_clash(self):
         self.write("near.toml", ARM + CONSTRAINTS)

@@ -20,6 +20,7 @@ inline void expect_the_same_answer(const WorldAnswer& a, const WorldAnswer& b) {
     ASSERT_EQ(a.prices.size(), b.prices.size());
     for (std::size_t k = 0; k < a.prices.size(); ++k) {
         EXPECT_TRUE(same(a.prices[k].expected, b.prices[k].expected)) << k;
+        EXPECT_EQ(a.prices[k].alike, b.prices[k].alike);
         EXPECT_EQ(a.prices[k].ties, b.prices[k].ties);
     }
     EXPECT_EQ(a.further_gain.value_N, b.further_gain.value_N);
