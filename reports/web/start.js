@@ -23,7 +23,8 @@
     if (cost.problems) throw new Error(cost.problems);
     const told = cost.known ? `${cost.studies === 1 ? what + " takes" : cost.studies + " studies take"} ${cost.is_at_least ? "at least" : "about"} ${duration(cost)} on this machine.` : "";
     at(form + "-cost-words").textContent = [doubt, told].filter(Boolean).join(" ");
-    if (!doubt && (!cost.known || cost.seconds <= asks_above_s)) return true;
+    const is_short = !cost.known || (cost.seconds <= asks_above_s && !cost.is_at_least);
+    if (!doubt && is_short) return true;
     at(form + "-cost").hidden = false;
     at(form + "-anyway").focus();
     const is_wanted = await new Promise((decided) => { decide = decided; });

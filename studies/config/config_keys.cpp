@@ -69,9 +69,10 @@ void add_transmission_keys(std::vector<StudyKey>& keys) {
     StudyKey cut = choice<CableCut>(
         {at, "cut", "",
          "Where nodes lie: \"even\" cuts equal segments; \"at_bends\" puts nodes at both ends of every bend and at the "
-         "places of the tension sensors, and spreads the others between them as evenly as possible. It is \"at_bends\" "
-         "with [uncertainty], else \"even\"."},
-        {{"even", CableCut::even}, {"at_bends", CableCut::at_bends}}, {},
+         "places of the tension sensors, and spreads the others between them as evenly as possible; \"in_bends\" puts "
+         "these others where the cable turns most between two nodes, as friction acts in bends alone. With "
+         "[uncertainty] it is \"at_bends\", or \"in_bends\" where segments is left out too; else \"even\"."},
+        {{"even", CableCut::even}, {"at_bends", CableCut::at_bends}, {"in_bends", CableCut::in_bends}}, {},
         [](auto& plan, int) -> auto& { return plan.transmission.cut; });
     keys.push_back(std::move(cut));
     add_conduit_keys(keys);
@@ -313,12 +314,14 @@ void cut_by_rule(StudyPlan& plan, const KeyLines& lines) {
 std::vector<KeyProblem> complete_study(StudyPlan& plan, const KeyLines& lines,
                                        const std::optional<std::filesystem::path>& folder) {
     std::vector<KeyProblem> problems = make_pieces(plan, lines, folder);
+    const bool by_rule = plan.uncertainty.is_stated && !lines.contains("transmission.segments");
     if (!lines.contains("transmission.cut"))
-        plan.transmission.cut = plan.uncertainty.is_stated ? CableCut::at_bends : CableCut::even;
+        plan.transmission.cut = by_rule                      ? CableCut::in_bends
+                                : plan.uncertainty.is_stated ? CableCut::at_bends
+                                                             : CableCut::even;
     complete_static_friction(plan.transmission.cable, "transmission", lines);
+    if (by_rule && problems.empty()) cut_by_rule(plan, lines);
     place_nodes(plan);
-    if (plan.uncertainty.is_stated && !lines.contains("transmission.segments") && problems.empty())
-        cut_by_rule(plan, lines);
     return problems;
 }
 

@@ -16,6 +16,39 @@ namespace {
 constexpr double max_static_exponent_beyond_dynamic = 0.03;
 constexpr double max_dynamic_exponent = 0.1;
 
+double bend_radius_at(const std::vector<CurvaturePiece>& pieces, double place_m) {
+    double end_m = 0.0;
+    for (const CurvaturePiece& piece : pieces)
+        if (place_m < (end_m += piece.length_m)) return piece.bend_radius_m;
+    return straight;
+}
+
+// All inner nodes: those places, which bends begin and end at, and the others one by one where the conduit
+// turns most between two nodes; of a straight conduit where it is longest.
+std::vector<double> with_nodes_in_bends(const std::vector<double>& places_m,
+                                        const CableSpecification& cable) {
+    std::vector<double> ends_m{0.0};
+    ends_m.insert(ends_m.end(), places_m.begin(), places_m.end());
+    ends_m.push_back(length_m(cable.curvature));
+    std::vector<int> parts(ends_m.size() - 1, 1);
+    const auto turn = [&](std::size_t k) {
+        const double part_m = (ends_m[k + 1] - ends_m[k]) / parts[k];
+        return std::pair(part_m / bend_radius_at(cable.curvature, 0.5 * (ends_m[k] + ends_m[k + 1])), part_m);
+    };
+    for (int left = cable.segments - static_cast<int>(parts.size()); left > 0; --left) {
+        std::size_t most = 0;
+        for (std::size_t k = 1; k < parts.size(); ++k)
+            if (turn(k) > turn(most)) most = k;
+        ++parts[most];
+    }
+    std::vector<double> nodes_m;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (int part = 0; part < parts[k]; ++part)
+            nodes_m.push_back(ends_m[k] + (ends_m[k + 1] - ends_m[k]) * part / parts[k]);
+    nodes_m.erase(nodes_m.begin());
+    return nodes_m;
+}
+
 }  // namespace
 
 void place_nodes(StudyPlan& plan) {
@@ -27,10 +60,12 @@ void place_nodes(StudyPlan& plan) {
         if (row.kind == SensorKind::tension)
             places_m.insert(places_m.end(), row.places_m.begin(), row.places_m.end());
     cable.node_places_m = distinct_places_m(std::move(places_m), length_m(cable.curvature));
+    if (plan.transmission.cut == CableCut::in_bends)
+        cable.node_places_m = with_nodes_in_bends(cable.node_places_m, cable);
 }
 
-int default_segments(const StudyPlan& plan) {
-    CableSpecification cable = plan.transmission.cable;
+int default_segments(StudyPlan plan) {
+    CableSpecification& cable = plan.transmission.cable;
     const double beyond = std::max(cable.static_friction - cable.dynamic_friction, 0.0);
     const auto is_fine = [&] {
         const Cable cut(cable);
@@ -39,9 +74,15 @@ int default_segments(const StudyPlan& plan) {
                cable.dynamic_friction * wrap_rad <= max_dynamic_exponent;
     };
     constexpr int fewest = 10;  // a node at every tenth of a straight cable
+    cable.segments = 1;
+    place_nodes(plan);
     cable.segments = std::max(fewest, static_cast<int>(cable.node_places_m.size()) + 1);
+    place_nodes(plan);
     if (!problems_of(cable).empty()) return cable.segments;
-    while (cable.segments < max_estimated_segments && !is_fine()) ++cable.segments;
+    while (cable.segments < max_estimated_segments && !is_fine()) {
+        ++cable.segments;
+        place_nodes(plan);
+    }
     return cable.segments;
 }
 

@@ -37,6 +37,7 @@ struct EndMotion {
 enum class CableCut {
     even,      ///< all segments are equal
     at_bends,  ///< at both ends of every bend and at the places of the tension sensors, the others between
+    in_bends,  ///< as at_bends, but the others where the cable turns most between two nodes
 };
 
 /// Another way to state a conduit than its pieces. A configuration is read into this and then made into
@@ -154,10 +155,10 @@ struct StudyPlan {
 /// come.
 void place_nodes(StudyPlan& plan);
 
-/// How many segments the plan's cable is cut into where the configuration does not say: the fewest, after
-/// place_nodes(), whose friction is small enough for the discretisation error. At most
-/// max_estimated_segments, or what the nodes of the cut need.
-int default_segments(const StudyPlan& plan);
+/// How many segments the plan's cable is cut into where the configuration does not say: the fewest, with its
+/// cut, whose friction is small enough for the discretisation error. At most max_estimated_segments, or what
+/// the nodes of the cut need.
+int default_segments(StudyPlan plan);
 
 /// What is wrong with the plan's cable and its cut.
 std::vector<KeyProblem> problems_of_cable(const StudyPlan& plan);

@@ -24,6 +24,7 @@ std::string ratio_words(const std::vector<double>& list, const char* what, doubl
 void cut_into(StudyPlan& plan, int segments) {
     const int before = plan.transmission.cable.segments;
     plan.transmission.cable.segments = segments;
+    place_nodes(plan);
     if (static_cast<int>(plan.sensor_counts.size()) != before + 1) return;
     plan.sensor_counts.resize(segments + 1);
     std::iota(plan.sensor_counts.begin(), plan.sensor_counts.end(), 1);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/cable/cable_cut.h"
+#include "capstan/platform/clocks.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/worlds/sensor_places.h"
 #include "capstan/worlds/straight_pieces.h"
@@ -14,8 +15,11 @@ namespace {
 
 // A task draws its world once; with this many questions to the filter that costs nothing beside them.
 constexpr std::size_t questions_at_once = 32;
-// Tasks whose entries are kept together: progress and stopping come no more often.
-constexpr std::size_t tasks_at_once = 32;
+// Tasks whose entries are kept together, as many as take about so long: progress and stopping come no more
+// often.
+constexpr std::size_t fewest_tasks_at_once = 2;
+constexpr std::size_t most_tasks_at_once = 32;
+constexpr double tasks_at_once_s = 2.0;
 
 constexpr std::string_view condition_names[] = {
     "as_stated",     "friction_known", "wrap_known",   "stiffness_known", "pretension_known",
@@ -204,9 +208,11 @@ void ErrorTable::fill(Condition condition, std::span<const int> candidates, int 
     if (const FusionMethod* paper = paper_method(condition); paper != nullptr && paper->uses_weights)
         weigh(condition, candidates);
     std::size_t done = 0;
-    for (std::size_t from = 0; from < tasks.size(); from += tasks_at_once) {
+    std::size_t at_once = fewest_tasks_at_once;
+    for (std::size_t from = 0, count = 0; from < tasks.size(); from += count) {
         if (options_.stop != nullptr && *options_.stop) throw TableStopped{};
-        const std::size_t count = std::min(tasks_at_once, tasks.size() - from);
+        const double begin_s = wall_time_s();
+        count = std::min(at_once, tasks.size() - from);
         std::vector<std::vector<TableEntry>> results(count);
         parallel_for_each_index(static_cast<int>(count), options_.jobs, [&](int k) {
             const auto at = static_cast<std::size_t>(k);
@@ -218,6 +224,8 @@ void ErrorTable::fill(Condition condition, std::span<const int> candidates, int 
         if (options_.keep) options_.keep(entries);
         done += entries.size();
         if (options_.on_progress) options_.on_progress({activity, static_cast<double>(done), trials});
+        if (wall_time_s() - begin_s < 0.5 * tasks_at_once_s)
+            at_once = std::min(2 * at_once, most_tasks_at_once);
     }
 }
 

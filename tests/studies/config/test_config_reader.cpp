@@ -155,7 +155,7 @@ TEST(ConfigReader, SegmentsLeftOutWithUncertaintyFollowTheFriction) {
             .plan;
     };
     const StudyPlan smooth = segments_with(0.12, "");
-    const StudyPlan sticky = segments_with(0.24, "");
+    const StudyPlan sticky = segments_with(0.36, "");
     for (const StudyPlan& plan : {smooth, sticky}) {
         const Cable cable(plan.transmission.cable);
         const auto wrap_rad = cable.wrap_angle_rad();
@@ -165,8 +165,26 @@ TEST(ConfigReader, SegmentsLeftOutWithUncertaintyFollowTheFriction) {
         EXPECT_EQ(plan.sensor_counts.size(), static_cast<std::size_t>(cable.nodes()));
     }
     EXPECT_GT(sticky.transmission.cable.segments, smooth.transmission.cable.segments);
-    EXPECT_EQ(segments_with(2.0, "").transmission.cable.segments, 63);  // no more than can be estimated
+    EXPECT_EQ(segments_with(4.0, "").transmission.cable.segments, 63);  // no more than can be estimated
     EXPECT_EQ(segments_with(0.24, "segments = 10\n").transmission.cable.segments, 10);
+}
+
+// Friction acts in bends alone: a short bend does not cut the straight conduit beside it as finely as itself.
+TEST(ConfigReader, SegmentsLeftOutWithUncertaintyLieInBends) {
+    const std::string short_bend =
+        "[transmission]\nlength_m = 1.0\ndynamic_friction = 0.3\n"
+        "[[transmission.bend]]\nangle_deg = 180\nradius_m = 0.02\nat_m = 0.5\n"
+        "[motion.distal]\nkind = \"position\"\n[uncertainty]\nfar_end_range_m = 0.001\n";
+    const StudyPlan plan = parse_config(short_bend, "x.toml").plan;
+    EXPECT_EQ(plan.transmission.cut, CableCut::in_bends);
+    const Cable cable(plan.transmission.cable);
+    EXPECT_EQ(cable.segments(), 12);  // ten of 18 degrees, and one on either side
+    EXPECT_NEAR(cable.node_position_m(1), 0.5, 1e-12);
+    for (int segment = 1; segment < 11; ++segment)
+        EXPECT_NEAR(cable.wrap_angle_rad()[static_cast<std::size_t>(segment)], 0.1 * std::numbers::pi, 1e-9);
+    const StudyPlan again = parse_config(config_text(plan, Comments::none), "again.toml").plan;
+    EXPECT_EQ(again.transmission.cable.node_places_m, plan.transmission.cable.node_places_m);
+    EXPECT_EQ(again.transmission.cut, CableCut::in_bends);
 }
 
 TEST(ConfigReader, PieceWithoutRadiusIsStraight) {
