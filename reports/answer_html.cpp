@@ -76,6 +76,10 @@ std::string answer_page(const Answer& answer, PageFiles files) {
         for (const AnswerTable& table : section.tables) content += table_html(table);
         content += figures_html(drawn, answer.id, section.id);
         if (!section.note.empty()) content += "<p class=\"intro\">" + escape_html(section.note) + "</p>\n";
+        if (section.heading.empty() && content.empty()) {  // words alone
+            if (!section.prose.empty()) frame.main_html += "<p>" + escape_html(section.prose) + "</p>\n";
+            continue;
+        }
         frame.main_html += section_html(section.id, heading, section.prose, content);
         links.push_back({section.id, heading});
     }

@@ -47,7 +47,7 @@
     const under_way = job && ["queued", "running"].includes(job.state);
     const state = study.status === "complete" ? "Complete" : under_way ? (job.state === "queued" ? "Waiting for its turn" : "Running") : "Stopped";
     const left = under_way && job.seconds_left > 0 ? `, about ${Math.max(1, Math.round(job.seconds_left))} s left` : "";
-    words.textContent = `${state}: ${done} of ${units.length} units${left}.`;
+    words.textContent = units.length > 0 ? `${state}: ${done} of ${units.length} units${left}.` : `${state}${left}.`;  // worlds are no units
     cells.setAttribute("aria-label", words.textContent);
     cells.replaceChildren(...units.map((unit) => element("i", { className: unit.done ? "done" : "", title: `${unit.stage}, ${unit.regime}, sample ${unit.sample}, ${unit.noise}` })));
     button.hidden = study.status === "complete";
@@ -98,6 +98,7 @@
   }
   function showFilters() {
     const tables = window.capstanPage.tables(), titles = window.capstanPage.titles();
+    filters.hidden = !tables.regime?.length;  // a study over worlds has none
     const key = JSON.stringify([titles, tables.fusion_method]);
     if (boxes.dataset.key !== key) {
       boxes.dataset.key = key;

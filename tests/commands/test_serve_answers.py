@@ -58,6 +58,7 @@ class ServeAnswers(ServiceTest):
             self.run_capstan("report", "--db", f"{number}.db", "-o", "report.html")
             page = self.ask("GET", f"/studies/{number}")[2].decode()
             self.assertEqual(self.drawn(page), self.drawn((self.folder / "report.html").read_text()))
+            self.assertIn(f"<p>{ran['recommendations'][0]['sentence']}", page)
             self.assertIn(f"use {ran['recommendations'][0]['set']}: expected error "
                           f"{ran['recommendations'][0]['expected_error_N']:.3f} N", page)
 

@@ -48,6 +48,12 @@ TEST(AnswerPage, LeavesOutFiguresWithoutRowsAndSectionsWithoutFigures) {
     EXPECT_FALSE(holds(html, "href=\"#agreement\""));
 }
 
+TEST(AnswerPage, ShowsWordsThatHaveNeitherHeadingNorTable) {
+    Answer answer = answer_titled("Solvers");
+    answer.sections.push_back({.id = "words", .prose = "Use <two> sensors."});
+    EXPECT_TRUE(holds(answer_html(answer), "<p>Use &lt;two&gt; sensors.</p>"));
+}
+
 TEST(AnswerPage, CarriesNoFigureOfAnotherPage) {
     EXPECT_FALSE(holds(answer_html(answer_titled("Solvers")), "\"error_by_count\""));
 }
