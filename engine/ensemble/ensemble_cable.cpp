@@ -119,13 +119,17 @@ void EnsembleCable::find_distal_m(std::span<const double> far_end_m, std::span<d
         distal_m[j] += (pretension_N_[j] - distal_N[j]) / stiffness;
 }
 
+void EnsembleCable::take_pretension() {
+    exp_row(log_pretension_, pretension_N_);
+    for (double& each : pretension_N_) each *= nominal_pretension_N_;
+}
+
 void EnsembleCable::take_numbers() {
     const auto compliance = members_.compliance_m_per_N();
     exp_row(log_stiffness_, workspace_);
     for (std::size_t j = 0; j < compliance.size(); ++j)
         compliance[j] = nominal_compliance_m_per_N_ / workspace_[j];
-    exp_row(log_pretension_, pretension_N_);
-    for (double& each : pretension_N_) each *= nominal_pretension_N_;
+    take_pretension();
     exp_row(log_friction_, friction_);
     for (int segment = 0; segment < members_.segments(); ++segment) {
         const auto exponent = members_.sliding_exponent(segment);

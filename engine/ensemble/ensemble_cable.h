@@ -30,6 +30,8 @@ class EnsembleCable {
     /// What a correction may change. Tensions are settled by settle() afterwards.
     void add_tensions(std::vector<double*>& rows);
     void add_numbers(std::vector<double*>& rows);
+    /// A spring at the far end counts from the pretension, so a further reading needs the corrected one.
+    void take_pretension();
     /// Makes what was corrected a state again: no cable pushes, the numbers count, and displacements follow
     /// from tensions and compliances, back from the far end (E2).
     void settle(std::span<const double> far_end_m);

@@ -194,6 +194,7 @@ void EnsembleFilter::correct(Fitted& sensor, double reading) {
         if (each.offer.errors.gain_ratio > 0.0) corrected_.push_back(each.gain.data());
     }
     correct_rows(correction, corrected_);
+    for (EnsembleCable& cable : cables_) cable.take_pretension();
 }
 
 void EnsembleFilter::take_moments() {

@@ -178,6 +178,44 @@ TEST(FurtherSensor, NeverRaisesTheSquaredErrorOnTwentyRandomCables) {
     EXPECT_GT(seen.recommended, 10);
 }
 
+// An encoder of 10 um tells the tension of its spring to 0.02 N, from the pretension that the reading before
+// it corrected.
+TEST(FurtherSensor, APreciseEncoderBesideATorqueNeverRaisesTheSquaredError) {
+    const StudyPlan plan = config::parse_config(R"(
+[transmission]
+length_m = 1.4
+axial_stiffness_N = 12000
+dynamic_friction = 0.15
+pretension_N = 10
+[[transmission.bend]]
+angle_deg = 120
+radius_m = 0.05
+at_m = 0.7
+[motion]
+samples = 100
+[motion.proximal]
+kind = "position"
+amplitude_m = 0.003
+[motion.distal]
+kind = "spring"
+spring_stiffness_N_per_m = 2000
+[uncertainty]
+friction_fraction = 0.2
+[[sensor]]
+kind = "motor_torque"
+noise_N = 1
+[[sensor]]
+kind = "load_displacement"
+noise_m = 1e-5
+)",
+                                                "precise encoder")
+                               .plan;
+    Seen seen;
+    expect_the_law(plan, 60, seen);
+    EXPECT_EQ(seen.pairs, 5);
+    EXPECT_EQ(seen.exceptions, 0);
+}
+
 // The particle filter's error is the floor; the ensemble filter comes near it.
 void expect_near_a_particle_filter(unsigned number) {
     StudyPlan plan = random_plan(200 + number);
