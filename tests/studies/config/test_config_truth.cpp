@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "capstan/config/config_file.h"
 #include "capstan/config/config_problem.h"
+#include "capstan/config/config_reader.h"
 #include "capstan/config/config_truth.h"
+#include "capstan/config/config_writer.h"
 
 namespace capstan::config {
 namespace {
