@@ -182,13 +182,17 @@ TEST_F(QueryBox, SeesNothingOfAStudyInTheTrash) {
     {
         Database reader = Database::open_read_only(folder / "results.db");
         for (const std::string& name : names)
-            if (name != "shard") EXPECT_EQ(rows(reader, name), QueryValue(std::int64_t{0})) << name;
+            if (name != "shard") {
+                EXPECT_EQ(rows(reader, name), QueryValue(std::int64_t{0})) << name;
+            }
     }
     Database writer = Database::open_or_create(folder / "results.db");
     restore_study(writer, 1);
     Database reader = Database::open_read_only(folder / "results.db");
     for (const std::string& name : names)
-        if (name != "history" && name != "study_mark") EXPECT_EQ(rows(reader, name), before[name]) << name;
+        if (name != "history" && name != "study_mark") {
+            EXPECT_EQ(rows(reader, name), before[name]) << name;
+        }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "band_lu.h"
 #include "capstan/reference/generic_solver.h"
 #include "capstan/reference/linear_assumed.h"
+#include "capstan/solver/quasi_static_step.h"
 #include "example_cables.h"
 #include "input_pairs.h"
 

@@ -46,7 +46,9 @@ TEST(SharedBudget, IsTheBestOfAllDistributions) {
             const auto best = by_trying_all(error_N, 6, objective);
             const double sum_N = share.mean_N * static_cast<double>(error_N.size());
             EXPECT_NEAR(objective == BudgetObjective::mean ? sum_N : share.largest_N, best.first, 1e-12);
-            if (objective == BudgetObjective::largest) EXPECT_NEAR(sum_N, best.second, 1e-12);
+            if (objective == BudgetObjective::largest) {
+                EXPECT_NEAR(sum_N, best.second, 1e-12);
+            }
         }
     }
 }
