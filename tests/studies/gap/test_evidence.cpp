@@ -117,10 +117,10 @@ TEST(Evidence, ACauseThatLeavesStructureIsNamedBesideTheUnknown) {
 }
 
 // The first of `channels` channels leaves `most`, the others only noise.
-ScoredFit with_channels(const Evidence& evidence, ScoredFit fit, std::size_t channels, double most) {
+ScoredFit with_channels(const Evidence& by, ScoredFit fit, std::size_t channels, double most) {
     fit.channel_misfits.assign(channels, 1.0);
     fit.channel_misfits.front() = most;
-    fit.evidence = evidence.of(fit);
+    fit.evidence = by.of(fit);
     return fit;
 }
 

@@ -54,11 +54,11 @@ class World;
 
 // A worker: the real code, in a context of its own.
 struct Process {
-    Process(World& world, int id, std::optional<int> own, double speed)
+    Process(World& world, int id, std::optional<int> own, double its_speed)
         : world(world),
           name("node" + std::to_string(id % 4) + "-" + std::to_string(id)),
           own(own),
-          speed(speed) {}
+          speed(its_speed) {}
     World& world;
     std::string name;
     std::optional<int> own;
