@@ -1,6 +1,9 @@
 // The page of an answer.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "capstan/reports/answer.h"
 #include "capstan/reports/figure_html.h"
 #include "capstan/reports/html_text.h"
@@ -10,23 +13,36 @@
 namespace capstan::reports {
 namespace {
 
-std::string row_html(const std::vector<std::string>& cells) {
-    std::string html = "<tr>";
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-        const std::string cell = escape_html(cells[k]);
-        html += k == 0 ? "<th scope=\"row\">" + cell + "</th>" : "<td class=\"number\">" + cell + "</td>";
+// The class of each column: words are read from the left, numbers compared from the right.
+std::vector<std::string> column_classes(const std::vector<std::vector<std::string>>& cells) {
+    std::vector<std::string> classes;
+    for (std::size_t k = 0; k < cells[0].size(); ++k) {
+        const bool has_words = std::any_of(cells.begin() + 1, cells.end(), [k](const auto& row) {
+            return !row[k].empty() && std::isalpha(static_cast<unsigned char>(row[k][0])) != 0;
+        });
+        classes.emplace_back(has_words ? "words" : "number");
     }
-    return html + "</tr>\n";
+    return classes;
 }
 
 std::string table_html(const AnswerTable& table) {
     const auto cells = cells_of(table);
+    const std::vector<std::string> classes = column_classes(cells);
     std::string heads;
-    for (std::size_t k = 0; k < cells[0].size(); ++k)
-        heads += fmt::format("<th scope=\"col\"{}>{}</th>", k == 0 ? "" : " class=\"number\"",
-                             escape_html(cells[0][k]));
     std::string rows;
-    for (std::size_t k = 1; k < cells.size(); ++k) rows += row_html(cells[k]);
+    for (std::size_t row = 0; row < cells.size(); ++row) {
+        if (row > 0) rows += "<tr>";
+        for (std::size_t k = 0; k < cells[row].size(); ++k) {
+            const std::string of_class = k == 0 ? "" : fmt::format(" class=\"{}\"", classes[k]);
+            const std::string cell = escape_html(cells[row][k]);
+            if (row == 0)
+                heads += fmt::format("<th scope=\"col\"{}>{}</th>", of_class, cell);
+            else
+                rows += k == 0 ? fmt::format("<th scope=\"row\">{}</th>", cell)
+                               : fmt::format("<td{}>{}</td>", of_class, cell);
+        }
+        if (row > 0) rows += "</tr>\n";
+    }
     return fmt::format(
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"numbers\"><caption>{0}</caption>"
         "<thead><tr>{1}</tr></thead><tbody>\n{2}</tbody></table></div>\n",

@@ -8,6 +8,7 @@
 #include "capstan/cli/command.h"
 #include "capstan/placement/study_run.h"
 #include "capstan/placement/study_shard.h"
+#include "capstan/platform/progress.h"
 #include "capstan/storage/database.h"
 #include "capstan/worlds/world_study.h"
 
