@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace capstan {
 
@@ -33,25 +34,32 @@ std::vector<double> distinct_places_m(std::vector<double> places_m, double lengt
     return distinct;
 }
 
-std::vector<double> node_positions_m(const CableSpecification& specification) {
-    const double length = length_m(specification.curvature);
-    std::vector<double> fixed_m = {0.0};
-    fixed_m.insert(fixed_m.end(), specification.node_places_m.begin(), specification.node_places_m.end());
-    fixed_m.push_back(length);
+std::vector<double> nodes_between(const std::vector<double>& fixed_m,
+                                  const std::vector<double>& turn_rad_per_m, int segments) {
     std::vector<int> parts(fixed_m.size() - 1, 1);
-    const auto part_m = [&](std::size_t k) { return (fixed_m[k + 1] - fixed_m[k]) / parts[k]; };
-    for (int left = specification.segments - static_cast<int>(parts.size()); left > 0; --left) {
-        std::size_t longest = 0;
+    const auto size = [&](std::size_t k) {
+        const double part_m = (fixed_m[k + 1] - fixed_m[k]) / parts[k];
+        return std::pair(turn_rad_per_m[k] * part_m, part_m);
+    };
+    for (int left = segments - static_cast<int>(parts.size()); left > 0; --left) {
+        std::size_t largest = 0;
         for (std::size_t k = 1; k < parts.size(); ++k)
-            if (part_m(k) > part_m(longest)) longest = k;
-        ++parts[longest];
+            if (size(k) > size(largest)) largest = k;
+        ++parts[largest];
     }
     std::vector<double> nodes_m;
     for (std::size_t k = 0; k < parts.size(); ++k)
         for (int part = 0; part < parts[k]; ++part)
             nodes_m.push_back(fixed_m[k] + (fixed_m[k + 1] - fixed_m[k]) * part / parts[k]);
-    nodes_m.push_back(length);
+    nodes_m.push_back(fixed_m.back());
     return nodes_m;
+}
+
+std::vector<double> node_positions_m(const CableSpecification& specification) {
+    std::vector<double> fixed_m = {0.0};
+    fixed_m.insert(fixed_m.end(), specification.node_places_m.begin(), specification.node_places_m.end());
+    fixed_m.push_back(length_m(specification.curvature));
+    return nodes_between(fixed_m, std::vector<double>(fixed_m.size() - 1, 0.0), specification.segments);
 }
 
 CableSpecification refined(CableSpecification specification, int pieces) {

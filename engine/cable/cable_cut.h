@@ -19,6 +19,12 @@ std::vector<double> bend_ends_m(const std::vector<CurvaturePiece>& pieces);
 /// These places in order, those that are the same or an end of the cable left out.
 std::vector<double> distinct_places_m(std::vector<double> places_m, double length_m);
 
+/// Nodes at all of `fixed_m`, rising, and the others of `segments` one by one in the part between two of them
+/// whose segments turn most, by `turn_rad_per_m` of each part; of those that turn alike, whose segments are
+/// longest.
+std::vector<double> nodes_between(const std::vector<double>& fixed_m,
+                                  const std::vector<double>& turn_rad_per_m, int segments);
+
 /// All nodes of a specification, from 0 to the length. Its numbers must be valid.
 std::vector<double> node_positions_m(const CableSpecification& specification);
 

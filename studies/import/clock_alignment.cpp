@@ -26,6 +26,7 @@ constexpr double named_delay_gain = 2.5;
 constexpr double named_offset_uncertainties = 3.0;
 // A channel that is not shifted is off by no more than its offset and so many times that uncertainty.
 constexpr double stated_uncertainties = 2.0;
+constexpr double aligned_periods = 2.0;  // within so many samples it needs no word
 // How wrong the model of friction may be, as a part of a channel's variance. Angles follow one another
 // exactly but for stretch.
 constexpr double angle_model_error = 1e-6;
@@ -190,7 +191,7 @@ double known_to_s(const std::optional<ChannelOffset>& offset) {
 }
 
 bool is_aligned(const std::optional<ChannelOffset>& offset) {
-    return offset && known_to_s(offset) <= 2.0 * offset->period_s;
+    return offset && known_to_s(offset) <= aligned_periods * offset->period_s;
 }
 
 // Said of all channels of the clock.

@@ -23,30 +23,17 @@ double bend_radius_at(const std::vector<CurvaturePiece>& pieces, double place_m)
     return straight;
 }
 
-// All inner nodes: those places, which bends begin and end at, and the others one by one where the conduit
-// turns most between two nodes; of a straight conduit where it is longest.
+// All inner nodes: those places, which bends begin and end at, and the others in the bends.
 std::vector<double> with_nodes_in_bends(const std::vector<double>& places_m,
                                         const CableSpecification& cable) {
-    std::vector<double> ends_m{0.0};
-    ends_m.insert(ends_m.end(), places_m.begin(), places_m.end());
-    ends_m.push_back(length_m(cable.curvature));
-    std::vector<int> parts(ends_m.size() - 1, 1);
-    const auto turn = [&](std::size_t k) {
-        const double part_m = (ends_m[k + 1] - ends_m[k]) / parts[k];
-        return std::pair(part_m / bend_radius_at(cable.curvature, 0.5 * (ends_m[k] + ends_m[k + 1])), part_m);
-    };
-    for (int left = cable.segments - static_cast<int>(parts.size()); left > 0; --left) {
-        std::size_t most = 0;
-        for (std::size_t k = 1; k < parts.size(); ++k)
-            if (turn(k) > turn(most)) most = k;
-        ++parts[most];
-    }
-    std::vector<double> nodes_m;
-    for (std::size_t k = 0; k < parts.size(); ++k)
-        for (int part = 0; part < parts[k]; ++part)
-            nodes_m.push_back(ends_m[k] + (ends_m[k + 1] - ends_m[k]) * part / parts[k]);
-    nodes_m.erase(nodes_m.begin());
-    return nodes_m;
+    std::vector<double> fixed_m{0.0};
+    fixed_m.insert(fixed_m.end(), places_m.begin(), places_m.end());
+    fixed_m.push_back(length_m(cable.curvature));
+    std::vector<double> turn_rad_per_m;
+    for (std::size_t k = 0; k + 1 < fixed_m.size(); ++k)
+        turn_rad_per_m.push_back(1.0 / bend_radius_at(cable.curvature, 0.5 * (fixed_m[k] + fixed_m[k + 1])));
+    const std::vector<double> nodes_m = nodes_between(fixed_m, turn_rad_per_m, cable.segments);
+    return {nodes_m.begin() + 1, nodes_m.end() - 1};
 }
 
 }  // namespace

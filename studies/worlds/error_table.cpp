@@ -15,11 +15,11 @@ namespace {
 
 // A task draws its world once; with this many questions to the filter that costs nothing beside them.
 constexpr std::size_t questions_at_once = 32;
-// Tasks whose entries are kept together, as many as take about so long: progress and stopping come no more
-// often.
+// Tasks whose entries are kept together, twice as many while they take less than so long: progress and
+// stopping come no more often.
 constexpr std::size_t fewest_tasks_at_once = 2;
 constexpr std::size_t most_tasks_at_once = 32;
-constexpr double tasks_at_once_s = 2.0;
+constexpr double tasks_at_once_s = 1.0;
 
 constexpr std::string_view condition_names[] = {
     "as_stated",     "friction_known", "wrap_known",   "stiffness_known", "pretension_known",
@@ -224,8 +224,7 @@ void ErrorTable::fill(Condition condition, std::span<const int> candidates, int 
         if (options_.keep) options_.keep(entries);
         done += entries.size();
         if (options_.on_progress) options_.on_progress({activity, static_cast<double>(done), trials});
-        if (wall_time_s() - begin_s < 0.5 * tasks_at_once_s)
-            at_once = std::min(2 * at_once, most_tasks_at_once);
+        if (wall_time_s() - begin_s < tasks_at_once_s) at_once = std::min(2 * at_once, most_tasks_at_once);
     }
 }
 

@@ -97,13 +97,13 @@ class PlantedLog:
     def moving(self):
         return [name for name in self.values if not self.bench.is_constant(name)]
 
-    def really_moving(self):
+    def changing(self):
         still = [channel for kind, channel, _ in self.faults if kind == "constant channel"]
         return [name for name in self.moving() if name not in still]
 
     def other_clock(self):
         """The clock that is off. The import judges clocks beside that of the first angle that moves."""
-        angles = [name for name in self.really_moving() if kind_of(name) == "angle"]
+        angles = [name for name in self.changing() if kind_of(name) == "angle"]
         return "a" if angles and self.clock_of[angles[0]] == "b" else "b"
 
     def plant(self, kind):
@@ -424,7 +424,7 @@ def judge(log, report, text):
             hit = True
         if kind.startswith("clock offset"):
             said = {names(finding): finding for finding in findings if finding["what"] == "clock offset"}
-            for each in (each for each in log.really_moving() if log.clock_of[each] == other):
+            for each in (each for each in log.changing() if log.clock_of[each] == other):
                 finding = said.get(each, {"amount": 0.0, "uncertainty": 0.0, "repaired": True})
                 clocks.append((len(found), each, abs(finding["amount"] - size), finding["uncertainty"], each in said and is_doubt(finding)))
         if not report and kind in ("wrong unit", "wrong sign", "swapped channels", "constant channel", "time unit", "gap"):
