@@ -54,6 +54,15 @@ TEST(AnswerPage, ShowsWordsThatHaveNeitherHeadingNorTable) {
     EXPECT_TRUE(holds(answer_html(answer), "<p>Use &lt;two&gt; sensors.</p>"));
 }
 
+TEST(AnswerPage, AlignsColumnsOfWordsOtherwiseThanNumbers) {
+    Answer answer = answer_titled("Solvers");
+    AnswerTable& table = answer.sections[0].tables[0];
+    std::swap(table.columns[0], table.columns[1]);  // the first column names the rows
+    const std::string html = answer_html(answer);
+    EXPECT_TRUE(holds(html, "<td class=\"words\">Solvers</td>"));
+    EXPECT_TRUE(holds(html, "<td class=\"number\">0.25 to 0.50</td>"));
+}
+
 TEST(AnswerPage, CarriesNoFigureOfAnotherPage) {
     EXPECT_FALSE(holds(answer_html(answer_titled("Solvers")), "\"error_by_count\""));
 }
