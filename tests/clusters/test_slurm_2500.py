@@ -68,7 +68,8 @@ class ManyShards(CapstanTest):
         cluster.wait("the merged study", lambda: (self.folder / "study/study.db").exists(), 7200)
         wall_s = time.monotonic() - begin
         records = [json.loads(path.read_text()) for path in leases.glob("shard-*.done")]
-        self.assertEqual(len(records), SHARDS)
+        # A worker that dies between its result and its record leaves a result that counts.
+        self.assertGreaterEqual(len(records), SHARDS - SLOTS)
         seconds = statistics.median(record["seconds"] for record in records)
         work = SHARDS * seconds - died_s * SLOTS * 3.1  # three nodes and a tenth, then two and a tenth
         ideal_s = died_s + work / (SLOTS * 2.1)
