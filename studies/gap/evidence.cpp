@@ -47,8 +47,10 @@ constexpr double faint_penalty = 60.0;
 // The list of hypotheses is never complete: this probability is shared equally by all effects.
 constexpr double anything_fraction = 0.02;
 
-// A number of the bench that is far from what was stated is named, but after the causes.
+// A number of the bench that is far from what was stated is named, but after the causes. That nothing else
+// acts beside such numbers comes after them, and before every cause that would.
 constexpr double bench_fraction = 0.25;
+constexpr double none_beside_numbers_fraction = 0.1;
 
 using Effects = std::vector<std::string>;  // of a hypothesis, sorted
 
@@ -239,7 +241,8 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
     for (const WeighedHypothesis& each : weighed) {
         std::map<std::string, double> shares;
         for (const std::string& effect : each.effects) shares[effect] = 1.0;
-        if (!each.of_the_bench.empty()) shares.erase("none");
+        if (!each.of_the_bench.empty() && shares.count("none") > 0)
+            shares["none"] = none_beside_numbers_fraction;
         for (const std::string& effect : each.of_the_bench) shares.emplace(effect, bench_fraction);
         if (each.with_unknown) give_unknown_its_fraction(shares, each.unknown_fraction);
         double sum = 0.0;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <random>
+#include <set>
+#include <string>
 
 #include "capstan/effects/effect_catalogue.h"
 #include "capstan/gap/diagnosis.h"
@@ -124,6 +126,35 @@ TEST(Diagnosis, FindsACauseBesideRoughNumbersZerosAndBearings) {
                      [](const FittedNumber& number) { return number.name == "zero of load_torque"; });
     ASSERT_NE(zero, diagnosis.bench.end());
     EXPECT_NEAR(zero->value, 0.03, 0.015);
+}
+
+double present(const Diagnosis& diagnosis, const std::string& effect) {
+    for (const RankedEffect& each : diagnosis.ranked) {
+        if (each.effect == effect) return each.present;
+    }
+    return 0.0;
+}
+
+BenchNumbers rough_numbers() {
+    BenchNumbers numbers;
+    numbers.friction_ratio = 1.35;
+    numbers.stiffness_ratio = 0.85;
+    numbers.pretension_ratio = 0.8;
+    numbers.sensor_faults["load_torque"].offset = 0.05;
+    numbers.effects.of<PulleyFriction>().motor.coulomb_Nm = 0.004;
+    return numbers;
+}
+
+TEST(Diagnosis, SaysThatNothingActsBesideRoughNumbers) {
+    const Diagnosis diagnosis = diagnosed(session_of(rough_numbers()));
+    ASSERT_FALSE(diagnosis.bench.empty());
+    EXPECT_GT(present(diagnosis, "none"), 0.9);
+    const std::set<std::string> of_the_bench = {"param_mu",      "param_K",         "param_T0",
+                                                "sensor_offset", "pulley_friction", "time_misalignment"};
+    const auto first =
+        std::find_if(diagnosis.ranked.begin(), diagnosis.ranked.end(),
+                     [&](const RankedEffect& each) { return of_the_bench.count(each.effect) == 0; });
+    EXPECT_EQ(first->effect, "none");
 }
 
 // Rough numbers of all kinds could stand for the bearing.
