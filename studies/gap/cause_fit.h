@@ -27,7 +27,9 @@ struct ResidualSeries {
     std::vector<bool> is_determined{};
 
     bool determines(std::size_t row) const { return is_determined.empty() || is_determined[row]; }
-    std::size_t determined_rows() const;
+    std::size_t determined_rows() const { return determined_rows(0, rows); }
+    /// Of those from `from` to one before `to`.
+    std::size_t determined_rows(std::size_t from, std::size_t to) const;
 };
 
 /// The series of every channel that the twin predicts, run by run.
@@ -46,6 +48,11 @@ struct LeftOut {
                 static_cast<std::size_t>(to * static_cast<double>(count))};
     }
 };
+
+/// The parts of `runs` runs to predict in turn from the rest: each run; the halves of each run where there is
+/// one only, or where a cause is known from all runs together, as a number that follows a condition of the
+/// runs or drifts from one to the next.
+std::vector<LeftOut> left_out_in_turn(std::size_t runs, const std::vector<const CandidateCause*>& causes);
 
 /// Of the residuals of each series in a search; empty: 1.
 using SeriesWeights = std::vector<double>;

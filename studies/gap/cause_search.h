@@ -88,8 +88,8 @@ class CauseSearch {
     Hypothesis roughly_sought(const BenchKnowledge& bench) const;
     ScoredFit fitted(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
     Fits finely_fitted(Fits coarse);
-    double held_out_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
-                           const std::vector<LeftOut>& parts);
+    double held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
+                               const std::vector<LeftOut>& parts);
     void drop_unearned_causes(Fits& fits);
     bool is_better_when_built(const ScoredFit& best);
     ScoredFit without_cause(const Level& level);

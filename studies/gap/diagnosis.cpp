@@ -201,7 +201,7 @@ class Diagnoser {
     // Without each part in turn.
     std::vector<PartFit> held_out(const CauseFit& leading) {
         report("predicting each run from the others", 0.95);
-        const std::vector<LeftOut> left_out = left_out_in_turn(recording_);
+        const std::vector<LeftOut> left_out = left_out_in_turn(recording_.runs.size(), leading.causes);
         std::vector<CauseFit> fits = fitter_.fits_without(leading, left_out);
         std::vector<PartFit> parts;
         for (std::size_t part = 0; part < fits.size(); ++part) {

@@ -7,35 +7,10 @@
 
 namespace capstan::gap {
 
-namespace {
-
-// A number that follows a condition of the runs, or the time since the session began, is known only from all
-// runs together: to predict a run from the others would be to extrapolate.
-bool is_known_between_runs(const CandidateCause* cause) {
-    return !cause->varies.empty() || cause->effect == "pretension_drift";
-}
-
-// Each run in turn; the halves of each run where all runs are needed.
-std::vector<LeftOut> parts_to_predict(const Hypothesis& hypothesis, std::size_t runs) {
-    const bool all_runs =
-        std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), is_known_between_runs);
-    std::vector<LeftOut> parts;
-    for (std::size_t run = 0; run < runs; ++run) {
-        if (all_runs) {
-            parts.push_back({run, 0.0, 0.5});
-            parts.push_back({run, 0.5, 1.0});
-        } else {
-            parts.push_back({run});
-        }
-    }
-    return parts;
-}
-
-}  // namespace
-
-// The mean square of the residuals of each part with the numbers fitted to the rest.
-double CauseSearch::held_out_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
-                                    const std::vector<LeftOut>& parts) {
+// The logarithm of the mean square residual of each part with the numbers fitted to the rest, averaged over
+// the parts: one part that is far from all others does not decide.
+double CauseSearch::held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
+                                        const std::vector<LeftOut>& parts) {
     const CauseFitter& fitter = coarse_.fitter;
     CauseFitter::FitOptions options;
     options.any_size = false;
@@ -45,18 +20,22 @@ double CauseSearch::held_out_misfit(const Hypothesis& hypothesis, const SeriesWe
     for (const CauseFit& fit : fitter.fits_without(all, parts)) without.push_back(fit.hypothesis());
     Eigen::MatrixXd residuals = fitter.data_residuals(without);
     fitter.apply(weights, residuals);
-    double squares = 0.0;
+    double sum = 0.0;
     for (std::size_t part = 0; part < parts.size(); ++part) {
+        double squares = 0.0;
+        double rows = 0.0;
         for (const ResidualSeries& series : fitter.series()) {
             if (series.run != parts[part].run) continue;
             const auto [from, to] = parts[part].rows(series.rows);
+            rows += static_cast<double>(series.determined_rows(from, to));
             squares += residuals
                            .block(static_cast<Eigen::Index>(series.first_row + from),
                                   static_cast<Eigen::Index>(part), static_cast<Eigen::Index>(to - from), 1)
                            .squaredNorm();
         }
+        sum += weighed_log(squares / std::max(1.0, rows));
     }
-    return squares / fitter.determined_rows();
+    return sum / static_cast<double>(parts.size());
 }
 
 // A cause that does not help to predict what the fit did not see has only fitted the rest. The set without it
@@ -69,13 +48,13 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
         report("predicting each run from the others");
         const Hypothesis all = fits.front().fit.hypothesis();
         const SeriesWeights weights = fits.front().fit.weights;
-        const std::vector<LeftOut> parts = parts_to_predict(all, run_count_);
-        double least = held_out_misfit(all, weights, parts);
+        const std::vector<LeftOut> parts = left_out_in_turn(run_count_, all.causes);
+        double least = held_out_log_misfit(all, weights, parts);
         std::optional<Hypothesis> earned;
         for (const CandidateCause* dropped : all.causes) {
             const Hypothesis fewer =
                 only_causes(all, [&](const CandidateCause& cause) { return &cause != dropped; });
-            const double misfit = held_out_misfit(fewer, weights, parts);
+            const double misfit = held_out_log_misfit(fewer, weights, parts);
             if (misfit > least) continue;
             least = misfit;
             earned = fewer;

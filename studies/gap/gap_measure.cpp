@@ -85,13 +85,6 @@ TwinRun held_out_run(const EffectsTwin& twin, std::size_t run, const std::vector
 
 }  // namespace
 
-std::vector<LeftOut> left_out_in_turn(const Recording& recording) {
-    if (recording.runs.size() == 1) return {{0, 0.0, 0.5}, {0, 0.5, 1.0}};
-    std::vector<LeftOut> parts;
-    for (std::size_t run = 0; run < recording.runs.size(); ++run) parts.push_back({run, 0.0, 1.0});
-    return parts;
-}
-
 GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, const GapModels& models) {
     EffectsTwinOptions every_sample = fitter.twin().options();
     every_sample.stride = 1;

@@ -15,7 +15,7 @@ struct ChannelGap {
     double noise = 0.0;  ///< of one sample
     double before_rms = 0.0;
     double after_rms = 0.0;
-    double held_out_rms = 0.0;   ///< each run (or half of the only run) with numbers fitted to the others
+    double held_out_rms = 0.0;   ///< each run or half of it, with numbers fitted to the rest
     double runner_up_rms = 0.0;  ///< with the best other cause instead
     /// Fraction of the closable gap (mean square beyond noise) that is closed on held-out data, with its 95%
     /// interval from a bootstrap over blocks of a second. NaN if nothing exceeds the noise.
@@ -49,8 +49,5 @@ struct GapMeasure {
 
 /// The map counts in the scales of `fitter`.
 GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, const GapModels& models);
-
-/// The parts to leave out in turn: each run, or each half of a single run.
-std::vector<LeftOut> left_out_in_turn(const Recording& recording);
 
 }  // namespace capstan::gap

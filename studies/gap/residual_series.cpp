@@ -155,9 +155,27 @@ std::vector<bool> determined_rows(const Recording& recording, const ResidualSeri
 
 }  // namespace
 
-std::size_t ResidualSeries::determined_rows() const {
-    if (is_determined.empty()) return rows;
-    return static_cast<std::size_t>(std::count(is_determined.begin(), is_determined.end(), true));
+std::size_t ResidualSeries::determined_rows(std::size_t from, std::size_t to) const {
+    std::size_t count = 0;
+    for (std::size_t row = from; row < to; ++row) count += determines(row) ? 1 : 0;
+    return count;
+}
+
+std::vector<LeftOut> left_out_in_turn(std::size_t runs, const std::vector<const CandidateCause*>& causes) {
+    const bool in_halves =
+        runs == 1 || std::any_of(causes.begin(), causes.end(), [](const CandidateCause* cause) {
+            return !cause->varies.empty() || cause->effect == "pretension_drift";
+        });
+    std::vector<LeftOut> parts;
+    for (std::size_t run = 0; run < runs; ++run) {
+        if (in_halves) {
+            parts.push_back({run, 0.0, 0.5});
+            parts.push_back({run, 0.5, 1.0});
+        } else {
+            parts.push_back({run});
+        }
+    }
+    return parts;
 }
 
 std::vector<ResidualSeries> residual_series(const Recording& recording, const EffectsTwin& twin) {

@@ -21,22 +21,37 @@ class MeasuredGap : public testing::Test {
 
     GapMeasure measured(const BenchNumbers& leading, const BenchNumbers& held_out) const {
         GapModels models{leading, {}, {}};
-        for (const LeftOut& part : left_out_in_turn(recording)) models.held_out.push_back({part, held_out});
+        for (const LeftOut& part : left_out_in_turn(recording.runs.size(), {}))
+            models.held_out.push_back({part, held_out});
         return measure_gap(recording, fitter, models);
     }
 };
 
 TEST(LeftOutInTurn, IsEachRunOrEachHalfOfASingleRun) {
-    Recording recording = driven_session();
-    const std::vector<LeftOut> runs = left_out_in_turn(recording);
+    const std::vector<LeftOut> runs = left_out_in_turn(2, {});
     ASSERT_EQ(runs.size(), 2u);
     EXPECT_TRUE(runs[0].is_complete_run());
     EXPECT_EQ(runs[1].run, 1u);
-    recording.runs.resize(1);
-    const std::vector<LeftOut> halves = left_out_in_turn(recording);
+    const std::vector<LeftOut> halves = left_out_in_turn(1, {});
     ASSERT_EQ(halves.size(), 2u);
     EXPECT_EQ(halves[0].rows(100), std::pair(std::size_t{0}, std::size_t{50}));
     EXPECT_EQ(halves[1].rows(100), std::pair(std::size_t{50}, std::size_t{100}));
+}
+
+TEST(LeftOutInTurn, IsEachHalfOfARunWhereOnlyAllRunsTogetherTellANumber) {
+    CandidateCause drift;
+    drift.effect = "pretension_drift";
+    CandidateCause with_roll;
+    with_roll.varies = "roll_deg";
+    CandidateCause drag;
+    drag.effect = "viscous_friction";
+    for (const CandidateCause* between_runs : {&drift, &with_roll}) {
+        const std::vector<LeftOut> halves = left_out_in_turn(3, {&drag, between_runs});
+        ASSERT_EQ(halves.size(), 6u);
+        EXPECT_FALSE(halves[5].is_complete_run());
+        EXPECT_EQ(halves[5].run, 2u);
+    }
+    EXPECT_EQ(left_out_in_turn(3, {&drag}).size(), 3u);
 }
 
 TEST_F(MeasuredGap, TheTrueModelLeavesNothingAndClosesTheGap) {
@@ -73,7 +88,7 @@ TEST_F(MeasuredGap, WithoutAGapThereIsNoFractionToClose) {
     const Recording ideal = exact_session({}, coarse_twin);
     const CauseFitter ideal_fitter(ideal, coarse_twin, 1);
     GapModels models;
-    for (const LeftOut& part : left_out_in_turn(ideal)) models.held_out.push_back({part, {}});
+    for (const LeftOut& part : left_out_in_turn(ideal.runs.size(), {})) models.held_out.push_back({part, {}});
     const GapMeasure gap = measure_gap(ideal, ideal_fitter, models);
     for (const ChannelGap& channel : gap.channels) EXPECT_TRUE(std::isnan(channel.closed));
     EXPECT_TRUE(gap.map.empty());
