@@ -19,12 +19,21 @@ constexpr double max_prediction = 1e3;
 constexpr int usual_iterations = 20;
 constexpr int spare_iterations = 3000;
 
+// The friction of a bench that can be built: a search may ask for a number that follows a condition far
+// beyond it.
+double buildable_friction(const NominalBench& bench, double friction_ratio) {
+    double wrap_rad = 0.0;
+    for (const CurvaturePiece& piece : bench.curvature) wrap_rad += piece.length_m / piece.bend_radius_m;
+    constexpr double below = 0.99;  // against rounding
+    return std::min(friction_ratio * bench.dynamic_friction, below * largest_friction_exponent / wrap_rad);
+}
+
 BenchDescription description_of(const Recording& recording, const RecordedRun& run,
                                 const BenchNumbers& numbers, int segments) {
     const NominalBench& bench = *recording.nominal;
     const CableSpecification cable =
         cable_specification(bench.curvature,
-                            {.dynamic_friction = numbers.friction_ratio * bench.dynamic_friction,
+                            {.dynamic_friction = buildable_friction(bench, numbers.friction_ratio),
                              .axial_stiffness_N = numbers.stiffness_ratio * bench.axial_stiffness_N,
                              .pretension_N = numbers.pretension_ratio * *run.pretension_N},
                             recording.mode == BenchMode::single_cable ? 2 * segments : segments);

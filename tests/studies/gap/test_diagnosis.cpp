@@ -104,6 +104,19 @@ TEST(BenchNumbers, ANumberMayFollowTheSquareOfACondition) {
     EXPECT_NEAR(std::log(numbers.in_run({}).friction_ratio), 0.0, 1e-12) << "a run without the condition";
 }
 
+// A search may ask for it: friction that follows a condition has no bound of its own.
+TEST(EffectsTwin, StandsFrictionThatNoBenchHas) {
+    const Recording recording = session_of({}, {-45.0, 45.0});
+    const EffectsTwin twin(recording, {30, 1});
+    BenchNumbers numbers;
+    numbers.follows = {{.condition = "roll_deg", .half_range = 45.0, .linear = 30.0}};
+    for (const std::size_t run : {0, 1}) {
+        for (const std::vector<double>& channel : twin.run(run, numbers).values) {
+            for (const double value : channel) ASSERT_TRUE(std::isfinite(value));
+        }
+    }
+}
+
 TEST(Diagnosis, AConditionThatChangesNothingIsNotNamed) {
     const Diagnosis diagnosis = diagnosed(session_of({}, {-45.0, 45.0}));
     EXPECT_EQ(diagnosis.ranked.front().effect, "none");
