@@ -155,13 +155,17 @@ Recording recorded_bench(const CableSetting& setting, const ViscousComparison& c
                     .output = OutputKind::handle,
                     .driven = {"motor_torque", "load_angle"}};
     run.values.resize(recording.channels.size());
+    // What the instruments resolve.
+    const auto to_fraction = [](double value, double of_unit) {
+        return std::round(value * of_unit) / of_unit;
+    };
     for (const ViscousSample& sample : comparison.samples) {
         const double steps = std::round(sample.bench_motor_angle_rad / motor_step_rad);
-        run.time_s.push_back(sample.time_s);
-        run.values[0].push_back(sample.motor_torque_Nm);
-        run.values[1].push_back(steps * motor_step_rad);
-        run.values[2].push_back(sample.load_angle_rad);
-        run.values[3].push_back(sample.bench_torque_Nm);
+        run.time_s.push_back(to_fraction(sample.time_s, 1e3));
+        run.values[0].push_back(to_fraction(sample.motor_torque_Nm, 1e6));
+        run.values[1].push_back(to_fraction(steps * motor_step_rad, 1e6));
+        run.values[2].push_back(to_fraction(sample.load_angle_rad, 1e6));
+        run.values[3].push_back(to_fraction(sample.bench_torque_Nm, 1e5));
     }
     recording.runs.push_back(std::move(run));
     return recording;
