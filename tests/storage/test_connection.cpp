@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "capstan/storage/database.h"
@@ -52,18 +53,24 @@ TEST(Connection, NoticesThatItsFileHasGoneElsewhere) {
     EXPECT_NO_THROW(database.require_in_place());
 }
 
-TEST(Connection, ItsLogIsFoldedOnlyWhereNobodyReadsWhatWasBefore) {
+// A log would stay under the old name of a file.
+TEST(Connection, ANewFileGetsItsNameOnlyWhereNobodyReadsWhatWasBefore) {
     const TemporaryFolder folder;
-    Database writer = Database::open_or_create(folder / "results.db");
-    sqlite3_busy_timeout(writer.connection(), 0);
-    {
-        Database reader = Database::open_read_only(folder / "results.db");
-        reader.execute("BEGIN; SELECT count(*) FROM study", "read");
-        writer.execute("CREATE TABLE further (number INTEGER)", "write");
-        expect_says(error_of([&] { fold_write_ahead_log(writer); }), "another program reads it");
-    }
-    EXPECT_NO_THROW(fold_write_ahead_log(writer));
-    EXPECT_EQ(std::filesystem::file_size((folder / "results.db").string() + "-wal"), 0u);
+    const std::filesystem::path path = folder / "results.db";
+    std::optional<Database> reader;
+    const auto write_beside_a_reader = [&](Database& database) {
+        sqlite3_busy_timeout(database.connection(), 0);
+        reader = Database::open_read_only(database.path());
+        reader->execute("BEGIN; SELECT count(*) FROM study", "read");
+        database.execute("CREATE TABLE further (number INTEGER)", "write");
+        return true;
+    };
+    expect_says(error_of([&] { write_new_database(path, write_beside_a_reader); }),
+                "another program reads it");
+    reader.reset();
+    EXPECT_TRUE(std::filesystem::is_empty(path.parent_path()));
+    write_new_database(path, [](Database&) { return true; });
+    EXPECT_TRUE(std::filesystem::exists(path));
 }
 
 TEST(Connection, ThatCannotBeMadeSaysWhereToLook) {
