@@ -4,11 +4,14 @@
 #include <sqlite3.h>
 
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string>
 
 #include "capstan/storage/database.h"
 #include "capstan/storage/schema.h"
+#include "capstan/storage/statement.h"
+#include "capstan/storage/transaction.h"
 #include "temporary_results.h"
 
 namespace capstan::storage {
@@ -43,6 +46,15 @@ TEST(Connection, ForReadingRefusesAnOlderSchema) {
                 "older schema version " + std::to_string(schema_version - 1));
 }
 
+// The file itself still says the version of before.
+TEST(Connection, ForReadingRefusesANewerSchemaThatIsInTheLogOnly) {
+    const TemporaryFolder folder;
+    Database writer = Database::open_or_create(folder / "results.db");
+    writer.execute("PRAGMA user_version = " + std::to_string(schema_version + 1), "migrate");
+    expect_says(error_of([&] { Database::open_read_only(folder / "results.db"); }),
+                "newer than version " + std::to_string(schema_version));
+}
+
 TEST(Connection, NoticesThatItsFileHasGoneElsewhere) {
     const TemporaryFolder folder;
     Database database = Database::open_or_create(folder / "results.db");
@@ -53,30 +65,80 @@ TEST(Connection, NoticesThatItsFileHasGoneElsewhere) {
     EXPECT_NO_THROW(database.require_in_place());
 }
 
-// A log would stay under the old name of a file.
-TEST(Connection, ANewFileGetsItsNameOnlyWhereNobodyReadsWhatWasBefore) {
+// Its log would stay under the name of before, so it is folded into the file first.
+TEST(NewDatabase, IsOneFileWithItsContent) {
     const TemporaryFolder folder;
-    const std::filesystem::path path = folder / "results.db";
+    write_new_database(folder / "new.db", [](Database& writer) {
+        writer.execute("CREATE TABLE further (number INTEGER); INSERT INTO further VALUES (7)", "write");
+        return true;
+    });
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+    Database reader = Database::open_read_only(folder / "new.db");
+    EXPECT_EQ(number_from(reader, "SELECT number FROM further"), 7);
+    expect_says(error_of([&] { write_new_database(folder / "new.db", [](Database&) { return true; }); }),
+                "exists already");
+}
+
+TEST(NewDatabase, ReplacesWhatAKilledProgramLeft) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "new.db.unfinished") << "part of a file";
+    write_new_database(folder / "new.db", [](Database&) { return true; });
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.db.unfinished"));
+    EXPECT_TRUE(Database::open_read_only(folder / "new.db").is_read_only());
+}
+
+TEST(NewDatabase, IsNotMadeWhileAnotherProgramReadsWhatWasBefore) {
+    const TemporaryFolder folder;
     std::optional<Database> reader;
-    const auto write_beside_a_reader = [&](Database& database) {
-        sqlite3_busy_timeout(database.connection(), 0);
-        reader = Database::open_read_only(database.path());
+    const auto write = [&](Database& writer) {
+        sqlite3_busy_timeout(writer.connection(), 0);
+        reader.emplace(Database::open_read_only(writer.path()));
         reader->execute("BEGIN; SELECT count(*) FROM study", "read");
-        database.execute("CREATE TABLE further (number INTEGER)", "write");
+        writer.execute("CREATE TABLE further (number INTEGER)", "write");
         return true;
     };
-    expect_says(error_of([&] { write_new_database(path, write_beside_a_reader); }),
-                "another program reads it");
-    reader.reset();
-    EXPECT_TRUE(std::filesystem::is_empty(path.parent_path()));
-    write_new_database(path, [](Database&) { return true; });
-    EXPECT_TRUE(std::filesystem::exists(path));
+    expect_says(error_of([&] { write_new_database(folder / "new.db", write); }), "another program reads it");
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.db"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.db.unfinished"));
+}
+
+TEST(NewDatabase, IsLeftOutWhereItsWriterSaysSo) {
+    const TemporaryFolder folder;
+    write_new_database(folder / "new.db", [](Database&) { return false; });
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Connection, SaysThatItsFileHasGoneWhileItWasWritten) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    Transaction transaction(database);
+    database.execute("CREATE TABLE further (number INTEGER)", "write");
+    std::filesystem::rename(folder / "results.db", folder / "elsewhere.db");
+    expect_says(error_of([&] { transaction.commit(); }), "was removed or renamed");
 }
 
 TEST(Connection, ThatCannotBeMadeSaysWhereToLook) {
     const TemporaryFolder folder;
     expect_says(error_of([&] { Database::open_or_create(folder / "no such folder/results.db"); }),
                 "check that its folder exists");
+}
+
+// Also SQLite's "cannot open" can mean a full disk: only where the system said so.
+TEST(Connection, TellsAMissingFolderFromAFullDisk) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    const std::string attach = "ATTACH '" + (folder / "no such folder/other.db").string() + "' AS other";
+    const std::string message = error_of([&] { database.execute(attach, "attach"); });
+    expect_says(message, "Cannot attach in " + (folder / "results.db").string());
+    expect_says(message, "the file cannot be opened");
+}
+
+TEST(Connection, SaysWhichStatementsItCannotRead) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    const std::string message = error_of([&] { Statement(database, "SELEKT 1"); });
+    expect_says(message, "Cannot prepare a statement in " + (folder / "results.db").string());
+    expect_says(message, "syntax error");
 }
 
 // A connection that stays open would keep the log: the last one to close takes it away.

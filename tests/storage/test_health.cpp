@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -82,11 +83,47 @@ TEST_F(Examination, NamesTwentyProblemsAtMostOfTornReferences) {
     EXPECT_EQ(examined().problems.size(), 20u);
 }
 
+// An index without entries: no value of the file is another one, and queries that go through it miss rows.
+TEST_F(Examination, NamesAnIndexThatLostItsEntries) {
+    const auto path = folder / "damaged.db";
+    std::int64_t begin = 0;
+    {
+        Database file = Database::open_or_create(path, Journal::rollback);
+        begin_study(file, example_study());
+        begin = number_from(file,
+                            "SELECT (rootpage - 1) * page_size FROM sqlite_schema, pragma_page_size WHERE "
+                            "name = 'layout_of_set'");
+    }
+    std::fstream bytes(path, std::ios::binary | std::ios::in | std::ios::out);
+    bytes.seekp(begin + 3);
+    bytes.write("\0\0", 2);  // how many entries the page has
+    bytes.close();
+    Database reader = Database::open_read_only(path, SchemaCheck::none);
+    const auto problems = examine(reader).problems;
+    EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const std::string& problem) {
+        return problem.find("index layout_of_set") != std::string::npos;
+    })) << testing::PrintToString(problems);
+}
+
+TEST_F(Examination, ReportsWhatTheHashesFind) {
+    finished_study();
+    database.execute(
+        "UPDATE cell SET mean_abs_error_N = 2 * mean_abs_error_N WHERE cell_id = "
+        "(SELECT max(cell_id) FROM cell)",
+        "damage a number");
+    const auto problems = examined().problems;
+    ASSERT_EQ(problems.size(), 1u);
+    expect_says(problems.front(), "table cell is not as it was written");
+}
+
 TEST_F(Examination, ListsTheCopiesOfOlderVersionsInOrder) {
-    for (const char* name :
-         {"results.db.version4", "results.db.version2", "other.db.version3", "results.txt"})
-        std::ofstream(folder / name) << "a copy";
-    EXPECT_EQ(examined().copies, (std::vector<std::string>{"results.db.version2", "results.db.version4"}));
+    std::vector<std::string> copies;
+    for (const char version : std::string("123456789"))
+        copies.push_back(std::string("results.db.version") + version);
+    for (auto name = copies.rbegin(); name != copies.rend(); ++name)
+        std::ofstream(folder / *name) << "a copy";
+    for (const char* name : {"other.db.version3", "results.txt"}) std::ofstream(folder / name) << "no copy";
+    EXPECT_EQ(examined().copies, copies);
 }
 
 class ComputedWith : public Examination {
