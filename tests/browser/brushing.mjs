@@ -8,15 +8,18 @@ const words = (page) => page.$eval("#figure-gap_map .brush-keys output", (each) 
 const dots = (page, figure) => page.$eval(figure, (each) => each.view.data("marked").filter((row) => row.series === "measured").length);
 const marked_s = (page, figure) => page.$eval(figure, (each) => each.view.data("marked").reduce((sum, span) => sum + span.to_s - span.from_s, 0));
 const fractions = (page) => page.$eval("#figure-gap_map", (each) => Object.fromEntries(each.view.data("marked").map((row) => [row.part, row.fraction_of_marked])));
+// The first panel of a figure in the middle of the window: a chart may be higher than that, and its panel may stand below the page's
+// fixed heading.
 const panel = async (page, figure) => {
-  await page.locator(figure + " .chart").scrollIntoViewIfNeeded();
-  return (await page.$(`${figure} .chart svg .role-scope.cell > g > .background, ${figure} .chart svg .role-frame.root > g > .background`)).boundingBox();
+  const rows = `${figure} .chart svg .role-scope.cell > g > .background`, whole = `${figure} .chart svg .role-frame.root > g > .background`;
+  const first = await page.$(rows) ?? await page.$(whole);
+  await first.evaluate((each) => each.scrollIntoView({ block: "center", behavior: "instant" }));
+  await settled(page);
+  return first.boundingBox();
 };
 
 async function dragged(page, figure, [left, top], [right, bottom]) {
-  const chart = (await page.$$(`${figure} .chart svg .role-scope.cell`)).length ? `${figure} .chart svg .role-scope.cell > g > .background` : `${figure} .chart svg .role-frame.root > g > .background`;
-  await page.locator(figure + " .chart").scrollIntoViewIfNeeded();
-  const box = await (await page.$(chart)).boundingBox();
+  const box = await panel(page, figure);
   await page.mouse.move(box.x + left * box.width, box.y + top * box.height);
   await page.mouse.down();
   await page.mouse.move(box.x + right * box.width, box.y + bottom * box.height, { steps: 6 });
@@ -85,9 +88,7 @@ async function byKeyboard(page, name, run) {
 async function byFinger(page, name, run) {
   const figure = `#figure-channels-${run}`, devtools = await page.context().newCDPSession(page);
   await devtools.send("Emulation.setTouchEmulationEnabled", { enabled: true });
-  await page.$eval(figure + " .chart", (each) => each.scrollIntoView({ block: "center", behavior: "instant" }));
-  await settled(page);
-  const box = await (await page.$(`${figure} .chart svg .role-scope.cell > g > .background`)).boundingBox();
+  const box = await panel(page, figure);
   const touchAt = (right, down) => devtools.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: [{ x: box.x + right * box.width, y: box.y + down * box.height }] });
   const touch = (type, part) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: part === null ? [] : [{ x: box.x + part * box.width, y: box.y + box.height / 2 }] });
   await touch("touchStart", 0.2);
