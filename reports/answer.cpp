@@ -9,6 +9,7 @@
 
 #include "capstan/platform/wrapped_text.h"
 #include "capstan/reports/plain_tables.h"
+#include "capstan/reports/query_rows.h"
 
 namespace capstan::reports {
 namespace {
@@ -43,11 +44,6 @@ bool is_numeric(const AnswerTable& table, const Column& column) {
         const Data* value = row.find(column.path);
         return value != nullptr && value->text() != nullptr;
     });
-}
-
-std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
-    const std::string blanks(width - std::min(width, columns_of(text)), ' ');
-    return to_the_right ? blanks + text : text + blanks;
 }
 
 // Too wide for a terminal: each row as its short cells, and its long texts below.
@@ -97,13 +93,6 @@ std::string table_text(const AnswerTable& table) {
 
 std::string paragraph(const std::string& text) {
     return text.empty() ? "" : wrapped(text, text_width, "", "") + "\n";
-}
-
-Data data_of_cell(std::monostate) {
-    return {};
-}
-Data data_of_cell(const auto& value) {
-    return Data(value);
 }
 
 // A value of a table in full precision, as CSV and programs read it.
@@ -200,9 +189,7 @@ Data data_of(const Table& table) {
     Data rows = Data::list();
     for (const auto& row : table.rows) {
         Data record = Data::record();
-        for (std::size_t k = 0; k < row.size(); ++k)
-            record[table.columns[k]] =
-                std::visit([](const auto& value) { return data_of_cell(value); }, row[k]);
+        for (std::size_t k = 0; k < row.size(); ++k) record[table.columns[k]] = data_of_cell(row[k]);
         rows.push_back(std::move(record));
     }
     return rows;

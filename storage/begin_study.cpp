@@ -152,4 +152,23 @@ std::optional<std::vector<std::int64_t>> begin_shard(Database& database, const S
     return study_ids;
 }
 
+std::string words_of(const ShardRecord& shard) {
+    return "shard " + std::to_string(shard.shard) + " of " + std::to_string(shard.shards);
+}
+
+std::vector<std::int64_t> begin_or_find_shard(Database& database, const ShardRecord& shard,
+                                              const std::vector<StudyDescription>& descriptions) {
+    // A file without studies is begun, unless another program begins the same shard at this moment.
+    if (const auto begun = begin_shard(database, shard, descriptions)) return *begun;
+    const std::string file = database.path().string();
+    const std::string try_this = " Name a new file, or remove this one.";
+    const auto mark = read_shard(database);  // came with the studies, in one transaction
+    if (!mark) throw Error(file + " holds complete studies, so no shard can be run in it." + try_this);
+    if (*mark != shard)
+        throw Error(file + " is " + words_of(*mark) + ", not " + words_of(shard) + "." + try_this);
+    std::vector<std::int64_t> ids;
+    for (const StudySummary& study : list_studies(database)) ids.push_back(study.study_id);
+    return ids;
+}
+
 }  // namespace capstan::storage

@@ -1,5 +1,6 @@
 #include "capstan/storage/database.h"
 
+#include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/file_identity.h"
 #include "capstan/storage/health.h"
@@ -103,6 +104,20 @@ bool holds_bytes(const std::filesystem::path& path) {
 bool can_be_read(Database& database) {
     return sqlite3_exec(database.connection(), "SELECT 1 FROM sqlite_schema", nullptr, nullptr, nullptr) ==
            SQLITE_OK;
+}
+
+// Takes everything into the file itself and empties its log. For a file that is about to get another name: a
+// log stays under the old one, and what SQLite cannot write when a file is closed it keeps quiet about.
+void fold_write_ahead_log(Database& database) {
+    constexpr const char* doing = "take the log into the file";
+    Statement statement(database, "PRAGMA wal_checkpoint(TRUNCATE)");
+    statement.step(doing);
+    if (statement.get<int>(0) != 0)
+        throw Error(std::string("Cannot ") + doing + ": another program reads it.");
+}
+
+void remove_database(const std::filesystem::path& path) {
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(path.string() + end);
 }
 
 }  // namespace
@@ -210,12 +225,25 @@ void Database::execute(const std::string& sql, const char* doing) {
     }
 }
 
-void fold_write_ahead_log(Database& database) {
-    constexpr const char* doing = "take the log into the file";
-    Statement statement(database, "PRAGMA wal_checkpoint(TRUNCATE)");
-    statement.step(doing);
-    if (statement.get<int>(0) != 0)
-        throw Error(std::string("Cannot ") + doing + ": another program reads it.");
+void write_new_database(const std::filesystem::path& path, const std::function<bool(Database&)>& write) {
+    if (std::filesystem::exists(path))
+        throw Error(path.string() +
+                    " exists already, and a merge makes a new file. Name another one, or remove it.");
+    const std::filesystem::path unfinished = path.string() + ".unfinished";
+    remove_database(unfinished);
+    bool is_complete = false;
+    try {
+        Database database = Database::open_or_create(unfinished);
+        is_complete = write(database);
+        if (is_complete) fold_write_ahead_log(database);
+    } catch (...) {
+        remove_database(unfinished);
+        throw;
+    }
+    if (is_complete)
+        rename_durably(unfinished, path);
+    else
+        remove_database(unfinished);
 }
 
 }  // namespace capstan::storage

@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -59,9 +60,8 @@ class Database {
     std::unique_ptr<sqlite3, Closer> connection_;
 };
 
-// Takes everything into the file itself and empties its log; an Error if that cannot be done. For a file that
-// is about to get another name: a log stays under the old one, and what SQLite cannot write when a file is
-// closed it keeps quiet about.
-void fold_write_ahead_log(Database& database);
+// Makes a new file that is written completely or not at all: under another name, until `write` has returned
+// true. An Error if the file exists already.
+void write_new_database(const std::filesystem::path& path, const std::function<bool(Database&)>& write);
 
 }  // namespace capstan::storage

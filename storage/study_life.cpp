@@ -1,7 +1,7 @@
 // Finding, finishing and deleting studies.
-#include <charconv>
 #include <optional>
 
+#include "capstan/platform/parsed_number.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/integrity/content_hash.h"
 #include "capstan/storage/record_rows.h"
@@ -12,13 +12,6 @@
 
 namespace capstan::storage {
 namespace {
-
-std::optional<std::int64_t> as_id(std::string_view text) {
-    std::int64_t id = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
-    if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return id;
-}
 
 std::string sentence_of(const std::vector<StudySummary>& studies) {
     if (studies.empty()) return "It holds no study yet; `capstan study run` makes one.";
@@ -130,7 +123,7 @@ std::vector<StudySummary> list_studies(Database& database, Shelf shelf) {
 
 std::int64_t find_study(Database& database, std::string_view id_or_name_or_latest, Shelf shelf) {
     const std::vector<StudySummary> studies = list_studies(database, shelf);
-    const std::optional<std::int64_t> id = as_id(id_or_name_or_latest);
+    const std::optional<std::int64_t> id = parsed_number<std::int64_t>(id_or_name_or_latest);
     for (const StudySummary& study : studies) {
         if (id && study.study_id == *id) return *id;
     }

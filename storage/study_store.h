@@ -26,6 +26,12 @@ std::int64_t begin_study(Database& database, const StudyDescription& description
 std::optional<std::vector<std::int64_t>> begin_shard(Database& database, const ShardRecord& shard,
                                                      const std::vector<StudyDescription>& descriptions);
 
+// The same, or the studies that the file has already, where it is a file of this shard. An Error where it is
+// another one, or holds complete studies.
+std::vector<std::int64_t> begin_or_find_shard(Database& database, const ShardRecord& shard,
+                                              const std::vector<StudyDescription>& descriptions);
+std::string words_of(const ShardRecord& shard);  // "shard 2 of 8"
+
 // Write a unit's results and mark it done. Refused when the unit is done already, or is another stage,
 // scenario or noise level than the results.
 void write_single_sensor(Database& database, std::int64_t study_id, int unit_index,

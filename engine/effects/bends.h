@@ -1,5 +1,7 @@
 #pragma once
 
+#include "capstan/effects/effect_row.h"
+
 namespace capstan {
 
 /// A stretch of the cable's path, in metres from the motor end.
@@ -17,6 +19,19 @@ struct Stretch {
 
 inline Stretch stretch_around(double middle_m, double length_m) {
     return {middle_m - 0.5 * length_m, middle_m + 0.5 * length_m};
+}
+
+/// The parameters of a stretch in a catalogue row.
+inline EffectParameter middle_of_stretch() {
+    return {.name = "middle", .unit = "m", .high = 100.0, .typical = 1.0, .role = ParameterRole::place};
+}
+inline EffectParameter length_of_stretch(double typical_m) {
+    return {.name = "length",
+            .unit = "m",
+            .low = 1e-3,
+            .high = 10.0,
+            .typical = typical_m,
+            .role = ParameterRole::shape};
 }
 
 }  // namespace capstan

@@ -23,19 +23,8 @@ struct MovingBend {
                            .needs_pair = true},
                  .parameters = {{{.name = "angle_per_load_angle", .low = -20.0, .high = 20.0, .typical = 1.0},
                                  &MovingBend::extra_angle_per_load_angle},
-                                {{.name = "middle",
-                                  .unit = "m",
-                                  .high = 100.0,
-                                  .typical = 1.0,
-                                  .role = ParameterRole::place},
-                                 &MovingBend::middle_m},
-                                {{.name = "length",
-                                  .unit = "m",
-                                  .low = 1e-3,
-                                  .high = 10.0,
-                                  .typical = 0.3,
-                                  .role = ParameterRole::shape},
-                                 &MovingBend::length_m}}}};
+                                {middle_of_stretch(), &MovingBend::middle_m},
+                                {length_of_stretch(0.3), &MovingBend::length_m}}}};
     }
 };
 

@@ -184,7 +184,7 @@
     const card = element("article", { className: "card verdict-card", id: "diagnosis-" + row.diagnosis_id },
       element("h3", { textContent: `${row.recording}: ${verdict_words(row.verdict)}` }),
       element("p", { textContent: row.sentence + (row.component && row.component !== "none" ? ` Where: ${row.component}${row.cable_end ? ", at the " + row.cable_end + " end" : ""}${row.position_m == null ? "" : ", about " + digits(row.position_m) + " m from the motor"}.` : "") }),
-      channel, more, element("p", { className: "buttons" }, link("/diagnoses/" + row.diagnosis_id, "The whole diagnosis: numbers, curves, model"), " ",
+      channel, more, element("p", { className: "buttons" }, link("/diagnoses/" + row.diagnosis_id, "The complete diagnosis: numbers, curves, model"), " ",
         element("a", { href: `/api/diagnoses/${row.diagnosis_id}/model`, download: "", textContent: "Corrected model" })));
     card.dataset.verdict = row.verdict;
     return card;

@@ -262,7 +262,7 @@ std::string next_experiment_sentence(const gap::NonIdentifiable& open) {
         for (const std::string& effect : effects) titles.push_back(cause_title(effect));
         group.push_back(fmt::format("{}", fmt::join(titles, " with ")));
     }
-    const std::string text = (open.is_unknown ? "Known effects do not explain the whole gap. Closest come: "
+    const std::string text = (open.is_unknown ? "Known effects do not explain all of the gap. Closest come: "
                                               : "This recording cannot distinguish: ") +
                              fmt::format("{}.", fmt::join(group, "; "));
     constexpr double helps = 0.8;

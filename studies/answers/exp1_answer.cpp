@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "capstan/answers/paper_answers.h"
+#include "capstan/reports/plain_tables.h"
 
 namespace capstan::answers {
 
@@ -156,6 +157,20 @@ reports::AnswerSection readings_section(const paper::RampReadings& readings, con
 }
 
 }  // namespace
+
+std::string trajectories_csv(const std::vector<std::vector<paper::RampRun>>& runs) {
+    std::string text = reports::csv_head({"setting", "pretension_N", "time_s", "motor_torque_Nm",
+                                          "motor_angle_rad", "load_torque_Nm", "ideal_load_torque_Nm"});
+    for (const auto& setting : runs) {
+        for (const paper::RampRun& run : setting) {
+            for (const auto& sample : run.samples)
+                text += reports::csv_line({run.setting, run.pretension_N, sample.time_s,
+                                           sample.motor_torque_Nm, sample.motor_angle_rad,
+                                           sample.load_torque_Nm, sample.ideal_load_torque_Nm});
+        }
+    }
+    return text;
+}
 
 reports::Answer exp1_answer(const Settings& runs, const paper::RampReadings& readings) {
     const std::vector<RampRun>& reproducing = runs.back();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "capstan/answers/paper_answers.h"
+#include "capstan/reports/plain_tables.h"
 
 namespace capstan::answers {
 
@@ -208,6 +209,22 @@ reports::AnswerSection viscous_section(const ViscousComparison& viscous) {
 }
 
 }  // namespace
+
+std::string trajectories_csv(const std::vector<std::vector<paper::TunnelRun>>& runs) {
+    std::string text =
+        reports::csv_head({"setting", "pretension_N", "time_s", "load_angle_rad", "motor_torque_Nm",
+                           "motor_angle_rad", "load_torque_Nm", "ideal_load_torque_Nm"});
+    for (const auto& setting : runs) {
+        for (const paper::TunnelRun& run : setting) {
+            for (const auto& sample : run.samples)
+                text +=
+                    reports::csv_line({run.setting, run.pretension_N, sample.time_s, sample.load_angle_rad,
+                                       sample.motor_torque_Nm, sample.motor_angle_rad, sample.load_torque_Nm,
+                                       sample.ideal_load_torque_Nm});
+        }
+    }
+    return text;
+}
 
 reports::Answer exp2_answer(const std::vector<std::vector<TunnelRun>>& runs,
                             const ViscousComparison& viscous) {

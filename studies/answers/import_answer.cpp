@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "capstan/answers/recording_answers.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/recording/recording_keys.h"
 
 namespace capstan::answers {
@@ -77,10 +78,9 @@ reports::Answer import_answer(const imports::ImportReport& report) {
                                                [](const auto& finding) { return finding.repaired; }));
     const std::size_t doubts = report.findings.size() - repairs;
     answer.headline =
-        fmt::format("{} run{} with {} samples of {} channel{} at {:g} Hz; {} repair{}, {} remark{}.",
-                    report.runs.size(), report.runs.size() == 1 ? "" : "s", samples, report.channels.size(),
-                    report.channels.size() == 1 ? "" : "s", report.sample_rate_Hz, repairs,
-                    repairs == 1 ? "" : "s", doubts, doubts == 1 ? "" : "s");
+        fmt::format("{} with {} samples of {} at {:g} Hz; {}, {}.", counted(report.runs.size(), "run"),
+                    samples, counted(report.channels.size(), "channel"), report.sample_rate_Hz,
+                    counted(repairs, "repair"), counted(doubts, "remark"));
     const Data findings = findings_data(report.findings);
     answer.values = {{"files", report.files},
                      {"channels", report.channels},
@@ -116,9 +116,8 @@ reports::Answer column_list_answer(const imports::ColumnList& list) {
     reports::Answer answer{.id = "columns",
                            .kind = "Columns of a log",
                            .title = list.logs.front().file,
-                           .headline = fmt::format("{} column{} in {} file{}.", list.columns.size(),
-                                                   list.columns.size() == 1 ? "" : "s", list.logs.size(),
-                                                   list.logs.size() == 1 ? "" : "s")};
+                           .headline = fmt::format("{} in {}.", counted(list.columns.size(), "column"),
+                                                   counted(list.logs.size(), "file"))};
     Data files = Data::list();
     for (const imports::ListedLog& log : list.logs)
         files.push_back({{"file", log.file},
@@ -194,10 +193,9 @@ reports::Answer recording_check_answer(const Recording& recording, const std::ve
                             {"step", channel.step}});
     answer.headline =
         problems.empty()
-            ? fmt::format("the recording can be used: {}, {} run{}, {} samples.", mode_name(recording.mode),
-                          recording.runs.size(), recording.runs.size() == 1 ? "" : "s", recording.samples())
-            : fmt::format("the recording cannot be used: {} problem{}.", problems.size(),
-                          problems.size() == 1 ? "" : "s");
+            ? fmt::format("the recording can be used: {}, {}, {} samples.", mode_name(recording.mode),
+                          counted(recording.runs.size(), "run"), recording.samples())
+            : fmt::format("the recording cannot be used: {}.", counted(problems.size(), "problem"));
     answer.values = {{"ok", problems.empty()},
                      {"problems", problems},
                      {"assumptions", recording.assumptions},

@@ -24,6 +24,10 @@ inline double degrees(double angle_rad) {
 reports::Answer exp1_answer(const std::vector<std::vector<paper::RampRun>>& runs,
                             const paper::RampReadings& readings);
 
+/// Every sample of an experiment as CSV.
+std::string trajectories_csv(const std::vector<std::vector<paper::RampRun>>& runs);
+std::string trajectories_csv(const std::vector<std::vector<paper::TunnelRun>>& runs);
+
 /// Exp. 2 and its Fig. 6; `runs` as for exp1_answer.
 reports::Answer exp2_answer(const std::vector<std::vector<paper::TunnelRun>>& runs,
                             const paper::ViscousComparison& viscous);

@@ -284,10 +284,6 @@ std::vector<int> from_one(std::vector<int> nodes) {
     return nodes;
 }
 
-std::string counted(std::size_t count, const std::string& thing) {
-    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
 std::string title_of_method(const std::string& name) {
     const FusionMethod* method = find_fusion_method(name);
     return method == nullptr ? name : std::string(method->title);

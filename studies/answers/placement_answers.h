@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capstan/estimate/cycle_trial.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/reports/answer.h"
 #include "capstan/search/placement_answer.h"
 #include "capstan/search/shared_budget.h"
@@ -99,8 +100,6 @@ reports::Answer cycle_answer(const StudyPlan& plan, const std::vector<estimate::
 
 /// Nodes as people count them, from 1.
 std::vector<int> from_one(std::vector<int> nodes);
-/// "2 sensors", "1 sensor".
-std::string counted(std::size_t count, const std::string& thing);
 /// A fusion method's title; its name where the catalogue does not know it.
 std::string title_of_method(const std::string& name);
 /// The nodes of a set, from 1, and the label of a noise level, that a recommendation of the study names.

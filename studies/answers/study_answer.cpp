@@ -167,57 +167,13 @@ reports::Answer study_answer(storage::Database& database, std::int64_t study_id)
     return answer;
 }
 
-reports::Answer cost_answer(const std::string& name, const StudyCost& cost,
-                            const std::vector<StudyPlan>& plans, int shards) {
-    const double sharded_s = cost.processor_s_with(plans, shards);
-    constexpr double hour_s = 3600.0;
-    reports::Answer answer{.id = "cost",
-                           .kind = "Estimated cost of a study",
-                           .title = name,
-                           .headline = fmt::format("one run takes {:.3g} core-hours on this machine.",
-                                                   cost.processor_s / hour_s)};
-    answer.values = {{"name", name},
-                     {"studies", cost.studies},
-                     {"parts", cost.parts},
-                     {"cells", cost.cells},
-                     {"repetitions", cost.repetitions},
-                     {"readings", cost.readings},
-                     {"one_run_core_hours", cost.processor_s / hour_s},
-                     {"shards", shards},
-                     {"core_hours", sharded_s / hour_s},
-                     {"shard_s", sharded_s / shards},
-                     {"shard_preparation_s", cost.shard_preparation_s},
-                     {"parts_solved_again", parts_solved_again(plans, shards)},
-                     {"median_half_width_N", cost.median_half_width_N},
-                     {"largest_half_width_N", cost.largest_half_width_N},
-                     {"pilot_parts", cost.pilot_parts},
-                     {"pilot_repetitions", cost.pilot_repetitions}};
-    Data rows = Data::list();
-    const auto add = [&](const char* quantity, Data value, const char* unit) {
-        rows.push_back({{"quantity", quantity}, {"value", std::move(value)}, {"unit", unit}});
-    };
-    add("studies", cost.studies, "");
-    add("parts (instants times noise levels): the largest number of shards", cost.parts, "");
-    add("cells", cost.cells, "");
-    add("repetitions of each", cost.repetitions, "");
-    add("readings", cost.readings, "");
-    add("one run", cost.processor_s / hour_s, "core-hours");
-    add("number of shards", shards, "");
-    add("all shards together", sharded_s / hour_s, "core-hours");
-    add("each shard", sharded_s / shards, "s");
-    add("of it preparation", cost.shard_preparation_s, "s");
-    add("half width of a cell's 95% interval, median", cost.median_half_width_N, "N");
-    add("half width of a cell's 95% interval, largest", cost.largest_half_width_N, "N");
-    answer.sections = {
-        {.id = "cost",
-         .heading = "Size and cost",
-         .tables = {{"cost",
-                     "",
-                     {{"quantity", "quantity"}, {"value", "value", "", ".3g"}, {"unit", "unit"}},
-                     rows}},
-         .note = fmt::format("Predicted from {} parts, timed with {} repetitions each.", cost.pilot_parts,
-                             cost.pilot_repetitions)}};
-    return answer;
+storage::QueryResult studies_table(storage::Database& database, storage::Shelf shelf) {
+    storage::QueryResult table{
+        {"study_id", "name", "status", "units_done", "units", "begun_utc", "note", "tags"}, {}};
+    for (const storage::StudySummary& study : storage::list_studies(database, shelf))
+        table.rows.push_back({study.study_id, study.name, study.status, std::int64_t{study.units_done},
+                              std::int64_t{study.units}, study.begun_utc, study.note, study.tags});
+    return table;
 }
 
 reports::Answer replay_answer(const Replay& replayed, const storage::ScenarioRecord& scenario,

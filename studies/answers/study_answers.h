@@ -3,16 +3,20 @@
 // from.
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "capstan/cluster/study_status.h"
 #include "capstan/placement/replay.h"
 #include "capstan/placement/study_cost.h"
 #include "capstan/reports/answer.h"
 #include "capstan/storage/database.h"
+#include "capstan/storage/health.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/records.h"
 #include "capstan/storage/study_store.h"
+#include "capstan/verification/recomputation.h"
 
 namespace capstan::answers {
 
@@ -35,11 +39,27 @@ reports::Answer catalogue_answer();
 storage::QueryResult studies_table(storage::Database& database,
                                    storage::Shelf shelf = storage::Shelf::studies);
 
-/// The rows as columns side by side, numbers to the right in six digits.
-std::string rows_text(const storage::QueryResult& result);
-/// The rows as a JSON array of objects, one object after the other.
-std::string rows_json(const storage::QueryResult& result);
-/// One of those objects, indented as it stands in the array.
-std::string row_json(const std::vector<std::string>& columns, const std::vector<storage::QueryValue>& row);
+/// How far the shards of a submitted study are.
+reports::Answer submitted_study_answer(const cluster::StudyStatus& status);
+
+/// The size of a checked configuration, all studies of its sweep together: a few lines, and for programs.
+std::string plan_size_text(const std::string& file, const StudyPlan& plan,
+                           const std::vector<StudyPlan>& studies);
+reports::Data plan_size_data(const StudyPlan& plan, const std::vector<StudyPlan>& studies);
+
+/// A results database as the integrity check finds it.
+struct DatabaseState {
+    std::string words;
+    bool is_there = false;
+    bool is_intact = true;
+    storage::Health health;
+};
+DatabaseState state_of_database(const std::filesystem::path& file);
+
+/// The program, the processor, the optional programs and the database.
+reports::Answer installation_answer(const std::string& database_file, const DatabaseState& state);
+
+/// A part of a stored study, computed again.
+reports::Answer verification_answer(std::int64_t study_id, const Sample& sample, const Recomputation& found);
 
 }  // namespace capstan::answers

@@ -22,7 +22,7 @@ struct EffectNumbers {
 /// All that BenchEffects holds.
 const std::vector<EffectNumbers>& effect_numbers();
 
-/// Null if there is no such group.
+/// Null if the group does not exist.
 const EffectNumbers* find_effect(const std::string& name, const std::string& variant);
 
 /// The groups that are present, as few as describe these effects. `causes` decide where several could.

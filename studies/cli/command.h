@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace capstan::cli {
@@ -39,19 +40,26 @@ inline constexpr std::string_view stores_nothing =
     "stopped by Ctrl-C or a request to terminate; nothing is stored";
 inline constexpr std::string_view can_be_resumed = exit_code_meanings[4].meaning;
 
-enum class OptionKind { flag, string, integer, number };
+enum class OptionKind { string, integer, number };
+
+/// The values of a number that are allowed, both ends included.
+struct Limits {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+};
 
 /// One option of a command: everything that parsing and explaining it need.
 struct Option {
     std::string_view name;  ///< without dashes
     char letter = '\0';     ///< short form; '\0': none
     OptionKind kind = OptionKind::string;
-    std::string_view value{};  ///< what to give, in capitals; flags: empty
+    std::string_view value{};  ///< what to give, in capitals; empty: one of the choices, or a flag
     std::string_view meaning{};
     std::string_view default_value{};  ///< empty: none
     std::vector<std::string> choices{};
-    double low = -std::numeric_limits<double>::infinity();  ///< numbers only, both limits allowed
-    double high = std::numeric_limits<double>::infinity();
+    Limits limits{};  ///< of numbers
+
+    bool is_flag() const { return value.empty() && choices.empty(); }
 };
 
 enum class ArgumentNeed { required, optional, one_or_more };  ///< the last only for a command's last argument
@@ -74,11 +82,9 @@ struct Command {
     std::vector<Option> options{};
     std::vector<std::string_view> examples{};
     ExitCode (*run)(const Invocation&);
+    std::string_view time = "Less than 2 s.";  ///< how long it takes, on a machine with two cores of 2023
     std::string_view when_stopped{};  ///< the meaning of ExitCode::stopped; empty: it does not return it
 };
-
-/// How long a command takes, in a sentence; the machine has two cores.
-std::string_view time_of(const Command& command);
 
 /// The exit codes that a command can return, each with its meaning.
 std::vector<ExitCodeMeaning> exit_codes_of(const Command& command);
@@ -100,7 +106,24 @@ class Invocation {
     /// Of an option that was given or has a default; asking for any other is an error of the program.
     const std::string& text(std::string_view option) const { return value_of(options_, option); }
     std::int64_t integer(std::string_view option) const { return std::stoll(text(option)); }
+    /// An integer whose limits an int holds.
+    int count(std::string_view option) const { return static_cast<int>(integer(option)); }
     double number(std::string_view option) const { return std::stod(text(option)); }
+    /// Assigns the value of an option that was given or has a default; otherwise `value` stays as it is.
+    template <typename Value>
+    void take(std::string_view option, Value& value) const {
+        if (!has(option)) return;
+        if constexpr (std::is_integral_v<Value>)
+            value = static_cast<Value>(integer(option));
+        else if constexpr (std::is_floating_point_v<Value>)
+            value = number(option);
+        else
+            value = text(option);
+    }
+    template <typename Value>
+    void take(std::string_view option, std::optional<Value>& value) const {
+        if (has(option)) take(option, value.emplace());
+    }
 
     bool has_argument(std::string_view name) const { return arguments_.find(name) != arguments_.end(); }
     const std::string& argument(std::string_view name) const { return value_of(arguments_, name); }

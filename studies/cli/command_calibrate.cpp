@@ -21,8 +21,8 @@ ExitCode run_calibrate(const Invocation& invocation) {
     if (invocation.has("runs"))
         recording = model_comparison::runs_of(recording, run_numbers(invocation.text("runs")));
     gap::CalibrationOptions options;
-    options.threads = static_cast<int>(invocation.integer("jobs"));
-    options.segments = static_cast<int>(invocation.integer("segments"));
+    options.threads = invocation.count("jobs");
+    options.segments = invocation.count("segments");
     if (invocation.has("fit")) options.fitted = split_at_commas(invocation.text("fit"));
     std::optional<bench_model::BenchModel> model;
     if (invocation.has("model")) {
@@ -76,7 +76,10 @@ Command calibrate_command() {
         .examples = {"capstan calibrate bench.csv",
                      "capstan calibrate bench.csv --fit dynamic_friction,pretension --json",
                      "capstan calibrate later.csv --runs 1,3 --model model.toml"},
-        .run = run_calibrate};
+        .run = run_calibrate,
+        .time =
+            "Seconds to a minute, in proportion to the length of the recording and to the square of its runs. Shows progress and "
+            "the time left."};
 }
 
 namespace {
@@ -84,10 +87,10 @@ namespace {
 ExitCode run_duty(const Invocation& invocation) {
     const Recording recording = read_recording(invocation.argument("LOG"));
     duty::DutyOptions options;
-    options.jobs = static_cast<int>(invocation.integer("jobs"));
-    options.segments = static_cast<int>(invocation.integer("segments"));
+    options.jobs = invocation.count("jobs");
+    options.segments = invocation.count("segments");
     options.still_m_per_s = 1e-3 * invocation.number("still");
-    if (invocation.has("parameters")) options.parameters = invocation.text("parameters");
+    invocation.take("parameters", options.parameters);
     ShownWork work(invocation, recording.name);
     const duty::DutyCycle duty = duty::measure_duty(recording, options);
     work.end();
@@ -112,8 +115,7 @@ Command duty_command() {
                   .value = "MM/S",
                   .meaning = "A cable is at rest while both its ends move slower than this.",
                   .default_value = "0.2",
-                  .low = 0,
-                  .high = 1e6},
+                  .limits = {0, 1e6}},
                  {.name = "parameters",
                   .value = "FILE",
                   .meaning =
@@ -126,7 +128,8 @@ Command duty_command() {
                  help_option},
             .examples = {"capstan duty bench.csv",
                          "capstan duty bench.csv --parameters fitted.json --json -o duty.json"},
-            .run = run_duty};
+            .run = run_duty,
+            .time = "As long as the recording, divided by about 1000. Shows progress and the time left."};
 }
 
 }  // namespace capstan::cli

@@ -36,40 +36,53 @@ std::vector<std::string> second_words(const std::string& group) {
     return words;
 }
 
-std::string option_words(const Command& command) {
+std::vector<std::string> option_words(const Command& command) {
     std::vector<std::string> words;
     for (const Option& option : command.options) {
         words.push_back(fmt::format("--{}", option.name));
         if (option.letter != '\0') words.push_back(fmt::format("-{}", option.letter));
     }
-    return fmt::format("{}", fmt::join(words, " "));
+    return words;
 }
 
-std::string groups_cases(const char* indent) {
+// Lines of a case statement. `pattern` takes what is typed before and the words that may follow.
+std::string cases(std::string_view pattern, const std::string& before,
+                  const std::vector<std::string>& words) {
+    return fmt::format(fmt::runtime(pattern), before, fmt::join(words, " "));
+}
+
+std::string group_cases(std::string_view pattern) {
     std::string text;
     for (const std::string& word : first_words()) {
         const auto seconds = second_words(word);
-        if (!seconds.empty())
-            text += fmt::format("{}{}) words='{}' ;;\n", indent, word, fmt::join(seconds, " "));
+        if (!seconds.empty()) text += cases(pattern, word, seconds);
     }
-    return text + fmt::format("{}help) words='{}' ;;\n", indent, fmt::join(first_words(), " "));
+    return text + cases(pattern, "help", first_words());
 }
 
-std::string option_cases(const char* indent) {
+std::string option_cases(std::string_view pattern) {
     std::string text;
     for (const Command& command : commands())
-        text += fmt::format("{}'{}') options='{}' ;;\n", indent, command.name, option_words(command));
+        text += cases(pattern, std::string(command.name), option_words(command));
     return text;
 }
 
-std::string choice_cases(const char* indent) {
+std::string choice_cases(std::string_view pattern) {
     std::string text;
     for (const Command& command : commands()) {
-        for (const Option& option : command.options) {
+        for (const Option& option : command.options)
             if (!option.choices.empty())
-                text += fmt::format("{}'{} --{}') words='{}' ;;\n", indent, command.name, option.name,
-                                    fmt::join(option.choices, " "));
-        }
+                text += cases(pattern, fmt::format("{} --{}", command.name, option.name), option.choices);
+    }
+    return text;
+}
+
+// Commands of two words.
+std::string command_cases() {
+    std::string text;
+    for (const Command& command : commands()) {
+        if (command.name.find(' ') != std::string_view::npos)
+            text += fmt::format("        '{0}') command='{0}' ;;\n", command.name);
     }
     return text;
 }
@@ -90,22 +103,18 @@ std::string bash_completion() {
     text +=
         "    if [[ $COMP_CWORD -eq 2 ]]; then\n"
         "        case $command in\n" +
-        groups_cases("            ") +
+        group_cases("            {}) words='{}' ;;\n") +
         "        esac\n"
         "        if [[ -n $words ]]; then\n"
         "            COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
         "            return\n"
         "        fi\n"
         "    fi\n"
-        "    case \"$command ${COMP_WORDS[2]}\" in\n";
-    for (const Command& command : commands()) {
-        if (command.name.find(' ') != std::string_view::npos)
-            text += fmt::format("        '{0}') command='{0}' ;;\n", command.name);
-    }
-    text +=
+        "    case \"$command ${COMP_WORDS[2]}\" in\n" +
+        command_cases() +
         "    esac\n"
         "    case \"$command $before\" in\n" +
-        choice_cases("        ") +
+        choice_cases("        '{}') words='{}' ;;\n") +
         "    esac\n"
         "    if [[ -n $words ]]; then\n"
         "        COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
@@ -113,7 +122,7 @@ std::string bash_completion() {
         "    fi\n"
         "    [[ $current == -* ]] || return 0\n"
         "    case $command in\n" +
-        option_cases("        ") +
+        option_cases("        '{}') options='{}' ;;\n") +
         "    esac\n"
         "    COMPREPLY=($(compgen -W \"$options\" -- \"$current\"))\n"
         "}\n"
@@ -130,33 +139,17 @@ std::string zsh_completion() {
         "    local -a known\n";
     text += fmt::format("    if (( CURRENT == 2 )); then\n        compadd -- {}\n        return\n    fi\n",
                         fmt::join(first_words(), " "));
-    text += "    if (( CURRENT == 3 )); then\n        case $command in\n";
-    for (const std::string& word : first_words()) {
-        const auto seconds = second_words(word);
-        if (!seconds.empty())
-            text += fmt::format("            {}) known=({}) ;;\n", word, fmt::join(seconds, " "));
-    }
-    text += fmt::format("            help) known=({}) ;;\n        esac\n", fmt::join(first_words(), " "));
     text +=
+        "    if (( CURRENT == 3 )); then\n        case $command in\n" +
+        group_cases("            {}) known=({}) ;;\n") +
+        "        esac\n"
         "        if (( ${#known} )); then\n            compadd -- $known\n            return\n        fi\n    fi\n"
-        "    case \"$command $second\" in\n";
-    for (const Command& command : commands()) {
-        if (command.name.find(' ') != std::string_view::npos)
-            text += fmt::format("        '{0}') command='{0}' ;;\n", command.name);
-    }
-    text += "    esac\n    case \"$command $before\" in\n";
-    for (const Command& command : commands()) {
-        for (const Option& option : command.options) {
-            if (!option.choices.empty())
-                text += fmt::format("        '{} --{}') known=({}) ;;\n", command.name, option.name,
-                                    fmt::join(option.choices, " "));
-        }
-    }
-    text +=
+        "    case \"$command $second\" in\n" +
+        command_cases() + "    esac\n    case \"$command $before\" in\n" +
+        choice_cases("        '{}') known=({}) ;;\n") +
         "    esac\n    if (( ${#known} )); then\n        compadd -- $known\n        return\n    fi\n"
-        "    if [[ $given != -* ]]; then\n        _files\n        return\n    fi\n    case $command in\n";
-    for (const Command& command : commands())
-        text += fmt::format("        '{}') known=({}) ;;\n", command.name, option_words(command));
+        "    if [[ $given != -* ]]; then\n        _files\n        return\n    fi\n    case $command in\n" +
+        option_cases("        '{}') known=({}) ;;\n");
     return text +
            "    esac\n    compadd -- $known\n}\n"
            "if [[ ${zsh_eval_context[-1]} == loadautofunc ]]; then _capstan \"$@\"; else compdef _capstan capstan; fi\n";

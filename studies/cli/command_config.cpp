@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <set>
-
 #include "capstan/answers/study_answers.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
@@ -12,8 +9,6 @@
 #include "capstan/config/config_reader.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/config/plan_checks.h"
-#include "capstan/worlds/candidate.h"
-#include "capstan/worlds/sensor_places.h"
 
 namespace capstan::cli {
 
@@ -38,7 +33,6 @@ Command config_default_command() {
             "Prints a complete configuration: every key with its meaning, unit, limits and default. It "
             "can be run without changes.",
         .options = {{.name = "bench",
-                     .kind = OptionKind::flag,
                      .meaning =
                          "Print the configuration of a bench, for `capstan simulate`, instead of a study's."},
                     output_option,
@@ -48,104 +42,6 @@ Command config_default_command() {
 }
 
 namespace {
-
-// The size of a plan.
-struct PlanSize {
-    int nodes = 0;
-    std::size_t scenarios = 0;
-    std::size_t noise_levels = 0;
-    std::size_t sensor_sets = 0;
-    std::size_t methods = 0;
-    std::size_t cells = 0;   ///< 0: over worlds
-    bool is_greedy = false;  ///< the search tries more sets than `sensor_sets`
-};
-
-PlanSize size_of(const StudyPlan& plan) {
-    PlanSize size;
-    size.nodes = plan.transmission.cable.segments + 1;
-    if (plan.uncertainty.is_stated) {
-        const std::vector<Candidate> candidates = candidates_of(plan, sensor_offers(plan));
-        size.is_greedy = candidates.back().is_bound;
-        size.sensor_sets =
-            candidates.size() - (size.is_greedy ? 2 : 1);  // without the empty one and the bound
-        return size;
-    }
-    for (const RegimeInstants& regime : plan.regimes) size.scenarios += regime.samples.size();
-    std::set<std::vector<int>> sets;
-    for (const std::string& family : plan.layout_families) {
-        for (const int count : plan.sensor_counts) {
-            for (const Layout& layout : find_layout_family(family)->layouts(count, size.nodes))
-                sets.insert(layout.nodes);
-        }
-    }
-    for (const auto& nodes : plan.explicit_layouts) sets.insert(explicit_layout(nodes).nodes);
-    size.noise_levels = plan.noise_levels.size();
-    size.sensor_sets = sets.size();
-    size.methods = plan.fusion_methods.size();
-    size.cells = size.scenarios * size.noise_levels * size.sensor_sets * size.methods;
-    return size;
-}
-
-std::string counted(std::size_t count, const std::string& thing) {
-    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
-// The total of all studies of a sweep; nodes and sensor sets are those of the largest.
-PlanSize size_of(const std::vector<StudyPlan>& studies) {
-    PlanSize total;
-    for (const StudyPlan& study : studies) {
-        const PlanSize size = size_of(study);
-        total.nodes = std::max(total.nodes, size.nodes);
-        total.sensor_sets = std::max(total.sensor_sets, size.sensor_sets);
-        total.is_greedy = total.is_greedy || size.is_greedy;
-        total.scenarios += size.scenarios;
-        total.noise_levels = size.noise_levels;
-        total.methods = size.methods;
-        total.cells += size.cells;
-    }
-    return total;
-}
-
-std::string in_words(const std::string& file, const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
-    const PlanSize size = size_of(studies);
-    const std::string sweep =
-        studies.size() > 1 ? fmt::format("  a sweep of {} studies, together:\n", studies.size()) : "";
-    const std::string conduit =
-        plan.transmission.conduit_note.empty() ? "" : "  conduit: " + plan.transmission.conduit_note + "\n";
-    if (plan.uncertainty.is_stated)
-        return fmt::format(
-            "{}: ok\n{}{}  {} nodes, {} of sensors{}, {} worlds to choose and as many to judge\n", file,
-            sweep, conduit, size.nodes, counted(size.sensor_sets, "set"),
-            size.is_greedy ? " and those of a greedy search" : "", plan.repetitions);
-    return fmt::format("{}: ok\n{}{}  {} nodes, {}, {}, {}, {}: {} of {} repetitions\n", file, sweep, conduit,
-                       size.nodes, counted(size.scenarios, "instant"),
-                       counted(size.noise_levels, "noise level"), counted(size.sensor_sets, "sensor set"),
-                       counted(size.methods, "method"), counted(size.cells, "cell"), plan.repetitions);
-}
-
-Data in_json(const StudyPlan& plan, const std::vector<StudyPlan>& studies) {
-    const PlanSize size = size_of(studies);
-    if (plan.uncertainty.is_stated)
-        return {{"ok", true},
-                {"name", plan.name},
-                {"studies", studies.size()},
-                {"conduit", plan.transmission.conduit_note},
-                {"nodes", size.nodes},
-                {"sensor_sets", size.sensor_sets},
-                {"greedy", size.is_greedy},
-                {"worlds", plan.repetitions}};
-    return {{"ok", true},
-            {"name", plan.name},
-            {"studies", studies.size()},
-            {"conduit", plan.transmission.conduit_note},
-            {"nodes", size.nodes},
-            {"scenarios", size.scenarios},
-            {"noise_levels", size.noise_levels},
-            {"sensor_sets", size.sensor_sets},
-            {"methods", size.methods},
-            {"cells", size.cells},
-            {"repetitions", plan.repetitions}};
-}
 
 std::string bench_in_words(const std::string& file, const bench::BenchPlan& plan) {
     std::string text = fmt::format("{}: ok\n  a bench: {} segments to a cable, {} samples", file,
@@ -191,8 +87,9 @@ ExitCode run_config_check(const Invocation& invocation) {
         }
         const config::ReadConfig config = config::read_config(file);
         const std::vector<StudyPlan> studies = config::runnable_studies(config);
-        deliver(invocation, invocation.has("json") ? reports::json_text(in_json(config.plan, studies))
-                                                   : in_words(file, config.plan, studies));
+        deliver(invocation, invocation.has("json")
+                                ? reports::json_text(answers::plan_size_data(config.plan, studies))
+                                : answers::plan_size_text(file, config.plan, studies));
         return ExitCode::success;
     } catch (const config::ConfigError& error) {
         if (!invocation.has("json")) throw;

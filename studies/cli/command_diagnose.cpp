@@ -54,27 +54,18 @@ void save_model(const std::filesystem::path& file, const model_comparison::Diagn
 }
 
 // The channels that the corrected model predicts.
-void write_prediction(const std::filesystem::path& file, Recording recording, const Diagnosis& diagnosis) {
+void write_prediction(const std::filesystem::path& file, const Recording& recording,
+                      const Diagnosis& diagnosis) {
     if (!exports::is_series_file(file) && file.extension() != ".csv")
         throw UsageError(fmt::format("capstan diagnose: --prediction {} should end in .csv, .mat or .mcap",
                                      file.string()));
-    for (std::size_t channel = recording.channels.size(); channel-- > 0;) {
-        const auto at = static_cast<std::ptrdiff_t>(channel);
-        const bool is_known = std::all_of(diagnosis.gap.leading.begin(), diagnosis.gap.leading.end(),
-                                          [&](const auto& run) { return !run.values[channel].empty(); });
-        if (!is_known) recording.channels.erase(recording.channels.begin() + at);
-        for (std::size_t run = 0; run < recording.runs.size(); ++run) {
-            auto& values = recording.runs[run].values;
-            if (is_known)
-                values[channel] = diagnosis.gap.leading[run].values[channel];
-            else
-                values.erase(values.begin() + at);
-        }
-    }
+    std::vector<std::vector<std::vector<double>>> values;  // runs x channels x samples
+    for (const gap::TwinRun& run : diagnosis.gap.leading) values.push_back(run.values);
+    const Recording predicted = with_values(recording, std::move(values));
     if (exports::is_series_file(file))
-        exports::write_series(file, exports::series_of(recording));
+        exports::write_series(file, exports::series_of(predicted));
     else
-        write_file(file, samples_csv(recording));
+        write_file(file, samples_csv(predicted));
 }
 
 // What a search finds decides how long it goes on, so that the bar is of the longest time, and the time left
@@ -106,8 +97,8 @@ ExitCode run_diagnose(const Invocation& invocation) {
     if (invocation.has("save")) bench_model::require_model_name(invocation.text("save"));
     const Recording recorded = read_recording(invocation.argument("LOG"));
     gap::DiagnosisOptions options;
-    options.threads = static_cast<int>(invocation.integer("jobs"));
-    if (invocation.has("time-limit")) options.time_limit_s = invocation.number("time-limit");
+    options.threads = invocation.count("jobs");
+    invocation.take("time-limit", options.time_limit_s);
     if (invocation.has("cost")) {
         deliver_answer(invocation, answers::diagnosis_cost_answer(
                                        recorded.name, model_comparison::predict_diagnosis_cost(
@@ -158,7 +149,6 @@ const Option hold_option{
     .meaning = "The runs on which the corrected model is judged. Default: those that are not fitted."};
 const Option baselines_option{
     .name = "baselines",
-    .kind = OptionKind::flag,
     .meaning =
         "Also fit simple models that know nothing of the bench, and print the errors of all models on fitted "
         "and held-out runs. Without --fit and --hold, every other run is held out, then the rest."};
@@ -190,12 +180,10 @@ const Option time_limit_option{
     .kind = OptionKind::number,
     .value = "S",
     .meaning = "After S seconds no further cause is tried, and the best answer so far is given.",
-    .low = 1,
-    .high = 86400};
+    .limits = {1, 86400}};
 
 const Option cost_option{
     .name = "cost",
-    .kind = OptionKind::flag,
     .meaning =
         "Only say how long the diagnosis would take on this machine, from a pilot of half a second. Nothing is "
         "diagnosed or written."};
@@ -224,7 +212,10 @@ Command diagnose_command() {
                      "capstan diagnose bench.csv --db bench.db",
                      "capstan diagnose bench.csv --fit 1,3 --save model.toml",
                      "capstan diagnose bench.csv --corrected corrected.toml"},
-        .run = run_diagnose};
+        .run = run_diagnose,
+        .time =
+            "Seconds to some minutes, by the length of the recording and by what it finds; --cost says how long on this machine. "
+            "Shows progress and the time left."};
 }
 
 }  // namespace capstan::cli

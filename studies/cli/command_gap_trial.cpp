@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <memory>
 
 #include "capstan/answers/placement_answers.h"
@@ -9,8 +9,10 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/platform/parsed_number.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
+#include "capstan/platform/wrapped_text.h"
 
 namespace capstan::cli {
 
@@ -24,21 +26,18 @@ using gap_trial::TrialOptions;
 constexpr double nominal_error = 0.01;
 
 gap_trial::VisibilityRange visibility_of(const std::string& text) {
-    gap_trial::VisibilityRange range;
-    const char* const end = text.data() + text.size();
-    const auto low = std::from_chars(text.data(), end, range.low);
-    const bool has_colon = low.ec == std::errc() && low.ptr != end && *low.ptr == ':';
-    const auto high = std::from_chars(has_colon ? low.ptr + 1 : end, end, range.high);
-    if (!has_colon || high.ec != std::errc() || high.ptr != end || range.low < 0.1 || range.high > 100.0 ||
-        range.low >= range.high)
+    const std::size_t colon = std::min(text.find(':'), text.size() - 1);
+    const auto low = parsed_number<double>(text.substr(0, colon));
+    const auto high = parsed_number<double>(text.substr(colon + 1));
+    if (!low || !high || *low < 0.1 || *high > 100.0 || *low >= *high)
         throw UsageError(fmt::format(
             "--visibility '{}' is not a range; write LOW:HIGH between 0.1 and 100, such as 0.5:10", text));
-    return range;
+    return {*low, *high};
 }
 
 TrialOptions trial_options_of(const Invocation& invocation) {
     TrialOptions options;
-    options.cases = static_cast<int>(invocation.integer("cases"));
+    options.cases = invocation.count("cases");
     options.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
     const std::string& severity = invocation.text("severity");
     options.severity = severity == "mild"     ? gap_trial::SeverityChoice::mild
@@ -86,8 +85,8 @@ ExitCode score_again(const Invocation& invocation) {
     const std::filesystem::path labels = invocation.text("unseal");
     const TrialFolder folder = TrialFolder::of_labels(labels);
     const TrialOptions options = gap_trial::unseal_labels(labels).options;
-    const gap_trial::TrialScore score = gap_trial::unseal_and_score(
-        folder, folder.seal(), static_cast<int>(invocation.integer("jobs")), hooks_of(invocation));
+    const gap_trial::TrialScore score =
+        gap_trial::unseal_and_score(folder, folder.seal(), invocation.count("jobs"), hooks_of(invocation));
     if (score.groups.empty())
         throw UsageError(
             fmt::format("{}: there are no answers beside it; `capstan gap-trial --keep {}` computes them",
@@ -101,7 +100,7 @@ ExitCode answer_one(const Invocation& invocation) {
         throw UsageError("--case needs --keep DIR, a trial whose recordings are there");
     const TrialFolder folder =
         TrialFolder::of_labels(std::filesystem::path(invocation.text("keep")) / "labels.json");
-    deliver(invocation, gap_trial::answer_case(folder, static_cast<int>(invocation.integer("case"))));
+    deliver(invocation, gap_trial::answer_case(folder, invocation.count("case")));
     return ExitCode::success;
 }
 
@@ -113,18 +112,18 @@ ExitCode run_gap_trial(const Invocation& invocation) {
         throw UsageError("--generate-only needs --keep DIR, the folder for the recordings");
     const TrialOptions options = trial_options_of(invocation);
     const BlindTrialHooks hooks = hooks_of(invocation);
-    const int jobs = static_cast<int>(invocation.integer("jobs"));
+    const int jobs = invocation.count("jobs");
     const TrialFolder folder = invocation.has("keep") ? TrialFolder::kept(invocation.text("keep"), options)
                                                       : TrialFolder::temporary(options);
     const std::string seal = gap_trial::prepare_trial(folder, options, jobs, hooks);
     if (only_recordings) {
         const reports::Data json = {
             {"folder", folder.path().string()}, {"cases", options.cases}, {"labels_sha256", seal}};
-        deliver(invocation,
-                invocation.has("json")
-                    ? reports::json_text(json)
-                    : fmt::format("{} in {}, labels in {}\n", answers::counted(options.cases, "recording"),
-                                  folder.path().string(), folder.labels().string()));
+        deliver(invocation, invocation.has("json")
+                                ? reports::json_text(json)
+                                : fmt::format("{} in {}, labels in {}\n",
+                                              counted(static_cast<std::size_t>(options.cases), "recording"),
+                                              folder.path().string(), folder.labels().string()));
         return ExitCode::success;
     }
     gap_trial::answer_trial(folder, options, seal, jobs, hooks);
@@ -154,18 +153,15 @@ Command gap_trial_command() {
                     .value = "N",
                     .meaning = "Number of recordings.",
                     .default_value = "60",
-                    .low = 1,
-                    .high = 999},
+                    .limits = {1, 999}},
              Option{.name = "seed",
                     .kind = OptionKind::integer,
                     .value = "S",
                     .meaning = "Seed of all random numbers.",
                     .default_value = "1",
-                    .low = 0,
-                    .high = 9e15},
+                    .limits = {0, 9e15}},
              Option{
                  .name = "kind",
-                 .value = "benches|rigs",
                  .meaning =
                      "benches: four benches, one cause as a rule, correct nominal numbers. rigs: benches and "
                      "drives of drawn geometry with sensor zeros, pulley friction and nominal numbers 7 to "
@@ -175,7 +171,6 @@ Command gap_trial_command() {
                  .choices = {"benches", "rigs"}},
              Option{
                  .name = "severity",
-                 .value = "mild|strong|both",
                  .meaning =
                      "How far the effects exceed noise and model floor: mild is 1.5 to 3 times, strong is 4 to 10 "
                      "times.",
@@ -192,20 +187,16 @@ Command gap_trial_command() {
                     .value = "F",
                     .meaning = "Fraction of the benches that have two effects.",
                     .default_value = "0.1",
-                    .low = 0,
-                    .high = 0.69},
+                    .limits = {0, 0.69}},
              Option{.name = "nuisances",
-                    .kind = OptionKind::flag,
                     .meaning = "Add sensor zeros and pulley friction to every bench, as rigs have them."},
              Option{.name = "noise",
                     .kind = OptionKind::number,
                     .value = "F",
                     .meaning = "Factor on every channel's noise.",
                     .default_value = "1",
-                    .low = 0.01,
-                    .high = 100},
+                    .limits = {0.01, 100}},
              Option{.name = "length",
-                    .value = "standard|short",
                     .meaning = "standard has all protocols of a bench, short has one or two.",
                     .default_value = "standard",
                     .choices = {"standard", "short"}},
@@ -219,7 +210,6 @@ Command gap_trial_command() {
                  .choices = {"none", "one effect", "two effects", "three effects", "wrong parameter",
                              "outside the catalogue"}},
              Option{.name = "nominal-error",
-                    .kind = OptionKind::flag,
                     .meaning = "Nominal friction, stiffness and pretension are each wrong by about 1%."},
              Option{
                  .name = "keep",
@@ -233,10 +223,8 @@ Command gap_trial_command() {
                  .meaning =
                      "Diagnose only case K of the sealed trial in --keep, with one thread, and print its answer (JSON). "
                      "`capstan batch gap-trial` does so for all cases.",
-                 .low = 1,
-                 .high = 999},
+                 .limits = {1, 999}},
              Option{.name = "generate-only",
-                    .kind = OptionKind::flag,
                     .meaning = "Stop when the recordings and the sealed labels are in DIR."},
              Option{
                  .name = "unseal",
@@ -256,7 +244,9 @@ Command gap_trial_command() {
              "capstan gap-trial --kind rigs --cases 40 --keep rigs --generate-only",
              "capstan gap-trial --cases 100 --visibility 0.5:10 --mixtures 0.4 --nuisances --nominal-error",
              "capstan gap-trial --unseal trial/labels.json"},
-        .run = run_gap_trial};
+        .run = run_gap_trial,
+        .time =
+            "Seconds to minutes for each case; --generate-only takes seconds. Shows progress and the time left."};
 }
 
 }  // namespace capstan::cli

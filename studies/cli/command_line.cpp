@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
-#include <charconv>
 
 #include "capstan/cli/command.h"
 #include "capstan/platform/nearest_name.h"
+#include "capstan/platform/parsed_number.h"
 
 namespace capstan::cli {
 
@@ -24,7 +24,7 @@ po::options_description description_of(const Command& command) {
     for (const Option& option : command.options) {
         std::string name(option.name);
         if (option.letter != '\0') name += fmt::format(",{}", option.letter);
-        if (option.kind == OptionKind::flag) {
+        if (option.is_flag()) {
             description.add_options()(name.c_str(), "");
         } else {
             description.add_options()(name.c_str(), po::value<std::string>());
@@ -67,38 +67,22 @@ po::variables_map parse(const Command& command, const std::vector<std::string>& 
     return values;
 }
 
-template <class Number>
-bool is_number(const std::string& text, Number& value) {
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return problem == std::errc{} && end == text.data() + text.size();
-}
-
 void check_number(const Command& command, const Option& option, const std::string& text) {
-    double value = 0.0;
-    std::int64_t integer = 0;
     const bool is_integer = option.kind == OptionKind::integer;
-    if (!(is_integer ? is_number(text, integer) : is_number(text, value))) {
+    const std::optional<double> value =
+        is_integer ? std::optional<double>(parsed_number<std::int64_t>(text)) : parsed_number<double>(text);
+    if (!value)
         refuse(command, fmt::format("--{} is '{}', but must be {}", option.name, text,
                                     is_integer ? "an integer" : "a number"));
-    }
-    if (is_integer) value = static_cast<double>(integer);
-    if (value >= option.low && value <= option.high) return;
-    const bool is_named = option.high < 1e7 || value > option.high;
-    const std::string above = is_named ? fmt::format(" and at most {:.12g}", option.high) : "";
-    refuse(command,
-           fmt::format("--{} is {}, but must be at least {}{}", option.name, text, option.low, above));
+    const auto [low, high] = option.limits;
+    if (*value >= low && *value <= high) return;
+    const bool is_named = high < 1e7 || *value > high;
+    const std::string above = is_named ? fmt::format(" and at most {:.12g}", high) : "";
+    refuse(command, fmt::format("--{} is {}, but must be at least {}{}", option.name, text, low, above));
 }
 
 void check_value(const Command& command, const Option& option, const std::string& text) {
-    switch (option.kind) {
-        case OptionKind::flag:
-            return;
-        case OptionKind::integer:
-        case OptionKind::number:
-            return check_number(command, option, text);
-        case OptionKind::string:
-            break;
-    }
+    if (option.kind != OptionKind::string) return check_number(command, option, text);
     if (text.empty()) refuse(command, fmt::format("--{} is empty", option.name));
     if (option.choices.empty()) return;
     if (std::find(option.choices.begin(), option.choices.end(), text) != option.choices.end()) return;
@@ -118,7 +102,7 @@ Invocation parse_command_line(const Command& command, const std::vector<std::str
             if (!option.default_value.empty()) options[name] = option.default_value;
             continue;
         }
-        const std::string text = option.kind == OptionKind::flag ? "yes" : values[name].as<std::string>();
+        const std::string text = option.is_flag() ? "yes" : values[name].as<std::string>();
         check_value(command, option, text);
         options[name] = text;
     }

@@ -6,6 +6,7 @@
 
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
+#include "capstan/cli/help_text.h"
 #include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
 
@@ -60,11 +61,8 @@ std::string exit_status(std::span<const ExitCodeMeaning> meanings = exit_code_me
 std::string option_paragraph(const Option& option) {
     std::string term = option.letter == '\0' ? "" : fmt::format("\\fB\\-{}\\fR, ", option.letter);
     term += fmt::format("\\fB\\-\\-{}\\fR", roff(option.name));
-    if (!option.value.empty()) term += fmt::format(" \\fI{}\\fR", roff(option.value));
-    std::string meaning(option.meaning);
-    if (!option.default_value.empty() && option.default_value != "-")
-        meaning += fmt::format(" Default: {}.", option.default_value);
-    return paragraph(term, meaning);
+    if (!option.is_flag()) term += fmt::format(" \\fI{}\\fR", roff(value_of(option)));
+    return paragraph(term, meaning_of(option));
 }
 
 std::string synopsis(const Command& command) {
@@ -85,11 +83,8 @@ std::string man_page(const Command& command) {
     std::string text = head(title_of(command), command.summary) + synopsis(command) + ".SH DESCRIPTION\n" +
                        roff(command.description) + "\n";
     if (!command.arguments.empty()) text += ".SH ARGUMENTS\n";
-    for (const Argument& argument : command.arguments) {
-        std::string meaning(argument.meaning);
-        if (!argument.default_value.empty()) meaning += fmt::format(" Default: {}.", argument.default_value);
-        text += paragraph(fmt::format("\\fI{}\\fR", roff(argument.name)), meaning);
-    }
+    for (const Argument& argument : command.arguments)
+        text += paragraph(fmt::format("\\fI{}\\fR", roff(argument.name)), meaning_of(argument));
     text += ".SH OPTIONS\n";
     for (const Option& option : command.options) text += option_paragraph(option);
     if (!command.examples.empty()) text += ".SH EXAMPLES\n.nf\n";

@@ -1,21 +1,16 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <iterator>
-
 #include "capstan/answers/paper_answers.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/config/plan_checks.h"
-#include "capstan/reports/plain_tables.h"
+#include "capstan/recording/recording_writer.h"
 
 namespace capstan::cli {
 
 namespace {
-
-using reports::Data;
 
 // Where an experiment's trajectories go; see deliver_experiment.
 const Option trajectories_option = {
@@ -88,8 +83,7 @@ Command paper_solver_command() {
                          .value = "S",
                          .meaning = "Time per solver and number of segments.",
                          .default_value = "0.1",
-                         .low = 0.01,
-                         .high = 60},
+                         .limits = {0.01, 60}},
                         output_option,
                         page_option,
                         json_option,
@@ -97,30 +91,17 @@ Command paper_solver_command() {
                         help_option},
             .examples = {"capstan paper solver", "capstan paper solver --html solver.html",
                          "capstan paper solver --json -o solver.json"},
-            .run = run_paper_solver};
+            .run = run_paper_solver,
+            .time = "100 times --seconds, 10 s by default. Shows progress and the time left."};
 }
 
 namespace {
-
-std::string trajectories_csv(const std::vector<std::vector<paper::RampRun>>& runs) {
-    std::string text = reports::csv_head({"setting", "pretension_N", "time_s", "motor_torque_Nm",
-                                          "motor_angle_rad", "load_torque_Nm", "ideal_load_torque_Nm"});
-    for (const auto& setting : runs) {
-        for (const paper::RampRun& run : setting) {
-            for (const auto& sample : run.samples)
-                text += reports::csv_line({run.setting, run.pretension_N, sample.time_s,
-                                           sample.motor_torque_Nm, sample.motor_angle_rad,
-                                           sample.load_torque_Nm, sample.ideal_load_torque_Nm});
-        }
-    }
-    return text;
-}
 
 ExitCode run_paper_exp1(const Invocation& invocation) {
     const auto runs = run_every_setting([](const paper::CableSetting& setting, double pretension_N) {
         return paper::run_pretension_ramps(setting, pretension_N, {});
     });
-    return deliver_experiment(invocation, trajectories_csv(runs),
+    return deliver_experiment(invocation, answers::trajectories_csv(runs),
                               answers::exp1_answer(runs, paper::compare_ramp_readings()));
 }
 
@@ -146,72 +127,6 @@ Command paper_exp1_command() {
 
 namespace {
 
-constexpr double motor_step_rad = 7.85e-4;  // an encoder of 8000 steps a turn
-
-Data sidecar(const std::string& name, const paper::CableSetting& setting,
-             const paper::ViscousComparison& comparison) {
-    const PullPull pair = paper::paper_bench(setting, comparison.pretension_N, 1);
-    const Cable& cable = pair.cable_a();
-    const double step_s = comparison.samples[1].time_s - comparison.samples[0].time_s;
-    return {{"case", name},
-            {"schema", 1},
-            {"mode", "pull_pull"},
-            {"sample_rate_hz", 1.0 / step_s},
-            {"units",
-             {{"t", "s"},
-              {"motor_torque", "N m"},
-              {"motor_angle", "rad"},
-              {"load_angle", "rad"},
-              {"load_torque", "N m"}}},
-            {"nominal",
-             {{"L", cable.length_m()},
-              {"R_profile",
-               Data::list({Data{{"s0", 0.0}, {"s1", cable.length_m()}, {"R", setting.bend_radius_m}}})},
-              {"r_input", pair.pulleys().motor_radius_m},
-              {"r_load", pair.pulleys().load_radius_m},
-              {"K", cable.axial_stiffness_N() / cable.length_m()},
-              {"mu_d", cable.dynamic_friction()},
-              {"mu_s", cable.static_friction()}}},
-            {"noise_std", {{"load_torque", comparison.bench.torque_noise_Nm}}},
-            {"encoder_step", {{"motor_angle", motor_step_rad}}},
-            {"tension_sensors", Data::list()},
-            {"runs", Data::list({Data{{"run", 1},
-                                      {"protocol", "exp2"},
-                                      {"t_session_start", 0.0},
-                                      {"T0", comparison.pretension_N},
-                                      {"output", "handle"},
-                                      {"driven", Data::list({"motor_torque", "load_angle"})}}})}};
-}
-
-void write_viscous_recording(const std::filesystem::path& csv, const paper::CableSetting& setting,
-                             const paper::ViscousComparison& comparison) {
-    std::string text = "run,t,motor_torque,motor_angle,load_angle,load_torque\n";
-    for (const paper::ViscousSample& sample : comparison.samples)
-        fmt::format_to(std::back_inserter(text), "1,{:.3f},{:.6f},{:.6f},{:.6f},{:.5f}\n", sample.time_s,
-                       sample.motor_torque_Nm,
-                       motor_step_rad * std::round(sample.bench_motor_angle_rad / motor_step_rad),
-                       sample.load_angle_rad, sample.bench_torque_Nm);
-    write_file(std::filesystem::path(csv).replace_extension(".json"),
-               reports::json_text(sidecar(csv.stem().string(), setting, comparison)));
-    write_file(csv, text);
-}
-
-std::string trajectories_csv(const std::vector<std::vector<paper::TunnelRun>>& runs) {
-    std::string text =
-        reports::csv_head({"setting", "pretension_N", "time_s", "load_angle_rad", "motor_torque_Nm",
-                           "motor_angle_rad", "load_torque_Nm", "ideal_load_torque_Nm"});
-    for (const auto& setting : runs) {
-        for (const paper::TunnelRun& run : setting) {
-            for (const auto& sample : run.samples)
-                text +=
-                    reports::csv_line({run.setting, run.pretension_N, sample.time_s, sample.load_angle_rad,
-                                       sample.motor_torque_Nm, sample.motor_angle_rad, sample.load_torque_Nm,
-                                       sample.ideal_load_torque_Nm});
-        }
-    }
-    return text;
-}
-
 ExitCode run_paper_exp2(const Invocation& invocation) {
     const auto runs = run_every_setting([](const paper::CableSetting& setting, double pretension_N) {
         return paper::run_error_reduction_tunnel(setting, pretension_N, {});
@@ -223,8 +138,14 @@ ExitCode run_paper_exp2(const Invocation& invocation) {
     bench.remainder *= part;
     bench.load_friction_Nm *= part;
     const auto viscous = paper::compare_viscous_models(setting, setting.pretensions_N.back(), bench, {});
-    if (invocation.has("recording")) write_viscous_recording(invocation.text("recording"), setting, viscous);
-    return deliver_experiment(invocation, trajectories_csv(runs), answers::exp2_answer(runs, viscous));
+    if (invocation.has("recording")) {
+        const std::filesystem::path file = invocation.text("recording");
+        Recording recording = paper::recorded_bench(setting, viscous);
+        recording.name = file.stem().string();
+        write_recording(file, recording);
+    }
+    return deliver_experiment(invocation, answers::trajectories_csv(runs),
+                              answers::exp2_answer(runs, viscous));
 }
 
 const Option viscous_drag_option{
@@ -235,8 +156,7 @@ const Option viscous_drag_option{
         "Viscous friction of the simulated bench, in N s/m2 of conduit. With the default, the model "
         "without viscous friction leaves the paper's residual of 264 mN m.",
     .default_value = "4",
-    .low = 0.1,
-    .high = 100};
+    .limits = {0.1, 100}};
 
 const Option remainder_option{
     .name = "remainder",
@@ -246,8 +166,7 @@ const Option remainder_option{
         "Size of the simulated bench's effects beyond viscous friction (Fig. 6), relative to the "
         "size at which they cause half of the residual; 0 removes them.",
     .default_value = "1",
-    .low = 0.0,
-    .high = 10.0};
+    .limits = {0.0, 10.0}};
 
 const Option recording_option{
     .name = "recording",
@@ -289,7 +208,7 @@ ExitCode run_paper_estimation(const Invocation& invocation) {
             {"compare_with_paper: the configuration does not repeat the paper's experiment; use "
              "configs/paper.toml or a variant of it with compare_with_paper = true"});
     RunOptions options;
-    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    options.jobs = invocation.count("jobs");
     ShownWork work(invocation, config.plan.name);
     const auto ablations = paper::ablate_readings(config.plan, options);
     work.end();
@@ -314,7 +233,9 @@ Command paper_estimation_command() {
                     help_option},
         .examples = {"capstan paper estimation configs/paper.toml",
                      "capstan paper estimation configs/paper.toml --json -o ablations.json"},
-        .run = run_paper_estimation};
+        .run = run_paper_estimation,
+        .time =
+            "Some ten times as long as the study itself, about a minute. Shows progress and the time left."};
 }
 
 }  // namespace capstan::cli

@@ -23,7 +23,7 @@ namespace {
 // Replaces the configuration's duty fractions by those of a recording.
 void take_duty(const Invocation& invocation, StudyPlan& plan) {
     duty::DutyOptions options;
-    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    options.jobs = invocation.count("jobs");
     const duty::DutyCycle duty = duty::measure_duty(read_recording(invocation.text("duty")), options);
     const double elsewhere = duty::use_duty(duty, plan);
     std::string fractions;
@@ -66,10 +66,10 @@ ExitCode run_place(const Invocation& invocation) {
     if (invocation.has("duty")) take_duty(invocation, config.plan);
     config::require_runnable(config);
     PlacementOptions options;
-    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    options.jobs = invocation.count("jobs");
     options.noise_index = noise_index_of(config.plan, invocation);
-    options.runners_up = static_cast<int>(invocation.integer("runners-up"));
-    if (invocation.has("until-resolved")) options.resolve_to_N = invocation.number("until-resolved");
+    options.runners_up = invocation.count("runners-up");
+    invocation.take("until-resolved", options.resolve_to_N);
     options.on_progress = [](const std::string& message) { say(message); };
     ShownWork work(invocation, config.plan.name);
     const PlacementAnswer answer = place_sensors(config.plan, options);
@@ -104,8 +104,7 @@ Command place_command() {
               .value = "N",
               .meaning = "How many runners-up --json lists.",
               .default_value = "3",
-              .low = 0,
-              .high = 1000},
+              .limits = {0, 1000}},
              {.name = "duty",
               .value = "LOG",
               .meaning =
@@ -116,8 +115,7 @@ Command place_command() {
               .meaning =
                   "Draw more repetitions until, with 95 % certainty, no layout is better than the best of its "
                   "count by more than N newtons.",
-              .low = 1e-6,
-              .high = 1e6},
+              .limits = {1e-6, 1e6}},
              seed_option,
              repetitions_option,
              jobs_option,
@@ -135,6 +133,9 @@ Command place_command() {
                      "capstan place my.toml --until-resolved 0.005",
                      "capstan place my.toml --json | jq .scopes[0].counts"},
         .run = run_place,
+        .time =
+            "10 s for 11 nodes and 1000 repetitions; twice as long for each further node, and in proportion to the "
+            "repetitions; a configuration with [uncertainty] takes minutes. Shows progress and the time left.",
         .when_stopped = stores_nothing};
 }
 
@@ -166,7 +167,7 @@ std::optional<answers::BudgetCable> search_cable(const Invocation& invocation, c
         return answers::budget_cable(plan, *found, sensors);
     }
     PlacementOptions options;
-    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    options.jobs = invocation.count("jobs");
     ShownWork work(invocation, activity);
     const PlacementAnswer found = place_sensors(plan, options);
     work.end();
@@ -177,13 +178,12 @@ ExitCode run_budget(const Invocation& invocation) {
     std::vector<StudyPlan> plans;
     for (const std::string& file : invocation.repeated_argument()) {
         config::ReadConfig config = config::read_config(file);
-        if (invocation.has("repetitions"))
-            config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
+        invocation.take("repetitions", config.plan.repetitions);
         config::require_runnable(config);
         plans.push_back(std::move(config.plan));
         require_comparable(plans.back(), plans.front());
     }
-    const auto sensors = static_cast<int>(invocation.integer("sensors"));
+    const auto sensors = invocation.count("sensors");
     const BudgetObjective objective =
         invocation.text("objective") == "mean" ? BudgetObjective::mean : BudgetObjective::largest;
     std::vector<answers::BudgetCable> cables;
@@ -220,10 +220,8 @@ Command budget_command() {
                      .value = "N",
                      .meaning = "The number of sensors for all cables together.",
                      .default_value = "4",
-                     .low = 1,
-                     .high = 1000},
+                     .limits = {1, 1000}},
                     {.name = "objective",
-                     .value = "mean|largest",
                      .meaning =
                          "What is to be small: the mean of the cables' errors, or the largest of them.",
                      .default_value = "mean",
@@ -238,6 +236,7 @@ Command budget_command() {
         .examples = {"capstan budget elbow.toml wrist.toml --sensors 4",
                      "capstan budget a.toml b.toml c.toml --sensors 6 --objective largest --json"},
         .run = run_budget,
+        .time = "As long as `place` for each of the cables. Shows progress and the time left of each.",
         .when_stopped = stores_nothing};
 }
 
@@ -250,9 +249,8 @@ ExitCode run_bands(const Invocation& invocation) {
         if (!config.plan.uncertainty.is_stated)
             throw UsageError(fmt::format(
                 "capstan bands: {} has no [uncertainty], so that there are no worlds to draw", file));
-        if (invocation.has("repetitions"))
-            config.plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
-        if (invocation.has("seed")) config.plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
+        invocation.take("repetitions", config.plan.repetitions);
+        invocation.take("seed", config.plan.seed);
         config::require_runnable(config);
         found.push_back({.plan = config.plan, .bands = {}, .worlds = config.plan.repetitions});
     }
@@ -286,6 +284,8 @@ Command bands_command() {
         .examples = {"capstan bands configs/wrist-exosuit.toml",
                      "capstan bands a.toml b.toml --repetitions 100 --json"},
         .run = run_bands,
+        .time =
+            "As long as `place` with all sets on all worlds, twice: minutes. Shows progress and the time left.",
         .when_stopped = stores_nothing};
 }
 

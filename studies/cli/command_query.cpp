@@ -11,6 +11,7 @@
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
 #include "capstan/reports/plain_tables.h"
+#include "capstan/reports/query_rows.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/read_only_query.h"
 #include "capstan/storage/schema.h"
@@ -64,7 +65,7 @@ storage::QueryResult answer(storage::Database& database, const Invocation& invoc
 
 std::string formatted(const storage::QueryResult& result, const std::string& format) {
     if (format == "csv") return reports::csv_text(result.columns, result.rows);
-    return format == "json" ? answers::rows_json(result) : answers::rows_text(result);
+    return format == "json" ? reports::rows_json(result) : reports::rows_text(result);
 }
 
 ExitCode run_query(const Invocation& invocation) {
@@ -102,34 +103,30 @@ Command query_command() {
             "anything, is stopped after --time-limit, and gets at most 512 MB of memory. It sees nothing of studies in the trash.",
         .arguments = {{"SQL", "One SELECT (or WITH ... SELECT), in quotes.", ArgumentNeed::optional}},
         .options = {{.name = "format",
-                     .value = "table|csv|json|md",
                      .meaning =
                          "Format of the rows; csv and json have full precision. md is only for --schema.",
                      .default_value = "table",
                      .choices = {"table", "csv", "json", "md"}},
-                    {.name = "schema",
-                     .kind = OptionKind::flag,
-                     .meaning = "Print all tables and views with their comments instead."},
+                    {.name = "schema", .meaning = "Print all tables and views with their comments instead."},
                     {.name = "time-limit",
                      .kind = OptionKind::number,
                      .value = "SECONDS",
                      .meaning = "Stop the query after this time.",
                      .default_value = "10",
-                     .low = 0.01,
-                     .high = 86400},
+                     .limits = {0.01, 86400}},
                     {.name = "max-rows",
                      .kind = OptionKind::integer,
                      .value = "N",
                      .meaning = "Cut the answer off after N rows, or after 8 MB, and say so.",
-                     .low = 1,
-                     .high = 1e9},
+                     .limits = {1, 1e9}},
                     database_option,
                     output_option,
-                    {.name = "json", .kind = OptionKind::flag, .meaning = "The same as --format json."},
+                    {.name = "json", .meaning = "The same as --format json."},
                     help_option},
         .examples = {"capstan query \"SELECT * FROM v_best_method WHERE sensor_count = 3\"",
                      "capstan query \"SELECT * FROM v_error_by_layout\" --format csv -o errors.csv"},
-        .run = run_query};
+        .run = run_query,
+        .time = "As long as the query, at most --time-limit."};
 }
 
 }  // namespace capstan::cli

@@ -19,15 +19,15 @@ ExitCode run_recommend(const Invocation& invocation) {
     const StoredStudy stored = load_stored_study(database, id);
     if (stored.plan.uncertainty.is_stated) {
         StudyPlan plan = stored.plan;
-        if (invocation.has("worthwhile-gain")) plan.worthwhile_gain_N = invocation.number("worthwhile-gain");
+        invocation.take("worthwhile-gain", plan.worthwhile_gain_N);
         deliver_answer(invocation, answers::stored_world_answer(database, id, plan));
         return ExitCode::success;
     }
     answers::Conclusions conclusions = answers::read_conclusions(database, id);
     if (invocation.has("worthwhile-gain")) {
-        conclusions.recommendations = recommend(
-            database, id, {invocation.number("worthwhile-gain"), no_sensor_errors_N(stored.plan)},
-            independent_errors(database, id, stored.plan, static_cast<int>(invocation.integer("jobs"))));
+        conclusions.recommendations =
+            recommend(database, id, {invocation.number("worthwhile-gain"), no_sensor_errors_N(stored.plan)},
+                      independent_errors(database, id, stored.plan, invocation.count("jobs")));
     }
     deliver_answer(invocation, answers::recommendation_answer(conclusions, stored.plan));
     return ExitCode::success;
@@ -53,8 +53,7 @@ Command recommend_command() {
               .meaning =
                   "One more sensor must lower the error by at least N newtons; replaces the study's own "
                   "threshold.",
-              .low = 0,
-              .high = 1e6},
+              .limits = {0, 1e6}},
              database_option,
              jobs_option,
              output_option,

@@ -43,15 +43,14 @@ std::string token_in(const std::string& file) {
 service::ServiceOptions service_options_of(const Invocation& invocation) {
     service::ServiceOptions options;
     options.access.host = invocation.text("host");
-    options.access.port = static_cast<int>(invocation.integer("port"));
+    options.access.port = invocation.count("port");
     if (invocation.has("token-file")) {
         options.access.token = token_in(invocation.text("token-file"));
     } else if (!service::is_loopback(options.access.host)) {
         options.access.token = random_token();
     }
     options.commands = {std::filesystem::read_symlink("/proc/self/exe").string(),
-                        std::filesystem::absolute(invocation.text("db")).string(),
-                        static_cast<int>(invocation.integer("jobs"))};
+                        std::filesystem::absolute(invocation.text("db")).string(), invocation.count("jobs")};
     if (invocation.has("configs")) {
         options.configs = invocation.text("configs");
         if (!std::filesystem::is_directory(*options.configs))
@@ -104,8 +103,7 @@ Command serve_command() {
               .value = "N",
               .meaning = "Port to listen on; 0 takes a free port.",
               .default_value = "8321",
-              .low = 0,
-              .high = 65535},
+              .limits = {0, 65535}},
              {.name = "host",
               .value = "ADDRESS",
               .meaning =
@@ -125,13 +123,13 @@ Command serve_command() {
               .value = "SECONDS",
               .meaning = "Stop a query after this time.",
               .default_value = "5",
-              .low = 0.01,
-              .high = 600},
+              .limits = {0.01, 600}},
              jobs_option,
              help_option},
         .examples = {"capstan serve --configs configs", "capstan serve --port 0",
                      "capstan serve --host 0.0.0.0 --token-file token.txt"},
-        .run = run_serve};
+        .run = run_serve,
+        .time = "Until it is stopped."};
 }
 
 }  // namespace capstan::cli

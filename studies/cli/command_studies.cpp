@@ -12,6 +12,7 @@
 #include "capstan/placement/replay.h"
 #include "capstan/placement/stored_study.h"
 #include "capstan/platform/standard_streams.h"
+#include "capstan/reports/query_rows.h"
 #include "capstan/storage/study_store.h"
 
 namespace capstan::cli {
@@ -42,7 +43,7 @@ ExitCode run_study_list(const Invocation& invocation) {
                     : fmt::format("{} has no such study yet; `capstan study run CONFIG` creates one.",
                                   invocation.text("db")));
     }
-    deliver(invocation, json ? answers::rows_json(table) : answers::rows_text(table));
+    deliver(invocation, json ? reports::rows_json(table) : reports::rows_text(table));
     return ExitCode::success;
 }
 
@@ -56,7 +57,6 @@ Command study_list_command() {
             "Lists the studies of a database, oldest first: the progress of each, when it was begun, "
             "its note and its tags. `capstan query \"SELECT * FROM history\"` has every command.",
         .options = {{.name = "deleted",
-                     .kind = OptionKind::flag,
                      .meaning = "List the trash instead: `capstan study restore` takes a study out of it."},
                     {.name = "tag", .value = "WORD", .meaning = "List only studies with this tag."},
                     database_option,
@@ -83,21 +83,20 @@ ExitCode run_study_show(const Invocation& invocation) {
 }  // namespace
 
 Command study_show_command() {
-    return {.name = "study show",
-            .summary = "Show a study and its progress.",
-            .description =
-                "Shows a study's cable, instants, noise levels, layouts, methods and progress; --config "
-                "prints the complete configuration, from which the study can be run again.",
-            .arguments = {study_argument},
-            .options = {database_option,
-                        {.name = "config",
-                         .kind = OptionKind::flag,
-                         .meaning = "Print the stored configuration (TOML) with every key."},
-                        output_option,
-                        json_option,
-                        help_option},
-            .examples = {"capstan study show", "capstan study show 3 --config -o again.toml"},
-            .run = run_study_show};
+    return {
+        .name = "study show",
+        .summary = "Show a study and its progress.",
+        .description =
+            "Shows a study's cable, instants, noise levels, layouts, methods and progress; --config "
+            "prints the complete configuration, from which the study can be run again.",
+        .arguments = {study_argument},
+        .options = {database_option,
+                    {.name = "config", .meaning = "Print the stored configuration (TOML) with every key."},
+                    output_option,
+                    json_option,
+                    help_option},
+        .examples = {"capstan study show", "capstan study show 3 --config -o again.toml"},
+        .run = run_study_show};
 }
 
 namespace {
@@ -124,7 +123,7 @@ ExitCode run_study_replay(const Invocation& invocation) {
         position(invocation, "scenario", study.scenarios.size()),
         position(invocation, "noise", study.noise_levels.size()),
         position(invocation, "repetition", static_cast<std::size_t>(study.study.repetitions))};
-    const Replay replayed = replay(stored.plan, address, static_cast<int>(invocation.integer("jobs")));
+    const Replay replayed = replay(stored.plan, address, invocation.count("jobs"));
     deliver_answer(invocation, answers::replay_answer(replayed, study.scenarios[address.scenario_index],
                                                       study.noise_levels[address.noise_index].label,
                                                       address.repetition + 1));
@@ -147,29 +146,27 @@ Command study_replay_command() {
                          .value = "N",
                          .meaning = "Number of the instant.",
                          .default_value = "1",
-                         .low = 1,
-                         .high = max_number},
+                         .limits = {1, max_number}},
                         {.name = "noise",
                          .kind = OptionKind::integer,
                          .value = "N",
                          .meaning = "Number of the noise level.",
                          .default_value = "1",
-                         .low = 1,
-                         .high = max_number},
+                         .limits = {1, max_number}},
                         {.name = "repetition",
                          .kind = OptionKind::integer,
                          .value = "N",
                          .meaning = "Number of the repetition.",
                          .default_value = "1",
-                         .low = 1,
-                         .high = max_number},
+                         .limits = {1, max_number}},
                         database_option,
                         jobs_option,
                         output_option,
                         json_option,
                         help_option},
             .examples = {"capstan study replay --scenario 2 --repetition 17"},
-            .run = run_study_replay};
+            .run = run_study_replay,
+            .time = "As long as one repetition of the study, mostly less than 2 s."};
 }
 
 namespace {
@@ -239,7 +236,6 @@ Command study_delete_command() {
             "two studies. The study must be named.",
         .arguments = {{"STUDY", "Its number, its name (the newest study of that name), or latest."}},
         .options = {{.name = "forever",
-                     .kind = OptionKind::flag,
                      .meaning = "Remove the study, or one that is in the trash, for good."},
                     database_option,
                     help_option},

@@ -68,7 +68,7 @@ std::string extension_message(const Invocation& invocation, const StudyToExtend&
 ExitCode extend_worlds(const Invocation& invocation, storage::Database& database,
                        const StudyToExtend& study) {
     if (invocation.has("until-resolved")) refuse_worlds(study.plan, "--until-resolved");
-    const StudyPlan larger = study.with_repetitions(static_cast<int>(invocation.integer("repetitions")));
+    const StudyPlan larger = study.with_repetitions(invocation.count("repetitions"));
     if (larger.repetitions <= study.plan.repetitions)
         throw UsageError(fmt::format("--repetitions is {}, but study {} has {} worlds already; ask for more",
                                      larger.repetitions, study.study_id, study.plan.repetitions));
@@ -89,12 +89,12 @@ ExitCode run_study_extend(const Invocation& invocation) {
     ExtensionOutcome outcome;
     const ExitCode code = watch(invocation, study.plan.name, [&](const RunOptions& options) -> WatchedEnd {
         if (invocation.has("repetitions")) {
-            outcome = extend_study(database, study, static_cast<int>(invocation.integer("repetitions")),
-                                   program_version(), options);
+            outcome =
+                extend_study(database, study, invocation.count("repetitions"), program_version(), options);
         } else {
             Resolution resolution;
             resolution.tolerance_N = invocation.number("until-resolved");
-            resolution.max_repetitions = static_cast<int>(invocation.integer("max-repetitions"));
+            resolution.max_repetitions = invocation.count("max-repetitions");
             if (invocation.text("progress") == "auto") {
                 resolution.on_look = [](int repetitions, double unresolved_N) {
                     say(fmt::format("{} repetitions: another layout may still be better by up to {:.4f} N",
@@ -119,38 +119,37 @@ Command study_extend_command() {
          .kind = OptionKind::integer,
          .value = "N",
          .meaning = "Total number of repetitions of the extended study.",
-         .low = 2,
-         .high = 1e7},
+         .limits = {2, 1e7}},
         {.name = "until-resolved",
          .kind = OptionKind::number,
          .value = "TOLERANCE",
          .meaning =
              "Double the repetitions until, with 95 % certainty, no layout is better than the best of its "
              "count by more than TOLERANCE newtons, at every noise level, objective and number of sensors.",
-         .low = 1e-6,
-         .high = 1e6},
+         .limits = {1e-6, 1e6}},
         {.name = "max-repetitions",
          .kind = OptionKind::integer,
          .value = "N",
          .meaning = "Largest number of repetitions with --until-resolved.",
          .default_value = "128000",
-         .low = 2,
-         .high = 1e7}};
+         .limits = {2, 1e7}}};
     options.insert(options.begin() + 1, own.begin(), own.end());
-    return {.name = "study extend",
-            .summary = "Give a stored study more repetitions.",
-            .description =
-                "Runs a stored study with more repetitions, from the configuration stored with it. The "
-                "larger study contains the draws of the smaller one. It is stored beside it under the same "
-                "name, with the same bits as a run with that number of repetitions from the start. Sums, "
-                "quantiles and the weights of the W methods use all repetitions, so all results are computed "
-                "again. If the command is killed or stopped, running it again continues the study.",
-            .arguments = {study_argument},
-            .options = std::move(options),
-            .examples = {"capstan study extend --repetitions 8000",
-                         "capstan study extend paper --until-resolved 0.002"},
-            .run = run_study_extend,
-            .when_stopped = can_be_resumed};
+    return {
+        .name = "study extend",
+        .summary = "Give a stored study more repetitions.",
+        .description =
+            "Runs a stored study with more repetitions, from the configuration stored with it. The "
+            "larger study contains the draws of the smaller one. It is stored beside it under the same "
+            "name, with the same bits as a run with that number of repetitions from the start. Sums, "
+            "quantiles and the weights of the W methods use all repetitions, so all results are computed "
+            "again. If the command is killed or stopped, running it again continues the study.",
+        .arguments = {study_argument},
+        .options = std::move(options),
+        .examples = {"capstan study extend --repetitions 8000",
+                     "capstan study extend paper --until-resolved 0.002"},
+        .run = run_study_extend,
+        .time = "As long as a study with the new number of repetitions. Shows progress and the time left.",
+        .when_stopped = can_be_resumed};
 }
 
 }  // namespace capstan::cli

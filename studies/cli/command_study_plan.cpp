@@ -23,12 +23,11 @@ ExitCode run_study_plan(const Invocation& invocation) {
     const config::ReadConfig config = read_config_of(invocation);
     const std::vector<StudyPlan> plans = config::runnable_studies(config);
     refuse_worlds(config.plan, "study plan");
-    if (invocation.has("shards")) require_useful(plans, {1, static_cast<int>(invocation.integer("shards"))});
+    if (invocation.has("shards")) require_useful(plans, {1, invocation.count("shards")});
     ShownWork work(invocation, config.plan.name);
     const StudyCost cost = predict_cost(plans, {invocation.number("seconds")});
     work.end();
-    const int shards =
-        invocation.has("shards") ? static_cast<int>(invocation.integer("shards")) : sensible_shards(cost);
+    const int shards = invocation.has("shards") ? invocation.count("shards") : sensible_shards(cost);
     deliver_answer(invocation, answers::cost_answer(config.plan.name, cost, plans, shards));
     return ExitCode::success;
 }
@@ -50,8 +49,7 @@ Command study_plan_command() {
               .kind = OptionKind::integer,
               .value = "N",
               .meaning = "Number of shards to predict for. Default: shards of about five minutes each.",
-              .low = 1,
-              .high = 1e6},
+              .limits = {1, 1e6}},
              {.name = "seconds",
               .kind = OptionKind::number,
               .value = "S",
@@ -59,8 +57,7 @@ Command study_plan_command() {
                   "Processor time of the pilot; more time gives a better prediction. At least one part of each "
                   "cable length is timed.",
               .default_value = "5",
-              .low = 0,
-              .high = 1e5},
+              .limits = {0, 1e5}},
              seed_option,
              repetitions_option,
              output_option,
@@ -69,7 +66,10 @@ Command study_plan_command() {
              help_option},
         .examples = {"capstan study plan configs/atlas.toml",
                      "capstan study plan configs/atlas.toml --shards 100 --json"},
-        .run = run_study_plan};
+        .run = run_study_plan,
+        .time =
+            "The --seconds of its pilot, and the true motion of every study of the sweep: 10 s for configs/atlas.toml. Shows "
+            "progress and the time left."};
 }
 
 }  // namespace capstan::cli

@@ -12,6 +12,7 @@
 #include "capstan/placement/study_merge.h"
 #include "capstan/platform/simd_width.h"
 #include "capstan/platform/standard_streams.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/storage/study_store.h"
 #include "capstan/worlds/world_shard.h"
 
@@ -161,24 +162,28 @@ Command study_run_command() {
     std::vector<Option> options = watched_run_options();
     options.insert(options.begin() + 2, {seed_option, repetitions_option, truth_option, from_diagnosis_option,
                                          far_end_option, shard_option});
-    return {.name = "study run",
-            .summary = "Run a study and recommend sensors.",
-            .description =
-                "Runs the study that CONFIG describes, stores it in the results database, and recommends "
-                "which sensors to use, where, and how to fuse them. A database holds any number of studies; "
-                "a CONFIG with a [sweep] gives one study for each combination. Ctrl-C stops after the "
-                "current unit, and a killed run loses no more than that unit: `capstan study resume` "
-                "continues with the same bits. With --shard only one part is run, so that a cluster can run "
-                "all parts at once; `capstan study submit` does that.",
-            .arguments = {config_argument},
-            .options = std::move(options),
-            .examples = {"capstan study run configs/quick.toml",
-                         "capstan study run configs/paper.toml --db paper.db --stats",
-                         "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
-                         "capstan study run my.toml --truth corrected.toml",
-                         "capstan study run my.toml --shard 2/8 --db part-2.db"},
-            .run = run_study_run,
-            .when_stopped = can_be_resumed};
+    return {
+        .name = "study run",
+        .summary = "Run a study and recommend sensors.",
+        .description =
+            "Runs the study that CONFIG describes, stores it in the results database, and recommends "
+            "which sensors to use, where, and how to fuse them. A database holds any number of studies; "
+            "a CONFIG with a [sweep] gives one study for each combination. Ctrl-C stops after the "
+            "current unit, and a killed run loses no more than that unit: `capstan study resume` "
+            "continues with the same bits. With --shard only one part is run, so that a cluster can run "
+            "all parts at once; `capstan study submit` does that.",
+        .arguments = {config_argument},
+        .options = std::move(options),
+        .examples = {"capstan study run configs/quick.toml",
+                     "capstan study run configs/paper.toml --db paper.db --stats",
+                     "capstan study run my.toml --repetitions 50 --json | jq .recommendations",
+                     "capstan study run my.toml --truth corrected.toml",
+                     "capstan study run my.toml --shard 2/8 --db part-2.db"},
+        .run = run_study_run,
+        .time =
+            "quick.toml takes a second, paper.toml some seconds, a sweep minutes to hours: `capstan study plan` estimates it. "
+            "Shows progress and the time left.",
+        .when_stopped = can_be_resumed};
 }
 
 namespace {
@@ -244,6 +249,7 @@ Command study_resume_command() {
             .options = watched_run_options(),
             .examples = {"capstan study resume", "capstan study resume paper --db paper.db"},
             .run = run_study_resume,
+            .time = "As long as `study run` for the units that are left. Shows progress and the time left.",
             .when_stopped = can_be_resumed};
 }
 
@@ -279,8 +285,7 @@ ExitCode run_study_merge(const Invocation& invocation) {
         const std::string words =
             end == RunEnd::complete
                 ? fmt::format("Merged {} into {}; `capstan recommend --db {}` shows the recommendation.",
-                              shards.size() == 1 ? "1 shard" : fmt::format("{} shards", shards.size()), file,
-                              file)
+                              counted(shards.size(), "shard"), file, file)
                 : "Stopped; nothing was written, and the shards are as they were.";
         return {end, {}, words, 0};
     });
@@ -309,6 +314,7 @@ Command study_merge_command() {
                     help_option},
         .examples = {"capstan study merge --db atlas.db shard-*.db"},
         .run = run_study_merge,
+        .time = "Some seconds per gigabyte of shards. Shows progress.",
         .when_stopped = can_be_resumed};
 }
 

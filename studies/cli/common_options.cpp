@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <sstream>
 
 #include "capstan/cli/program.h"
 #include "capstan/config/config_truth.h"
 #include "capstan/config/far_end_log.h"
 #include "capstan/platform/nearest_name.h"
+#include "capstan/platform/parsed_number.h"
 #include "capstan/platform/simd_width.h"
 
 namespace capstan::cli {
 
-const Option help_option{
-    .name = "help", .letter = 'h', .kind = OptionKind::flag, .meaning = "Explain this command."};
+const Option help_option{.name = "help", .letter = 'h', .meaning = "Explain this command."};
 const Option database_option{
     .name = "db", .value = "FILE", .meaning = "The results database.", .default_value = "capstan.db"};
 const Option output_option{
@@ -30,33 +29,27 @@ const Option jobs_option{
     .value = "N",
     .meaning = "Number of threads; 0 uses all processors. Any number gives the same bits.",
     .default_value = "0",
-    .low = 0,
-    .high = 1024};
+    .limits = {0, 1024}};
 const Option seed_option{.name = "seed",
                          .kind = OptionKind::integer,
                          .value = "S",
                          .meaning = "Seed of all random numbers, instead of the configuration's.",
-                         .low = 0,
-                         .high = 9.2e18};
+                         .limits = {0, 9.2e18}};
 const Option repetitions_option{
     .name = "repetitions",
     .kind = OptionKind::integer,
     .value = "N",
     .meaning = "Number of noise draws, instead of the configuration's; a few give a quick look.",
-    .low = 2,
-    .high = 1e7};
-const Option json_option{
-    .name = "json", .kind = OptionKind::flag, .meaning = "Print the answer as JSON, for programs."};
+    .limits = {2, 1e7}};
+const Option json_option{.name = "json", .meaning = "Print the answer as JSON, for programs."};
 const Option progress_option{
     .name = "progress",
-    .value = "auto|json|none",
     .meaning =
         "Progress on standard error: auto is a bar on a terminal and plain lines elsewhere, json is "
         "one object per line.",
     .default_value = "auto",
     .choices = {"auto", "json", "none"}};
 const Option stats_option{.name = "stats",
-                          .kind = OptionKind::flag,
                           .meaning = "Print on standard error how much time each stage took."};
 const Option simd_option{
     .name = "simd",
@@ -73,11 +66,9 @@ const Option segments_option{
         "Segments per cable in the model of a recorded bench. Friction at rest depends on their "
         "length; above about 100 segments the result changes by less than 1%.",
     .default_value = "100",
-    .low = 2,
-    .high = 100000};
+    .limits = {2, 100000}};
 
 const Option format_option{.name = "format",
-                           .value = "text|md|csv|json",
                            .meaning = "Default: by the extension of the output file, otherwise text.",
                            .choices = {"text", "md", "csv", "json"}};
 
@@ -109,8 +100,8 @@ config::ReadConfig read_config_of(const Invocation& invocation) {
                         invocation.argument("CONFIG"), invocation.command().name));
     config::ReadConfig config = config::read_config(invocation.argument("CONFIG"));
     StudyPlan& plan = config.plan;
-    if (invocation.has("seed")) plan.seed = static_cast<std::uint64_t>(invocation.integer("seed"));
-    if (invocation.has("repetitions")) plan.repetitions = static_cast<int>(invocation.integer("repetitions"));
+    invocation.take("seed", plan.seed);
+    invocation.take("repetitions", plan.repetitions);
     if (invocation.has("far-end")) {
         if (!plan.uncertainty.is_stated)
             throw UsageError("capstan: --far-end needs a CONFIG with [uncertainty], whose far end it moves");
@@ -166,11 +157,10 @@ std::vector<int> run_numbers(const std::string& listed) {
     std::vector<int> numbers;
     std::istringstream words(listed);
     for (std::string word; std::getline(words, word, ',');) {
-        int number = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-        if (error != std::errc() || end != word.data() + word.size())
+        const auto number = parsed_number<int>(word);
+        if (!number)
             throw UsageError(fmt::format("'{}' is not a run number; write a list such as 1,2,5", word));
-        numbers.push_back(number);
+        numbers.push_back(*number);
     }
     return numbers;
 }

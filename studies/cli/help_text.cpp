@@ -1,6 +1,7 @@
 #include "capstan/cli/help_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <span>
 
@@ -60,12 +61,14 @@ std::string usage_line(const Command& command) {
 Entry option_entry(const Option& option) {
     std::string term = option.letter == '\0' ? "    " : fmt::format("-{}, ", option.letter);
     term += fmt::format("--{}", option.name);
-    if (!option.value.empty()) term += fmt::format(" {}", option.value);
-    std::string meaning(option.meaning);
-    if (!option.default_value.empty() && option.default_value != "-") {
-        meaning += fmt::format(" Default: {}.", option.default_value);
-    }
-    return {std::move(term), std::move(meaning)};
+    if (!option.is_flag()) term += " " + value_of(option);
+    return {std::move(term), meaning_of(option)};
+}
+
+std::string with_default(std::string_view meaning, std::string_view default_value) {
+    std::string text(meaning);
+    if (!default_value.empty() && default_value != "-") text += fmt::format(" Default: {}.", default_value);
+    return text;
 }
 
 std::vector<Entry> summaries(std::string_view group) {
@@ -78,6 +81,19 @@ std::vector<Entry> summaries(std::string_view group) {
 }
 
 }  // namespace
+
+std::string value_of(const Option& option) {
+    return option.value.empty() ? fmt::format("{}", fmt::join(option.choices, "|"))
+                                : std::string(option.value);
+}
+
+std::string meaning_of(const Option& option) {
+    return with_default(option.meaning, option.default_value);
+}
+
+std::string meaning_of(const Argument& argument) {
+    return with_default(argument.meaning, argument.default_value);
+}
 
 std::string where_to_begin() {
     return "capstan finds where to put tension sensors in a cable-conduit (Bowden) transmission.\n\n"
@@ -112,16 +128,13 @@ std::string command_help(const Command& command) {
     std::string text = fmt::format("Usage: {}\n\n{}\n", usage_line(command),
                                    wrapped(command.description, help_width, "", ""));
     std::vector<Entry> arguments;
-    for (const Argument& argument : command.arguments) {
-        std::string meaning(argument.meaning);
-        if (!argument.default_value.empty()) meaning += fmt::format(" Default: {}.", argument.default_value);
-        arguments.push_back({std::string(argument.name), std::move(meaning)});
-    }
+    for (const Argument& argument : command.arguments)
+        arguments.push_back({std::string(argument.name), meaning_of(argument)});
     if (!arguments.empty()) text += "\nArguments:\n" + two_columns(arguments);
     std::vector<Entry> options;
     for (const Option& option : command.options) options.push_back(option_entry(option));
     text += "\nOptions:\n" + two_columns(options);
-    text += "\nTime:\n" + wrapped(time_of(command), help_width, "  ", "  ") + "\n";
+    text += "\nTime:\n" + wrapped(command.time, help_width, "  ", "  ") + "\n";
     if (!command.examples.empty()) text += "\nExamples:\n";
     for (const auto example : command.examples) text += fmt::format("  {}\n", example);
     return text + "\n" + exit_codes(exit_codes_of(command));

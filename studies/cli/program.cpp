@@ -18,6 +18,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/help_text.h"
 #include "capstan/cli/output.h"
+#include "capstan/cluster/shell_words.h"
 #include "capstan/config/config_problem.h"
 #include "capstan/platform/nearest_name.h"
 #include "capstan/platform/simd_width.h"
@@ -88,7 +89,7 @@ ExitCode show_book() {
         "contains it");
 }
 
-// "capstan help posterior_mean", "capstan help viscous friction"; empty if there is no such term.
+// "capstan help posterior_mean", "capstan help viscous friction"; empty for any other term.
 std::string explained_terms(const std::vector<std::string>& words) {
     std::string name;
     for (const std::string& word : words) name += (name.empty() ? "" : " ") + word;
@@ -118,20 +119,6 @@ ExitCode show_help(const std::vector<std::string>& words) {
     return ExitCode::success;
 }
 
-// As it can be typed in a shell.
-std::string quoted(const std::vector<std::string>& words) {
-    std::string line = "capstan";
-    for (const std::string& word : words) {
-        const bool plain = !word.empty() && word.find_first_not_of(
-                                                "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                "0123456789-_./=:,+@%") == std::string::npos;
-        std::string text;
-        for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-        line += plain ? " " + word : " '" + text + "'";
-    }
-    return line;
-}
-
 ExitCode dispatch(const std::vector<std::string>& words) {
     if (words.empty()) {
         write_standard_output(where_to_begin());
@@ -152,7 +139,7 @@ ExitCode dispatch(const std::vector<std::string>& words) {
     }
     const FoundCommand found = find_command_in(words);
     if (found.command == nullptr) refuse_unknown(words);
-    storage::set_command(quoted(words));
+    storage::set_command("capstan " + cluster::as_typed(words));
     const auto rest = words.begin() + static_cast<std::ptrdiff_t>(found.words);
     return found.command->run(parse_command_line(*found.command, {rest, words.end()}));
 }

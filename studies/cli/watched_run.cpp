@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX's own names are in no <csignal>
 
-#include <charconv>
+#include <algorithm>
 
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/recording_answers.h"
@@ -14,7 +13,7 @@
 #include "capstan/cli/output.h"
 #include "capstan/paper/placement_comparison.h"
 #include "capstan/platform/clocks.h"
-#include "capstan/platform/ended_by_signal.h"
+#include "capstan/platform/parsed_number.h"
 #include "capstan/platform/progress.h"
 #include "capstan/storage/diagnosis_store.h"
 #include "capstan/storage/study_store.h"
@@ -58,7 +57,7 @@ std::vector<Option> watched_run_options() {
 ExitCode watch(const Invocation& invocation, const std::string& name, const WatchedWork& work) {
     ProgressDisplay display(progress_mode(invocation.text("progress")));
     RunOptions options;
-    if (invocation.has("jobs")) options.jobs = static_cast<int>(invocation.integer("jobs"));
+    invocation.take("jobs", options.jobs);
     options.on_progress = [&](const StudyProgress& progress) {
         display.show(counted_progress(name, progress.units_done, progress.units, "units"));
     };
@@ -108,7 +107,7 @@ WatchedTable watch_table(const Invocation& invocation, const std::string& name,
                          const std::function<void(const TableOptions&)>& work) {
     ProgressDisplay display(progress_mode(invocation.text("progress")));
     TableOptions options;
-    options.jobs = static_cast<int>(invocation.integer("jobs"));
+    options.jobs = invocation.count("jobs");
     options.on_progress = [&](const TableProgress& progress) {
         display.show(counted_progress(fmt::format("{}, {}", name, progress.activity),
                                       static_cast<int>(progress.done), static_cast<int>(progress.total),
@@ -192,15 +191,14 @@ namespace {
 storage::DiagnosisRecord named_diagnosis(const Invocation& invocation) {
     const std::string& text = invocation.text("from-diagnosis");
     if (bench_model::names_a_model(text)) return answers::diagnosis_record(bench_model::read_model(text));
-    std::int64_t id = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
-    if (problem != std::errc{} || end != text.data() + text.size())
+    const auto id = parsed_number<std::int64_t>(text);
+    if (!id)
         throw UsageError(fmt::format(
             "capstan: --from-diagnosis is '{}', but must be the number of a diagnosis, which `capstan query "
             "\"SELECT * FROM v_diagnosis\"` lists, or a model.toml of `capstan diagnose --save`",
             text));
     storage::Database database = storage::Database::open_read_only(invocation.text("db"));
-    return storage::load_diagnosis(database, id);
+    return storage::load_diagnosis(database, *id);
 }
 
 }  // namespace
@@ -226,47 +224,6 @@ void deliver_conclusions(const Invocation& invocation, storage::Database& databa
     deliver_answer(invocation, answers::conclusions_answer(database, study_id));
 }
 
-namespace {
-
-std::atomic<bool> stop_asked{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may set it
-
-void ask_to_stop(int) {
-    stop_asked.store(true);
-}
-
-// What a signal did before; of those that end the program, and of these two.
-std::vector<std::pair<int, struct sigaction>> handlers_before;
-
-void take_over(int number) {
-    struct sigaction before {};
-    sigaction(number, nullptr, &before);
-    if (before.sa_handler == SIG_IGN) return;  // as nohup has it
-    struct sigaction action {};
-    action.sa_handler = ask_to_stop;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, nullptr);
-    handlers_before.emplace_back(number, before);
-}
-
-}  // namespace
-
-StopRequest::StopRequest() {
-    stop_asked.store(false);
-    for (const int number : ending_signals) take_over(number);
-    for (const int number : {SIGINT, SIGPIPE}) take_over(number);
-}
-
-StopRequest::~StopRequest() {
-    for (const auto& [number, before] : handlers_before) sigaction(number, &before, nullptr);
-    handlers_before.clear();
-}
-
-const std::atomic<bool>* StopRequest::flag() {
-    return &stop_asked;
-}
-
 const Option shard_option{
     .name = "shard",
     .value = "I/N",
@@ -275,14 +232,10 @@ const Option shard_option{
         "with the same bits as one run. Running the command again continues the part."};
 
 Shard parse_shard(const std::string& text) {
-    Shard shard;
-    const char* const end = text.data() + text.size();
-    const auto [slash, problem] = std::from_chars(text.data(), end, shard.number);
-    if (problem == std::errc{} && slash != end && *slash == '/') {
-        const auto [last, other] = std::from_chars(slash + 1, end, shard.count);
-        const bool in_range = shard.number >= 1 && shard.number <= shard.count;
-        if (other == std::errc{} && last == end && in_range) return shard;
-    }
+    const std::size_t slash = std::min(text.find('/'), text.size() - 1);
+    const auto number = parsed_number<int>(text.substr(0, slash));
+    const auto count = parsed_number<int>(text.substr(slash + 1));
+    if (number && count && *number >= 1 && *number <= *count) return {*number, *count};
     throw UsageError(fmt::format(
         "--shard is '{}', but must be I/N with I from 1 to N, for example --shard 2/8 for the second "
         "of eight",
@@ -296,7 +249,7 @@ void refuse_shard_file(storage::Database& database) {
     throw UsageError(
         fmt::format("{0} is the file of {1}. To continue it: capstan study run CONFIG --shard "
                     "{2}/{3} --db {0}\nFor a complete study, name another file with --db.",
-                    file, words_of({mark->shard, mark->shards}), mark->shard, mark->shards));
+                    file, words_of(*mark), mark->shard, mark->shards));
 }
 
 }  // namespace capstan::cli

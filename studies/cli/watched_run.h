@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 #include "capstan/cli/command.h"
 #include "capstan/placement/study_run.h"
 #include "capstan/placement/study_shard.h"
+#include "capstan/platform/ended_by_signal.h"
 #include "capstan/platform/progress.h"
 #include "capstan/storage/database.h"
 #include "capstan/worlds/world_study.h"
@@ -67,19 +67,6 @@ ExitCode run_watched_worlds(const Invocation& invocation, storage::Database* dat
 
 /// The answer of a study that is complete.
 void deliver_conclusions(const Invocation& invocation, storage::Database& database, std::int64_t study_id);
-
-/// While it lives, the first Ctrl-C, request to terminate, limit on processor time or other signal that would
-/// end the program only sets a flag; a second one ends the program at once, which loses no more than the unit
-/// under way.
-class StopRequest {
-  public:
-    StopRequest();
-    ~StopRequest();
-    StopRequest(const StopRequest&) = delete;
-    StopRequest& operator=(const StopRequest&) = delete;
-
-    static const std::atomic<bool>* flag();
-};
 
 extern const Option shard_option;
 

@@ -231,10 +231,6 @@ std::string script_head(const Scheduler& scheduler, const StudyDirectory& direct
 
 }  // namespace
 
-std::span<const Scheduler> schedulers() {
-    return all_schedulers;
-}
-
 const Scheduler* find_scheduler(std::string_view name) {
     const auto found = std::find_if(std::begin(all_schedulers), std::end(all_schedulers),
                                     [&](const Scheduler& scheduler) { return scheduler.name == name; });

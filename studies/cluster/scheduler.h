@@ -22,7 +22,7 @@ std::vector<ShardArray> arrays_of(const std::vector<int>& shards, int limit, boo
 /// "1-3,7" of ascending numbers, as --array wants them.
 std::string as_array(const std::vector<int>& numbers);
 
-/// Another scheduler is another row in schedulers(): how it is told what to do, and what it answers.
+/// Another scheduler is another row in scheduler.cpp: how it is told what to do, and what it answers.
 struct Scheduler {
     std::string_view name;   ///< as --scheduler takes it
     std::string_view title;  ///< for people
@@ -52,7 +52,6 @@ struct Scheduler {
     std::vector<std::string> (*question)(const std::string& job) = nullptr;
 };
 
-std::span<const Scheduler> schedulers();
 
 /// Null: there is none of that name.
 const Scheduler* find_scheduler(std::string_view name);

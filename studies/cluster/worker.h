@@ -29,7 +29,7 @@ units::WorkEnd work(const StudyDirectory& directory, std::optional<int> own, con
 /// names what is missing.
 units::WorkEnd merge(const StudyDirectory& directory, const WorkOptions& options);
 
-/// While it lives, sets `stop` when the user asks for it, or when the work is no longer wanted.
+/// While it lives, sets `stop` when the user asks for it, or when nobody wants the result.
 class Watcher {
   public:
     Watcher(std::atomic<bool>& stop, const std::atomic<bool>* asked, std::function<bool()> is_unwanted);

@@ -18,6 +18,7 @@ using Values = std::span<const double>;
 
 // Wide enough for any wrong parameter that a laboratory would not notice otherwise.
 constexpr double wrong_log_std = 0.5;
+
 // Without open numbers.
 CandidateCause plain(const std::string& effect, const std::string& component) {
     CandidateCause cause;
@@ -216,123 +217,6 @@ std::string in_words(const std::vector<const CandidateCause*>& causes) {
         if (!cause->variant.empty()) words += " (" + channel_words(cause->variant) + ")";
     }
     return words;
-}
-
-std::optional<double> unstated_step(const Recording& recording, std::size_t channel) {
-    constexpr double tolerance = 0.02;  // of a step, for what the file rounds
-    constexpr std::size_t samples_per_value = 10;
-    std::vector<double> values;
-    for (const RecordedRun& run : recording.runs)
-        values.insert(values.end(), run.values[channel].begin(), run.values[channel].end());
-    const std::size_t samples = values.size();
-    std::sort(values.begin(), values.end());
-    const double rounding = 1e-9 * (values.back() - values.front());
-    values.erase(
-        std::unique(values.begin(), values.end(), [&](double a, double b) { return b - a <= rounding; }),
-        values.end());
-    if (values.size() < 3 || values.size() * samples_per_value > samples) return {};
-    double step = values.back() - values.front();
-    for (std::size_t k = 1; k < values.size(); ++k) step = std::min(step, values[k] - values[k - 1]);
-    step = (values.back() - values.front()) / std::round((values.back() - values.front()) / step);
-    const Channel& described = recording.channels[channel];
-    if (step < 1.5 * std::max(described.step.value_or(0.0), described.noise_std.value_or(0.0))) return {};
-    for (const double value : values) {
-        const double off = (value - values.front()) / step;
-        if (std::abs(off - std::round(off)) > tolerance) return {};
-    }
-    return step;
-}
-
-double OpenNumber::value(double coordinate) const {
-    double value = 0.0;
-    switch (kind) {
-        case Kind::size:
-        case Kind::step:
-            value = absent + std::max(0.0, coordinate) * (typical - absent);
-            break;
-        case Kind::signed_size:
-            value = absent + coordinate * (typical - absent);
-            break;
-        case Kind::shape:
-            value = typical * std::exp(coordinate);
-            break;
-        case Kind::periods:
-            value = std::round(coordinate);
-            break;
-        case Kind::place:
-            value = typical * coordinate;
-            break;
-    }
-    return std::clamp(value, low, high);
-}
-
-bool OpenNumber::is_at_bound(double value) const {
-    if (kind == Kind::place || kind == Kind::step || low == high) return false;
-    return value >= high || (value <= low && low != absent);
-}
-
-double OpenNumber::prior_mean() const {
-    return kind == Kind::place ? 0.5 : 0.0;
-}
-
-double OpenNumber::prior_std() const {
-    switch (kind) {
-        case Kind::size:
-        case Kind::signed_size:
-        case Kind::step:
-            return 30.0;
-        case Kind::periods:
-            return 1e3;
-        case Kind::shape:
-        case Kind::place:
-            return 1.0;
-    }
-    return 1.0;
-}
-
-double OpenNumber::prior_width(double coordinate) const {
-    const double root_two_pi = std::sqrt(2.0 * std::numbers::pi);
-    const double decades = std::log(100.0);
-    switch (kind) {
-        case Kind::size:
-        case Kind::step:
-            return std::abs(coordinate) * decades / root_two_pi;
-        case Kind::signed_size:
-            return 2.0 * std::abs(coordinate) * decades / root_two_pi;
-        case Kind::place:
-            return 1.0 / root_two_pi;  // anywhere along the cable
-        case Kind::shape:
-            return prior_std();
-        case Kind::periods:
-            return 0.0;
-    }
-    return 0.0;
-}
-
-double OpenNumber::log_choices() const {
-    return kind == Kind::periods ? std::log(high - low + 1.0) : 0.0;
-}
-
-std::vector<double> OpenNumber::starts() const {
-    switch (kind) {
-        case Kind::size:
-            return {0.5, 3.0};
-        case Kind::signed_size:
-            return {-1.0, 1.0};
-        case Kind::shape:
-            return {0.0};
-        case Kind::periods: {
-            constexpr int tried = 36;
-            std::vector<double> starts;
-            for (int k = 0; k < tried && low + k <= high; ++k) starts.push_back(low + k);
-            return starts;
-        }
-        case Kind::step:
-            return {1.0};
-        case Kind::place:
-            return {0.1, 0.3, 0.5, 0.7, 0.9};
-    }
-    return {0.0};
 }
 
 std::vector<CandidateCause> candidate_causes(const Recording& recording) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -79,10 +78,6 @@ struct CandidateCause {
 
 /// The titles of causes that act together, for a message.
 std::string in_words(const std::vector<const CandidateCause*>& causes);
-
-/// The step on which all values of a channel lie, if it is coarser than the noise and step that the sidecar
-/// states; none if the values lie anywhere.
-std::optional<double> unstated_step(const Recording& recording, std::size_t channel);
 
 /// Every cause that this recording could show: none, wrong parameters, the effects of the catalogue, and the
 /// sensor faults of each predicted channel.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "capstan/platform/parallel_for.h"
+#include "capstan/recording/channel_range.h"
 
 namespace capstan::gap {
 

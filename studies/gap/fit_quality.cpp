@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "capstan/gap/block_bootstrap.h"
 #include "capstan/gap/cause_fit.h"
 #include "capstan/platform/statistics.h"
+#include "capstan/recording/block_bootstrap.h"
 
 namespace capstan::gap {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "capstan/gap/block_bootstrap.h"
+#include "capstan/recording/block_bootstrap.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {

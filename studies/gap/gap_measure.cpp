@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "capstan/gap/block_bootstrap.h"
+#include "capstan/recording/block_bootstrap.h"
 
 namespace capstan::gap {
 

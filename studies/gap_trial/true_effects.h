@@ -161,7 +161,7 @@ struct ConditionedNumber {
     double change(const std::map<std::string, double>& conditions) const;
 };
 
-/// Everything that a bench has and its nominal model has not. By default there is no effect.
+/// Everything that a bench has and its nominal model has not. By default it has none.
 struct TrueEffects {
     // Relative to the nominal numbers.
     double friction_ratio = 1.0;

@@ -18,7 +18,7 @@ class ConnectionList {
   public:
     explicit ConnectionList(const ServerLimits& limits) : limits_(limits) {}
 
-    /// False if there is no place, because all are being answered.
+    /// False if it is full, because all are being answered.
     bool add(const std::shared_ptr<Connection>& connection);
     void remove(const Connection& connection);
 

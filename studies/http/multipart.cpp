@@ -39,7 +39,7 @@ std::string parameter_of(std::string_view header, std::string_view wanted) {
     return "";
 }
 
-// The lines between a boundary and the blank line; nothing if there is no name.
+// The lines between a boundary and the blank line; nothing without a name.
 std::optional<FormPart> part_of(std::string_view head, std::string_view content) {
     while (!head.empty()) {
         const std::size_t end = std::min(head.find(line_end), head.size());

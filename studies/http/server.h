@@ -22,7 +22,7 @@ struct ServerLimits {
     std::size_t body_bytes = 64 << 20;
     std::size_t connections = 512;
     std::size_t connections_of_one_address = 128;
-    std::chrono::milliseconds head_time{10'000};  ///< for the whole head
+    std::chrono::milliseconds head_time{10'000};  ///< for the complete head
     /// A body, or the reader of an answer, has this time, and more as its bytes go through.
     std::chrono::milliseconds body_time{10'000};
     std::size_t slowest_bytes_per_s = 64 << 10;

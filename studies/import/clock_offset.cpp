@@ -192,7 +192,7 @@ std::optional<ClockOffset> find_clock_offset(const std::vector<double>& channel,
     auto found = offset_beside(channel, others, sample_rate_Hz, longest_s, model_error);
     if (others.size() < 2 || (found && found->uncertainty_s <= 1.0 / sample_rate_Hz)) return found;
     // Few samples do not determine the weights of many elements; a copy of a single channel needs one. An
-    // angle's speed, which imitates a shift, is then not beside it, so that no torque is compared with an
+    // angle's speed, which looks like a shift, is then not beside it, so that no torque is compared with an
     // angle.
     for (const ClockReference& other : others) {
         if (other.is_angle) continue;

@@ -14,8 +14,6 @@ struct ClockOffset {
     double uncertainty_s = 0.0;
     double unexplained = 1.0;  ///< part of the channel's variance that the others leave at this offset
     double unexplained_at_zero = 1.0;
-    double unexplained_by_speed =
-        1.0;  ///< at zero, where the speeds of the others' angles may explain it too
 };
 
 /// A channel that explains another one.

@@ -7,7 +7,7 @@
 namespace capstan::logs {
 
 /// Reads little-endian numbers and pieces from bytes that nobody has checked. Beyond the end it gives zeros
-/// and is no longer good.
+/// and is_good() is false from then on.
 class ByteCursor {
   public:
     explicit ByteCursor(std::string_view bytes) : bytes_(bytes) {}

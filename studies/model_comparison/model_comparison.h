@@ -19,7 +19,7 @@ struct RunSplit {
 /// out.
 std::vector<RunSplit> alternating_splits(const Recording& recording);
 
-/// The runs with these numbers, in this order. Throws InvalidInput where there is no such run.
+/// The runs with these numbers, in this order. Throws InvalidInput where a run is missing.
 Recording runs_of(const Recording& recording, const std::vector<int>& numbers);
 
 /// The bench of a split, and the diagnosis of its fitted runs, which saw no other run.

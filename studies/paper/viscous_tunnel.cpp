@@ -133,4 +133,42 @@ ViscousComparison compare_viscous_models(const CableSetting& setting, double pre
     return comparison;
 }
 
+Recording recorded_bench(const CableSetting& setting, const ViscousComparison& comparison) {
+    constexpr double motor_step_rad = 7.85e-4;
+    const PullPull pair = paper_bench(setting, comparison.pretension_N, 1);
+    const Cable& cable = pair.cable_a();
+    Recording recording{.name = "exp2"};
+    recording.sample_rate_Hz = 1.0 / (comparison.samples[1].time_s - comparison.samples[0].time_s);
+    recording.channels = {{"motor_torque", "N m", {}, {}},
+                          {"motor_angle", "rad", {}, motor_step_rad},
+                          {"load_angle", "rad", {}, {}},
+                          {"load_torque", "N m", comparison.bench.torque_noise_Nm, {}}};
+    recording.nominal = NominalBench{.curvature = {{cable.length_m(), setting.bend_radius_m}},
+                                     .motor_radius_m = pair.pulleys().motor_radius_m,
+                                     .load_radius_m = pair.pulleys().load_radius_m,
+                                     .axial_stiffness_N = cable.axial_stiffness_N(),
+                                     .dynamic_friction = cable.dynamic_friction(),
+                                     .static_friction = cable.static_friction()};
+    RecordedRun run{.number = 1,
+                    .protocol = "exp2",
+                    .pretension_N = comparison.pretension_N,
+                    .output = OutputKind::handle,
+                    .driven = {"motor_torque", "load_angle"}};
+    run.values.resize(recording.channels.size());
+    // What the instruments resolve.
+    const auto to_fraction = [](double value, double of_unit) {
+        return std::round(value * of_unit) / of_unit;
+    };
+    for (const ViscousSample& sample : comparison.samples) {
+        const double steps = std::round(sample.bench_motor_angle_rad / motor_step_rad);
+        run.time_s.push_back(to_fraction(sample.time_s, 1e3));
+        run.values[0].push_back(to_fraction(sample.motor_torque_Nm, 1e6));
+        run.values[1].push_back(to_fraction(steps * motor_step_rad, 1e6));
+        run.values[2].push_back(to_fraction(sample.load_angle_rad, 1e6));
+        run.values[3].push_back(to_fraction(sample.bench_torque_Nm, 1e5));
+    }
+    recording.runs.push_back(std::move(run));
+    return recording;
+}
+
 }  // namespace capstan::paper

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capstan/paper/pretension_ramps.h"
+#include "capstan/recording/recording.h"
 
 namespace capstan::paper {
 
@@ -58,6 +59,9 @@ struct ViscousComparison {
 /// the one with the least sum of squares.
 ViscousComparison compare_viscous_models(const CableSetting& setting, double pretension_N,
                                          const ViscousBench& bench, const Resolution& resolution);
+
+/// The simulated bench as a recording, with an encoder of 8000 steps a turn on the motor.
+Recording recorded_bench(const CableSetting& setting, const ViscousComparison& comparison);
 
 /// What the paper says of its Fig. 6.
 struct PaperViscous {

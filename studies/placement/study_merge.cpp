@@ -6,7 +6,6 @@
 
 #include "capstan/config/config_reader.h"
 #include "capstan/placement/stored_study.h"
-#include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/integrity/computed_with.h"
 #include "capstan/storage/integrity/verification.h"
@@ -220,10 +219,6 @@ RunEnd write_merged(ShardSet& shards, Database& merged, const RunOptions& option
     return RunEnd::complete;
 }
 
-void remove_database(const fs::path& path) {
-    for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(path.string() + end);
-}
-
 }  // namespace
 
 std::optional<ShardState> read_shard_state(Database& database) {
@@ -233,28 +228,12 @@ std::optional<ShardState> read_shard_state(Database& database) {
 }
 
 RunEnd merge_shards(const fs::path& merged, const std::vector<fs::path>& paths, const RunOptions& options) {
-    if (fs::exists(merged)) {
-        throw storage::Error(
-            merged.string() +
-            " exists already, and a merge makes a new file. Name another one, or remove it.");
-    }
-    ShardSet shards(paths);
-    const fs::path unfinished = merged.string() + ".unfinished";
-    remove_database(unfinished);
     RunEnd end = RunEnd::stopped;
-    try {
-        Database database = Database::open_or_create(unfinished);
+    storage::write_new_database(merged, [&](Database& database) {
+        ShardSet shards(paths);
         end = write_merged(shards, database, options);
-        if (end == RunEnd::complete) storage::fold_write_ahead_log(database);
-    } catch (...) {
-        remove_database(unfinished);
-        throw;
-    }
-    if (end == RunEnd::complete) {
-        rename_durably(unfinished, merged);
-    } else {
-        remove_database(unfinished);
-    }
+        return end == RunEnd::complete;
+    });
     return end;
 }
 

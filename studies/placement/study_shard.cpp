@@ -24,33 +24,17 @@ std::vector<storage::StudyDescription> descriptions_of(std::span<const PreparedS
 std::vector<std::int64_t> begin_or_find(storage::Database& database, const Shard& shard,
                                         const std::vector<storage::StudyDescription>& descriptions) {
     const std::string file = database.path().string();
-    if (storage::list_studies(database).empty()) {
-        // Unless another program begins the same shard at this moment.
-        if (const auto begun = storage::begin_shard(database, {shard.number, shard.count}, descriptions))
-            return *begun;
-    }
-    const auto stored = storage::list_studies(database);
-    const auto mark = storage::read_shard(database);  // came with the studies, in one transaction
     const std::string try_this = " Name a new file, or remove this one.";
-    if (!mark)
-        throw storage::Error(file + " holds complete studies, so no shard can be run in it." + try_this);
-    if (mark->shard != shard.number || mark->shards != shard.count) {
-        throw storage::Error(file + " is " + words_of({mark->shard, mark->shards}) + ", not " +
-                             words_of(shard) + "." + try_this);
-    }
-    std::vector<std::int64_t> ids;
-    for (std::size_t k = 0; k < stored.size(); ++k) {
-        ids.push_back(stored[k].study_id);
-        if (stored.size() != descriptions.size()) continue;
-        const auto other = difference_between(storage::load_study(database, ids[k]), descriptions[k]);
-        if (!other.empty()) {
-            throw storage::Error(file + " is a shard of another study: " + other + "." + try_this);
-        }
-    }
+    auto ids = storage::begin_or_find_shard(database, {shard.number, shard.count}, descriptions);
     if (ids.size() != descriptions.size()) {
         throw storage::Error(file + " is a shard of " + std::to_string(ids.size()) +
                              " studies, but the configuration has " + std::to_string(descriptions.size()) +
                              "." + try_this);
+    }
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        const auto other = difference_between(storage::load_study(database, ids[k]), descriptions[k]);
+        if (!other.empty())
+            throw storage::Error(file + " is a shard of another study: " + other + "." + try_this);
     }
     return ids;
 }
@@ -121,7 +105,7 @@ void require_useful(std::span<const StudyPlan> plans, const Shard& shard) {
 }
 
 std::string words_of(const Shard& shard) {
-    return "shard " + std::to_string(shard.number) + " of " + std::to_string(shard.count);
+    return storage::words_of({shard.number, shard.count});
 }
 
 ShardOutcome run_shard(storage::Database& database, std::span<const StudyPlan> plans, const Shard& shard,

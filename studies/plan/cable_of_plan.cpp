@@ -9,7 +9,7 @@ namespace capstan {
 
 namespace {
 
-// A segment breaks away as a whole. Until then it holds back the static friction beyond the dynamic one, an
+// All of a segment breaks away at once. Until then it holds back the static friction beyond the dynamic one, an
 // error that is proportional to the segment; the rest of the error falls with its square. With a friction
 // exponent of 0.3 beyond the dynamic one half of an error was discretisation, so that a tenth of it leaves a
 // twentieth.

@@ -24,9 +24,6 @@ struct TrueCable {
     EffectValues effect_deviations = EffectValues(effect_catalogue().size());
 
     bool has_effects() const { return effects != absent_effects(); }
-    bool is_the_model() const {
-        return friction_ratio == 1.0 && stiffness_ratio == 1.0 && pretension_ratio == 1.0 && !has_effects();
-    }
 };
 
 /// The model's cable with the ratios.

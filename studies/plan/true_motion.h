@@ -27,6 +27,10 @@ struct TrueSample {
 void simulate(const QuasiStaticStep& step, const TrueMotion& motion,
               const std::function<void(const TrueSample&)>& show);
 
+/// The plan's motion as CSV, a line for each sample from 0: time, motion pattern, and tension and
+/// displacement of every node.
+std::string motion_csv(const StudyPlan& plan);
+
 /// One sample of a trajectory with effects, which has no report.
 using ShowStates = std::function<void(int sample, const CableState& previous, const CableState& now)>;
 

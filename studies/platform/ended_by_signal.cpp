@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace capstan {
 
@@ -44,6 +46,28 @@ void say_and_end(int number) {
     ::raise(number);
 }
 
+std::atomic<bool> stop_asked{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may set it
+
+void ask_to_stop(int) {
+    stop_asked.store(true);
+}
+
+// What a signal did before; of those that end the program, and of these two.
+std::vector<std::pair<int, struct sigaction>> handlers_before;
+
+void take_over(int number) {
+    struct sigaction before {};
+    ::sigaction(number, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) return;  // as nohup has it
+    struct sigaction action {};
+    action.sa_handler = ask_to_stop;
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    ::sigemptyset(&action.sa_mask);
+    ::sigaction(number, &action, nullptr);
+    handlers_before.emplace_back(number, before);
+}
+
 }  // namespace
 
 void say_what_ends_the_program() {
@@ -57,6 +81,21 @@ void say_what_ends_the_program() {
         ::sigemptyset(&action.sa_mask);
         ::sigaction(number, &action, nullptr);
     }
+}
+
+StopRequest::StopRequest() {
+    stop_asked.store(false);
+    for (const int number : ending_signals) take_over(number);
+    for (const int number : {SIGINT, SIGPIPE}) take_over(number);
+}
+
+StopRequest::~StopRequest() {
+    for (const auto& [number, before] : handlers_before) ::sigaction(number, &before, nullptr);
+    handlers_before.clear();
+}
+
+const std::atomic<bool>* StopRequest::flag() {
+    return &stop_asked;
 }
 
 }  // namespace capstan

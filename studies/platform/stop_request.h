@@ -4,7 +4,7 @@
 
 namespace capstan {
 
-/// Thrown from a loop over threads whose work is no longer wanted.
+/// Thrown from a loop over threads that was asked to stop.
 struct WorkStopped {};
 
 /// While it lives, the loops of parallel_for_each_index() that this thread begins, and the loops within
@@ -25,7 +25,7 @@ class StopScope {
     const std::atomic<bool>* outer_;
 };
 
-/// Throws WorkStopped if this thread's work is no longer wanted.
+/// Throws WorkStopped if this thread was asked to stop.
 inline void throw_if_stopped() {
     if (StopScope::flag() != nullptr && StopScope::flag()->load(std::memory_order_relaxed))
         throw WorkStopped();

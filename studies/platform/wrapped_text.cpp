@@ -8,6 +8,15 @@ std::size_t columns_of(std::string_view text) {
     return std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; });
 }
 
+std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
+    const std::string blanks(width - std::min(width, columns_of(text)), ' ');
+    return to_the_right ? blanks + text : text + blanks;
+}
+
+std::string counted(std::size_t count, const std::string& thing) {
+    return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 std::string wrapped(std::string_view text, std::size_t width, std::string_view first,
                     std::string_view indent) {
     std::string result(first);

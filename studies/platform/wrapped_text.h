@@ -13,4 +13,10 @@ std::string wrapped(std::string_view text, std::size_t width, std::string_view f
 /// Columns that a UTF-8 text takes.
 std::size_t columns_of(std::string_view text);
 
+/// Filled up with blanks to `width` columns, on its left if it belongs to the right.
+std::string padded(const std::string& text, std::size_t width, bool to_the_right);
+
+/// "2 sensors", "1 sensor".
+std::string counted(std::size_t count, const std::string& thing);
+
 }  // namespace capstan

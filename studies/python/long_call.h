@@ -15,7 +15,7 @@ namespace py = pybind11;
 /// What work and its caller tell each other.
 class CallWatch {
   public:
-    /// Set when the work is no longer wanted.
+    /// Set when the call is to stop.
     const std::atomic<bool>& stop() const { return stop_; }
     /// How far the work is; from any thread. The caller sees the latest.
     void tell(const std::string& activity, double fraction);

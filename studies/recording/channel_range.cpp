@@ -1,6 +1,7 @@
 #include "capstan/recording/channel_range.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace capstan {
 
@@ -23,6 +24,31 @@ double largest_span(const Recording& recording, std::size_t channel) {
     double span = 0.0;
     for (const RecordedRun& run : recording.runs) span = std::max(span, range_of(run.values[channel]).span());
     return span;
+}
+
+std::optional<double> unstated_step(const Recording& recording, std::size_t channel) {
+    constexpr double tolerance = 0.02;  // of a step, for what the file rounds
+    constexpr std::size_t samples_per_value = 10;
+    std::vector<double> values;
+    for (const RecordedRun& run : recording.runs)
+        values.insert(values.end(), run.values[channel].begin(), run.values[channel].end());
+    const std::size_t samples = values.size();
+    std::sort(values.begin(), values.end());
+    const double rounding = 1e-9 * (values.back() - values.front());
+    values.erase(
+        std::unique(values.begin(), values.end(), [&](double a, double b) { return b - a <= rounding; }),
+        values.end());
+    if (values.size() < 3 || values.size() * samples_per_value > samples) return {};
+    double step = values.back() - values.front();
+    for (std::size_t k = 1; k < values.size(); ++k) step = std::min(step, values[k] - values[k - 1]);
+    step = (values.back() - values.front()) / std::round((values.back() - values.front()) / step);
+    const Channel& described = recording.channels[channel];
+    if (step < 1.5 * std::max(described.step.value_or(0.0), described.noise_std.value_or(0.0))) return {};
+    for (const double value : values) {
+        const double off = (value - values.front()) / step;
+        if (std::abs(off - std::round(off)) > tolerance) return {};
+    }
+    return step;
 }
 
 }  // namespace capstan

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "capstan/recording/recording.h"
@@ -24,5 +25,9 @@ ValueRange range_of(const Recording& recording, std::size_t channel);
 
 /// Of a channel in the run where it moves most.
 double largest_span(const Recording& recording, std::size_t channel);
+
+/// The step on which all values of a channel lie, if it is coarser than the noise and step that the sidecar
+/// states; none if the values lie anywhere.
+std::optional<double> unstated_step(const Recording& recording, std::size_t channel);
 
 }  // namespace capstan

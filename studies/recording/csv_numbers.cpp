@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
+#include "capstan/platform/parsed_number.h"
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/recording/json_object.h"
 
 namespace capstan {
@@ -39,18 +40,15 @@ bool numbers_of(std::string_view line, const CsvNumbers& table, const std::strin
     const std::vector<std::string_view> fields = fields_of(line);
     if (fields.size() != table.columns.size()) {
         problems.add_line("columns", place,
-                          fmt::format("{} value{} for {} column{}; is the line cut short?", fields.size(),
-                                      fields.size() == 1 ? "" : "s", table.columns.size(),
-                                      table.columns.size() == 1 ? "" : "s"));
+                          fmt::format("{} for {}; is the line cut short?", counted(fields.size(), "value"),
+                                      counted(table.columns.size(), "column")));
         return false;
     }
     numbers.clear();
     for (std::size_t column = 0; column < fields.size(); ++column) {
         const std::string_view field = fields[column];
-        double number = 0.0;
-        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-        const bool is_number = error == std::errc{} && end == field.data() + field.size();
-        if (!is_number || !std::isfinite(number)) {
+        const double number = parsed_number<double>(field).value_or(std::nan(""));
+        if (!std::isfinite(number)) {
             problems.add_line("number " + table.columns[column], place,
                               fmt::format("column '{}' has '{}', not a finite number; leave incomplete "
                                           "samples out, do not fill them",

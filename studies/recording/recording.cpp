@@ -33,6 +33,19 @@ void require_stated_numbers(const Recording& recording, const std::string& inste
                                     recording.name, fmt::join(open, ", "), instead)});
 }
 
+Recording with_values(Recording recording, std::vector<std::vector<std::vector<double>>> values) {
+    for (std::size_t channel = recording.channels.size(); channel-- > 0;) {
+        const auto at = static_cast<std::ptrdiff_t>(channel);
+        recording.channels[channel].noise_std.reset();
+        recording.channels[channel].step.reset();
+        if (std::ranges::none_of(values, [&](const auto& run) { return run[channel].empty(); })) continue;
+        recording.channels.erase(recording.channels.begin() + at);
+        for (auto& run : values) run.erase(run.begin() + at);
+    }
+    for (std::size_t run = 0; run < values.size(); ++run) recording.runs[run].values = std::move(values[run]);
+    return recording;
+}
+
 bool RecordedRun::drives(std::string_view channel) const {
     return std::find(driven.begin(), driven.end(), channel) != driven.end();
 }

@@ -93,6 +93,10 @@ CableSpecification cable_specification(const std::vector<CurvaturePiece>& routin
 
 struct Recording;
 
+/// The recording with other values, without the channels that are empty in a run. What is known of the noise
+/// and step of the channels is dropped. `values`: runs x channels x samples.
+Recording with_values(Recording recording, std::vector<std::vector<std::vector<double>>> values);
+
 /// For what takes the nominal numbers as they are. Throws InvalidInput where the sidecar states one as a
 /// range or not at all; `instead`, in a sentence, is what else would do.
 void require_stated_numbers(const Recording& recording, const std::string& instead);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "capstan/platform/wrapped_text.h"
 #include "capstan/recording/channel_range.h"
 #include "capstan/recording/recording_reader.h"
 #include "capstan/rig/channel_names.h"
@@ -115,8 +116,8 @@ void check_next_time(const RecordedRun& run, double time_s, double sample_rate_H
 void check_recording(const Recording& recording, const std::string& place, ProblemList& problems) {
     for (const RecordedRun& run : recording.runs) {
         if (run.time_s.size() < min_run_samples)
-            problems.add(place, fmt::format("run {} has {} sample{}; at least {} are needed", run.number,
-                                            run.samples(), run.samples() == 1 ? "" : "s", min_run_samples));
+            problems.add(place, fmt::format("run {} has {}; at least {} are needed", run.number,
+                                            counted(run.time_s.size(), "sample"), min_run_samples));
     }
     if (!problems.empty()) return;
     check_constant_channels(recording, place, problems);

@@ -12,8 +12,6 @@ struct MostInformative {
     std::vector<int> nodes;  // from 0, rising; empty: no layout satisfies the constraints
     double nats = 0.0;
     double at_most_nats = 0.0;  ///< no layout of that count has more; equal to nats: proven best
-
-    bool is_proven() const { return at_most_nats <= nats; }
 };
 
 /// The information of a layout, averaged over scenarios with weights that sum to one.

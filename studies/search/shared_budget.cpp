@@ -49,7 +49,7 @@ std::vector<double> smallest_largest_N(const std::vector<std::vector<double>>& e
     return best;
 }
 
-BudgetShare share_of(const std::vector<std::vector<double>>& error_N, const Partial& partial) {
+BudgetShare allotment_of(const std::vector<std::vector<double>>& error_N, const Partial& partial) {
     BudgetShare share{partial.sensors, partial.sum_N / static_cast<double>(error_N.size()), 0.0};
     for (std::size_t c = 0; c < error_N.size(); ++c)
         share.largest_N = std::max(share.largest_N, error_N[c][static_cast<std::size_t>(partial.sensors[c])]);
@@ -71,7 +71,7 @@ std::vector<BudgetShare> shared_budget(const std::vector<std::vector<double>>& e
         throw InvalidInput({"the constraints of the configurations need more sensors than the budget has"});
     std::vector<BudgetShare> shares;
     for (const Partial& each : best)
-        if (std::isfinite(each.sum_N)) shares.push_back(share_of(error_N, each));
+        if (std::isfinite(each.sum_N)) shares.push_back(allotment_of(error_N, each));
     return shares;
 }
 

@@ -1,6 +1,7 @@
 // Queuing the diagnosis of a recording, and reading stored diagnoses.
 #include "capstan/answers/recording_answers.h"
 #include "capstan/answers/study_answers.h"
+#include "capstan/reports/query_rows.h"
 #include "capstan/service/cost_estimate.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/job_results.h"
@@ -51,7 +52,7 @@ UploadedRecording recording_of(const http::Request& request) {
 std::vector<Route> diagnosis_routes(RouteContext& context) {
     const auto list = [&](const http::Request&, http::Response& response) {
         storage::Database database = context.open();
-        send_text(response, answers::rows_json(storage::run_read_only(database, storage::diagnoses_query)),
+        send_text(response, reports::rows_json(storage::run_read_only(database, storage::diagnoses_query)),
                   "application/json");
     };
     const auto start_diagnosis = [&](const http::Request& request, http::Response& response) {

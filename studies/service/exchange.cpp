@@ -1,7 +1,8 @@
 #include "capstan/service/exchange.h"
 
-#include <charconv>
 #include <limits>
+
+#include "capstan/platform/parsed_number.h"
 
 namespace capstan::service {
 
@@ -71,11 +72,9 @@ std::vector<int> member<std::vector<int>>(const nlohmann::json& body, const char
 
 std::int64_t number_in_path(const http::Request& request, std::size_t which) {
     const std::string& text = request.path_values.at(which);
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size())
-        throw BadRequest("there is no number " + text, 404);
-    return number;
+    const auto number = parsed_number<std::int64_t>(text);
+    if (!number) throw BadRequest("there is no number " + text, 404);
+    return *number;
 }
 
 }  // namespace capstan::service

@@ -5,8 +5,9 @@
 #include <openssl/hmac.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
+
+#include "capstan/platform/parsed_number.h"
 
 namespace capstan::service {
 
@@ -56,10 +57,8 @@ bool Sessions::is_valid(std::string_view cookie_header, std::int64_t now_s) cons
     const std::size_t dot = cookie.find('.');
     if (dot == std::string::npos) return false;
     const std::string end = cookie.substr(0, dot);
-    std::int64_t end_s = 0;
-    const auto [last, error] = std::from_chars(end.data(), end.data() + end.size(), end_s);
-    return error == std::errc() && last == end.data() + end.size() &&
-           same_secret(cookie.substr(dot + 1), signature_of(end)) && now_s < end_s;
+    const auto end_s = parsed_number<std::int64_t>(end);
+    return end_s && same_secret(cookie.substr(dot + 1), signature_of(end)) && now_s < *end_s;
 }
 
 bool same_secret(std::string_view given, std::string_view expected) {

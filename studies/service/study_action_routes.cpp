@@ -3,6 +3,7 @@
 
 #include "capstan/answers/study_answers.h"
 #include "capstan/config/config_writer.h"
+#include "capstan/reports/query_rows.h"
 #include "capstan/service/cost_estimate.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
@@ -69,7 +70,7 @@ ordered_json cost_of_studies_in(const RouteContext& context, const nlohmann::jso
 std::vector<Route> study_action_routes(RouteContext& context) {
     const auto list_deleted = [&](const http::Request&, http::Response& response) {
         storage::Database database = context.open();
-        send_text(response, answers::rows_json(answers::studies_table(database, storage::Shelf::trash)),
+        send_text(response, reports::rows_json(answers::studies_table(database, storage::Shelf::trash)),
                   "application/json");
     };
     const auto remove = [&](const http::Request& request, http::Response& response) {
@@ -92,7 +93,7 @@ std::vector<Route> study_action_routes(RouteContext& context) {
         storage::Database database = context.open();
         const std::int64_t id = number_in_path(request);
         study_state(database, id);
-        send_text(response, answers::rows_json(storage::run_read_only(database, history_query, {id})),
+        send_text(response, reports::rows_json(storage::run_read_only(database, history_query, {id})),
                   "application/json");
     };
     const auto tell_cost = [&](const http::Request& request, http::Response& response) {

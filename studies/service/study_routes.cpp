@@ -1,6 +1,7 @@
 // Stored studies: the list, the progress of each, and its conclusions.
 #include "capstan/answers/placement_answers.h"
 #include "capstan/answers/study_answers.h"
+#include "capstan/reports/query_rows.h"
 #include "capstan/reports/study_report.h"
 #include "capstan/service/exchange.h"
 #include "capstan/service/routes.h"
@@ -37,12 +38,12 @@ std::string recommendation_json(storage::Database& database, std::int64_t study_
 std::vector<Route> study_routes(RouteContext& context) {
     const auto list = [&](const http::Request&, http::Response& response) {
         storage::Database database = context.open();
-        send_text(response, answers::rows_json(answers::studies_table(database)), "application/json");
+        send_text(response, reports::rows_json(answers::studies_table(database)), "application/json");
     };
     const auto rows_of = [&](std::string_view query) {
         return of_study(
             context, [query](storage::Database& database, std::int64_t id, http::Response& response) {
-                send_text(response, answers::rows_json(storage::run_read_only(database, query, {id})),
+                send_text(response, reports::rows_json(storage::run_read_only(database, query, {id})),
                           "application/json");
             });
     };

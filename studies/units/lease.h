@@ -44,7 +44,7 @@ class Lease {
     std::unique_ptr<SharedFolder::Heart> heart_;
 };
 
-/// Nothing: there is no lease, or a damaged one.
+/// Nothing where the lease is missing or damaged.
 std::optional<LeaseRecord> read_lease(SharedFolder& folder, const std::string& name);
 
 /// Whether a worker holds it that was heard of lately; `now_s` as SharedFolder::now_s() gives it.

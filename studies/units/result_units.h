@@ -45,7 +45,7 @@ class ResultWork final : public UnitWork {
     void discard(const std::string& file) override;
 
     /// Writes of each unit its input, its result and the result's hash, then the hash over them. Damaged are
-    /// units whose file or record is not whole. Throws std::runtime_error where different programs or SIMD
+    /// units whose file or record is incomplete or damaged. Throws std::runtime_error where different programs or SIMD
     /// widths computed the units.
     Merged merge() override;
 

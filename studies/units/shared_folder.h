@@ -33,7 +33,7 @@ class SharedFolder {
     virtual bool create(const std::string& name, const std::string& text) = 0;
     /// All of the new text, or none of it.
     virtual void replace(const std::string& name, const std::string& text) = 0;
-    /// Nothing: there is no such file.
+    /// Nothing where the file does not exist.
     virtual std::optional<std::string> read(const std::string& name) = 0;
     virtual std::optional<double> modified_s(const std::string& name) = 0;
     virtual std::vector<std::string> names() = 0;

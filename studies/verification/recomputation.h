@@ -22,7 +22,7 @@ struct Sample {
     std::uint64_t seed = 1;  ///< of the choice
 };
 
-/// Nothing is written. Throws InvalidInput if the stored configuration is no longer valid, storage::Error if
+/// Nothing is written. Throws InvalidInput if this program rejects the stored configuration, storage::Error if
 /// the study was computed with vector instructions of another width than those in use, since its last bits
 /// would differ.
 Recomputation recompute(storage::Database& database, std::int64_t study_id, const Sample& sample,

@@ -18,7 +18,7 @@ constexpr std::size_t questions_at_once = 32;
 // Tasks whose entries are kept together, twice as many while they take less than so long: progress and
 // stopping come no more often.
 constexpr std::size_t fewest_tasks_at_once = 2;
-constexpr std::size_t most_tasks_at_once = 32;
+constexpr std::size_t max_tasks_at_once = 32;
 constexpr double tasks_at_once_s = 1.0;
 
 constexpr std::string_view condition_names[] = {
@@ -224,7 +224,7 @@ void ErrorTable::fill(Condition condition, std::span<const int> candidates, int 
         if (options_.keep) options_.keep(entries);
         done += entries.size();
         if (options_.on_progress) options_.on_progress({activity, static_cast<double>(done), trials});
-        if (wall_time_s() - begin_s < tasks_at_once_s) at_once = std::min(2 * at_once, most_tasks_at_once);
+        if (wall_time_s() - begin_s < tasks_at_once_s) at_once = std::min(2 * at_once, max_tasks_at_once);
     }
 }
 

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "capstan/config/config_reader.h"
-#include "capstan/platform/files.h"
 #include "capstan/storage/error.h"
 #include "capstan/storage/integrity/computed_with.h"
 #include "capstan/storage/integrity/verification.h"
@@ -43,27 +42,15 @@ std::size_t errors_of(const StudyPlan& plan, const storage::ShardRecord& shard) 
     return all.candidates * static_cast<std::size_t>(std::max(own, 0));
 }
 
-std::string words(const storage::ShardRecord& shard) {
-    return fmt::format("shard {} of {}", shard.shard, shard.shards);
-}
-
 std::int64_t begin_or_find(storage::Database& database, const storage::ShardRecord& shard,
                            const storage::StudyDescription& description) {
-    if (storage::list_studies(database).empty())
-        if (const auto begun = storage::begin_shard(database, shard, {description})) return begun->front();
-    const std::string file = database.path().string();
-    const std::string try_this = " Name a new file, or remove this one.";
-    const auto mark = storage::read_shard(database);
-    if (!mark)
-        throw storage::Error(file + " holds complete studies, so no shard can be run in it." + try_this);
-    if (*mark != shard)
-        throw storage::Error(fmt::format("{} is {}, not {}.{}", file, words(*mark), words(shard), try_this));
-    const std::int64_t id = storage::list_studies(database).front().study_id;
+    const std::int64_t id = storage::begin_or_find_shard(database, shard, {description}).front();
     const storage::StudyRecord stored = storage::load_study(database, id).study;
     if (stored.config_toml != description.study.config_toml ||
         stored.program_version != description.study.program_version)
-        throw storage::Error(file + " is a shard of another study, or of another version of the program." +
-                             try_this);
+        throw storage::Error(database.path().string() +
+                             " is a shard of another study, or of another version of the program. Name a new "
+                             "file, or remove this one.");
     return id;
 }
 
@@ -103,7 +90,7 @@ WorldShards read_shards(const std::vector<fs::path>& paths) {
         const auto [at, is_new] = shards.files.try_emplace(mark->shard, path);
         if (!is_new) {
             problems.push_back(fmt::format("{} is {}, and so is {}; leave one out.", path.string(),
-                                           words(*mark), at->second.string()));
+                                           words_of(*mark), at->second.string()));
             continue;
         }
         if (const std::string other = shards.computations.problem_of(database); !other.empty())
@@ -133,10 +120,6 @@ WorldShards read_shards(const std::vector<fs::path>& paths) {
     throw storage::Error(std::accumulate(
         problems.begin(), problems.end(), std::string("These shards cannot be merged; nothing was written."),
         [](const std::string& text, const std::string& problem) { return text + "\n  " + problem; }));
-}
-
-void remove_database(const fs::path& path) {
-    for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(path.string() + end);
 }
 
 }  // namespace
@@ -177,25 +160,14 @@ void run_world_shard(storage::Database& database, const StudyPlan& plan, const s
 
 void merge_world_shards(const fs::path& merged, const std::vector<fs::path>& paths,
                         const TableOptions& options) {
-    if (fs::exists(merged))
-        throw storage::Error(
-            merged.string() +
-            " exists already, and a merge makes a new file. Name another one, or remove it.");
-    const WorldShards shards = read_shards(paths);
-    const fs::path unfinished = merged.string() + ".unfinished";
-    remove_database(unfinished);
-    try {
-        storage::Database database = storage::Database::open_or_create(unfinished);
+    storage::write_new_database(merged, [&](storage::Database& database) {
+        const WorldShards shards = read_shards(paths);
         const std::int64_t id = storage::begin_study(database, shards.study);
         if (const auto& computation = shards.computations.common())
             storage::write_computation(database, id, *computation);
         run_worlds(database, id, shards.plan, options, shards.errors);
-        storage::fold_write_ahead_log(database);
-    } catch (...) {
-        remove_database(unfinished);
-        throw;
-    }
-    rename_durably(unfinished, merged);
+        return true;
+    });
 }
 
 }  // namespace capstan

@@ -28,7 +28,7 @@ class XmlArchive {
     /// cut or damaged.
     XmlArchive(const std::filesystem::path& path, std::string what);
 
-    /// Reads a part element by element; false if there is no such part. Throws InvalidInput.
+    /// Reads a part element by element; false if the part is missing. Throws InvalidInput.
     bool parse(const std::string& part, const Handlers& handlers);
 
     /// Throws InvalidInput with the file's name before `why`.

@@ -28,7 +28,7 @@ class Hardened(unittest.TestCase):
         self.assertRegex(readelf("--dyn-syms"), r"__\w+_chk")
 
     def test_jumps_are_marked_for_processors_that_check_them(self):
-        """Debian's own start-up code has no such marks, so the linker cannot state the property of the whole program."""
+        """Debian's own start-up code has no such marks, so the linker cannot state the property of the complete program."""
         if os.uname().machine == "x86_64":
             with open(CAPSTAN, "rb") as program:
                 self.assertGreater(program.read().count(b"\xf3\x0f\x1e\xfa"), 1000)  # endbr64

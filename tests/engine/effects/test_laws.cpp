@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "capstan/effects/effect_catalogue.h"
 
@@ -149,6 +151,14 @@ TEST(Catalogue, NamesEachVariantOnceWithParametersInTheirLimits) {
             EXPECT_GE(effect.absent[k], parameter.low) << effect.name << " " << parameter.name;
         }
     }
+}
+
+TEST(Catalogue, StandsInTheTableOfEquations) {
+    std::ostringstream text;
+    text << std::ifstream(ENGINE_README).rdbuf();
+    for (const Effect& effect : effect_catalogue())
+        EXPECT_NE(text.str().find("| " + effect.equation + " | " + effect.title), std::string::npos)
+            << "engine/README.md lacks the row of " << effect.title;
 }
 
 TEST(Catalogue, WithEveryEffectAbsentNoneIsThere) {

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "capstan/config/config_key.h"
-#include "capstan/config/config_problem.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/config/config_writer.h"
 #include "capstan/effects/effect_catalogue.h"
+#include "problems_in.h"
 
 namespace capstan::config {
 namespace {
@@ -20,16 +20,9 @@ BenchPlan plan_of(const std::string& toml) {
     return parse_plan<BenchPlan>("kind = \"bench\"\n" + toml, "x.toml").plan;
 }
 
-// "2: motor.amplitdue_Nm: unknown key; ..." for each problem; the text begins on line 2.
+// The text begins on line 2.
 std::vector<std::string> bench_problems_in(const std::string& toml) {
-    std::vector<std::string> texts;
-    try {
-        plan_of(toml);
-    } catch (const ConfigError& error) {
-        for (const ConfigProblem& problem : error.at_lines())
-            texts.push_back(std::to_string(problem.line) + ": " + problem.key + ": " + problem.message);
-    }
-    return texts;
+    return problems_of_reading([&] { plan_of(toml); });
 }
 
 TEST(BenchKeys, TheDefaultIsThePapersRampsWithoutEffects) {

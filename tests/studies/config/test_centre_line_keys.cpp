@@ -6,9 +6,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "capstan/config/config_problem.h"
 #include "capstan/config/config_reader.h"
 #include "capstan/config/config_writer.h"
+#include "problems_in.h"
 
 namespace capstan::config {
 namespace {
@@ -38,14 +38,7 @@ class CentreLineKeys : public testing::Test {
         return read_config(folder_ / "x.toml");
     }
     std::vector<std::string> problems_in(const std::string& toml) const {
-        std::vector<std::string> texts;
-        try {
-            read(toml);
-        } catch (const ConfigError& error) {
-            for (const ConfigProblem& problem : error.at_lines())
-                texts.push_back(std::to_string(problem.line) + ": " + problem.key + ": " + problem.message);
-        }
-        return texts;
+        return problems_of_reading([&] { read(toml); });
     }
 
     std::filesystem::path folder_;

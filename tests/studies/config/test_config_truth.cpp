@@ -51,7 +51,11 @@ TEST_F(TruthFile, ReadsBackToTheSameBits) {
 }
 
 TEST_F(TruthFile, OfNothingIsTheModel) {
-    EXPECT_TRUE(read(truth_text({}, {})).is_the_model());
+    const TrueCable truth = read(truth_text({}, {}));
+    EXPECT_EQ(truth.friction_ratio, 1.0);
+    EXPECT_EQ(truth.stiffness_ratio, 1.0);
+    EXPECT_EQ(truth.pretension_ratio, 1.0);
+    EXPECT_FALSE(truth.has_effects());
 }
 
 TEST_F(TruthFile, RejectsOtherContentWithItsLine) {

@@ -1,4 +1,4 @@
-// Fits of a bench whose model errs by far more than its sensors' noise.
+// Fits of a bench whose model is wrong by far more than its sensors' noise.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -65,7 +65,7 @@ TEST_F(OnASession, TakesInWhatIsAFunctionOfTheMotionButNotNoise) {
     EXPECT_GT(noise[large].misfit, 0.9 * noise[0].misfit);
 }
 
-// A channel that errs by a hundred times its noise does not drown the others.
+// A channel whose error is a hundred times its noise does not drown the others.
 TEST_F(OnASession, WithOwnScalesAChannelCountsByHowItsErrorChanges) {
     const std::size_t first = fitter.series().front().channel;
     const auto errors = [&](double of_first, double of_others) {

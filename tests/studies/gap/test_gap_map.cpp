@@ -5,6 +5,7 @@
 
 #include "capstan/gap/candidate_cause.h"
 #include "capstan/gap/gap_map.h"
+#include "capstan/recording/channel_range.h"
 #include "capstan/recording/driven_inputs.h"
 #include "sample_recording.h"
 

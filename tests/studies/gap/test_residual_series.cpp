@@ -115,7 +115,7 @@ TEST(ResidualSeries, NoiseOfADrivenAngleIsPartOfTheScaleOfWhatItMoves) {
         left.push_back(std::sqrt(squares / static_cast<double>(residuals.size())) / torque.scale);
     }
     std::nth_element(left.begin(), left.begin() + 4, left.end());
-    // One large noise at a reversal moves the torque of a whole stroke, so that single recordings scatter.
+    // One large noise at a reversal moves the torque of a complete stroke, so that single recordings scatter.
     EXPECT_NEAR(left[4], 1.0, 0.4);
 }
 

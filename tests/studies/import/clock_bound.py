@@ -3,7 +3,7 @@
     CAPSTAN=build/capstan CAPSTAN_CONFIGS=configs python3 tests/studies/import/clock_bound.py
 
 The torque is explained by the other channels through weights that are not known: their values, elastic-plastic elements of
-several yields, the speeds of angles. Only the part of the torque's derivative that these do not imitate tells the offset. The
+several yields, the speeds of angles. Only the part of the torque's derivative that these cannot explain tells the offset. The
 noise is what the fit leaves, counted as fewer samples where it is correlated. The second bound takes the weights as known.
 A better law of friction would leave less, and the bound would be lower.
 """

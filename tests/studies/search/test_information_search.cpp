@@ -44,7 +44,7 @@ TEST(MostInformativeLayout, IsTheBestOfAllLayouts) {
         const PlacementConstraints constraints(plan.placement, study.nodes());
         for (int sensors = 1; sensors <= 4; ++sensors) {
             const MostInformative found = max_information_layout(information, constraints, sensors);
-            EXPECT_TRUE(found.is_proven());
+            EXPECT_LE(found.at_most_nats, found.nats);
             EXPECT_TRUE(constraints.allow(found.nodes));
             EXPECT_NEAR(found.nats, nats_of(information, found.nodes), 1e-9);
             EXPECT_NEAR(found.nats, max_nats(information, constraints, study.nodes(), sensors), 1e-9);

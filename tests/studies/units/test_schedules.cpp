@@ -15,7 +15,7 @@ TEST(Schedules, LoseAndDoubleNoUnit) {
     }
 }
 
-// Mistakes that the simulation found: without its mend, each of these seeds fails.
+// Mistakes that the simulation found: without its fix, each of these seeds fails.
 TEST(Schedules, ThatFailedOnceDoNotAgain) {
     constexpr std::uint64_t seeds[] = {
         // A bit of a record flipped in what it says of the program, and the merge took it for another

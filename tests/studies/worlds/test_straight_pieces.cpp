@@ -97,13 +97,13 @@ TEST(StraightPieces, TwoSensorsInOnePieceAreNotOne) {
 TEST(StraightPieces, JoiningTheirSegmentsChangesNoError) {
     const StudyPlan plan = plan_with_places({0.0, 0.2, 0.7, 0.9});
     for (const int pieces : {1, 2}) {
-        const WorldQuestion whole = world_question(plan, pieces);
-        WorldQuestion joined = whole;
-        joined.cable = UncertainCable(with_straight_joined(whole.cable.nominal()));
-        ASSERT_LT(joined.cable.nominal().segments, whole.cable.nominal().segments);
-        EXPECT_EQ(Cable(joined.cable.nominal()).length_m(), Cable(whole.cable.nominal()).length_m());
+        const WorldQuestion in_pieces = world_question(plan, pieces);
+        WorldQuestion joined = in_pieces;
+        joined.cable = UncertainCable(with_straight_joined(in_pieces.cable.nominal()));
+        ASSERT_LT(joined.cable.nominal().segments, in_pieces.cable.nominal().segments);
+        EXPECT_EQ(Cable(joined.cable.nominal()).length_m(), Cable(in_pieces.cable.nominal()).length_m());
         for (std::uint32_t world = 0; world < 4; ++world) {
-            const WorldError a = error_of(whole, {0, 2, 3}, world);
+            const WorldError a = error_of(in_pieces, {0, 2, 3}, world);
             const WorldError b = error_of(joined, {0, 2, 3}, world);
             EXPECT_NEAR(a.mean_abs_N, b.mean_abs_N, 1e-8);
             EXPECT_NEAR(a.load_end_N, b.load_end_N, 1e-8);

@@ -8,7 +8,7 @@
 
 #include "capstan/recording/recording.h"
 
-namespace capstan::gap {
+namespace capstan {
 
 /// Samples of a block of one second: samples that are correlated in time are drawn together.
 inline int bootstrap_block_samples(const Recording& recording) {
@@ -41,4 +41,4 @@ inline BootstrapInterval middle_95(std::vector<double> drawn) {
     return {drawn[beyond], drawn[drawn.size() - 1 - beyond]};
 }
 
-}  // namespace capstan::gap
+}  // namespace capstan

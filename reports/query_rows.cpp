@@ -1,17 +1,16 @@
-// The rows of a query as text and as JSON.
+#include "capstan/reports/query_rows.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "capstan/answers/study_answers.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/platform/wrapped_text.h"
 
-namespace capstan::answers {
+namespace capstan::reports {
 
 namespace {
 
-using reports::Data;
 using storage::QueryResult;
 using storage::QueryValue;
 
@@ -32,18 +31,6 @@ struct ForPeople {
     std::string operator()(const std::string& value) const { return on_one_line(value); }
 };
 
-Data cell_data(const QueryValue& value) {
-    if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
-    if (const auto* number = std::get_if<double>(&value)) return *number;
-    if (const auto* text = std::get_if<std::string>(&value)) return *text;
-    return {};
-}
-
-std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
-    const std::string blanks(width - std::min(width, columns_of(text)), ' ');
-    return to_the_right ? blanks + text : text + blanks;
-}
-
 std::string without_trailing_blanks(std::string line) {
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";
@@ -51,12 +38,11 @@ std::string without_trailing_blanks(std::string line) {
 
 }  // namespace
 
-QueryResult studies_table(storage::Database& database, storage::Shelf shelf) {
-    QueryResult table{{"study_id", "name", "status", "units_done", "units", "begun_utc", "note", "tags"}, {}};
-    for (const storage::StudySummary& study : storage::list_studies(database, shelf))
-        table.rows.push_back({study.study_id, study.name, study.status, std::int64_t{study.units_done},
-                              std::int64_t{study.units}, study.begun_utc, study.note, study.tags});
-    return table;
+Data data_of_cell(const QueryValue& value) {
+    if (std::holds_alternative<std::monostate>(value)) return {};
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
+    if (const auto* number = std::get_if<double>(&value)) return *number;
+    return std::get<std::string>(value);
 }
 
 std::string rows_text(const QueryResult& result) {
@@ -87,8 +73,8 @@ std::string rows_text(const QueryResult& result) {
 
 std::string row_json(const std::vector<std::string>& columns, const std::vector<storage::QueryValue>& row) {
     Data object = Data::record();
-    for (std::size_t c = 0; c < row.size(); ++c) object[columns[c]] = cell_data(row[c]);
-    std::string text = reports::json_text(object);
+    for (std::size_t c = 0; c < row.size(); ++c) object[columns[c]] = data_of_cell(row[c]);
+    std::string text = json_text(object);
     text.pop_back();  // its line break
     std::string indented = "  ";
     for (const char letter : text) {
@@ -106,4 +92,4 @@ std::string rows_json(const QueryResult& result) {
     return text + "\n]\n";
 }
 
-}  // namespace capstan::answers
+}  // namespace capstan::reports
