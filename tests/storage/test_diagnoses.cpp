@@ -73,6 +73,27 @@ TEST_F(Diagnoses, ComeBackAsTheyWereWritten) {
     EXPECT_EQ(load_diagnosis(database, second.diagnosis_id), second);
 }
 
+TEST_F(Diagnoses, AreListedWithWhatTheyAreAbout) {
+    const DiagnosisRecord written = example_diagnosis();
+    const std::int64_t id = write_diagnosis(database, written);
+    const auto listed = list_diagnoses(database);
+    ASSERT_EQ(listed.size(), 1u);
+    EXPECT_EQ(listed[0].diagnosis_id, id);
+    EXPECT_EQ(listed[0].recording, written.recording);
+    EXPECT_EQ(listed[0].log_file, written.log_file);
+    EXPECT_EQ(listed[0].verdict, written.verdict);
+    EXPECT_EQ(listed[0].confidence_fraction, written.confidence_fraction);
+}
+
+// Effects have places, from 1; what has an index is counted from 0.
+TEST_F(Diagnoses, CountTheirPartsAsTheSchemaSays) {
+    write_diagnosis(database, example_diagnosis());
+    EXPECT_EQ(number_from(database, "SELECT min(place) FROM diagnosis_effect"), 1);
+    EXPECT_EQ(number_from(database, "SELECT min(candidate_index) FROM diagnosis_candidate"), 0);
+    EXPECT_EQ(number_from(database, "SELECT min(channel_index) FROM diagnosis_channel"), 0);
+    EXPECT_EQ(number_from(database, "SELECT min(part_index) FROM diagnosis_gap"), 0);
+}
+
 TEST_F(Diagnoses, RejectAnUnknownNumber) {
     expect_says(error_of([&] { load_diagnosis(database, 7); }), "holds no diagnosis 7");
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "capstan/estimation/curve_peak.h"
 #include "fusion_bench.h"
@@ -131,6 +132,42 @@ TEST(CurveLikelihood, IsTheNormalDensityOfTheReading) {
     }
 }
 
+// A reading at the end of the range stands for every noisy tension from there on.
+TEST(CurveLikelihood, ASaturatedReadingIsAsLikelyAsAllReadingsBeyondTheRangeTogether) {
+    const Instant instant = paper_instant(112);
+    const FeasibleCurve curve(instant.problem(), {test::distal_reach_m, 64});
+    const double range_N = instant.truth.tension_N[10];
+    const CurveLikelihood unlimited(curve, {.additive_N = 0.5});
+    const CurveLikelihood limited(curve, {.additive_N = 0.5, .range_N = range_N});
+    std::vector<double> expected(64, 0.0);
+    std::vector<double> result(64);
+    constexpr double step_N = 0.01;
+    for (double reading_N = range_N + 0.5 * step_N; reading_N < range_N + 30.0; reading_N += step_N) {
+        unlimited.log_likelihood(10, reading_N, result);
+        for (int k = 0; k < 64; ++k)
+            expected[k] += step_N * std::exp(result[k]) / std::sqrt(2.0 * std::numbers::pi);
+    }
+    limited.log_likelihood(10, range_N, result);
+    for (int k = 0; k < 64; ++k) EXPECT_NEAR(std::exp(result[k]), expected[k], 1e-4);
+}
+
+TEST(CurveLikelihood, OfAllSensorsStartsFromNothing) {
+    const std::vector<double> per_sensor = {1.0, 2.0, 30.0, 40.0, 500.0, 600.0};  // sensors x points
+    std::vector<double> result = {7.0, 7.0};
+    add_log_likelihoods(per_sensor, std::vector{0, 2}, result);
+    EXPECT_EQ(result, (std::vector{501.0, 602.0}));
+}
+
+TEST(MaximumLikelihood, IsTheTopOfAParabolaWhereverItIsBetweenTheEnds) {
+    constexpr int points = 8;
+    for (double top = 0.55; top < points - 1.5; top += 0.1) {
+        std::vector<double> log_likelihood;
+        for (int k = 0; k < points; ++k) log_likelihood.push_back(3.0 - 0.7 * (k - top) * (k - top));
+        const CurvePlace place = likeliest_place(log_likelihood, static_cast<int>(std::round(top)));
+        EXPECT_NEAR(place.point + place.fraction * (place.neighbour - place.point), top, 1e-12);
+    }
+}
+
 // Pushed in by 3 cm the cable carries nothing, and multiplicative noise has no width there.
 TEST(CurveLikelihood, IsFiniteWhereTheCableIsSlack) {
     const Instant start = paper_instant(1);
@@ -154,8 +191,10 @@ TEST(CurveLikelihood, IsFiniteWhereTheCableIsSlack) {
 
 // The peak is found while two rows are added; equal tops count at their first place.
 TEST(CurvePeak, FoundWhileAddingIsTheFirstLargestOfTheSum) {
-    for (const int points : {8, 16, 24, 64}) {
-        for (int top = 0; top < points; ++top) {
+    for (const int points : {8, 16, 24}) {
+        for (int pair = 0; pair < points * points; ++pair) {
+            const int top = std::min(pair % points, pair / points);
+            const auto again = static_cast<std::size_t>(std::max(pair % points, pair / points));
             std::vector<double> before(static_cast<std::size_t>(points));
             std::vector<double> sensor(before.size());
             std::vector<double> sum(before.size());
@@ -165,8 +204,8 @@ TEST(CurvePeak, FoundWhileAddingIsTheFirstLargestOfTheSum) {
             }
             before[static_cast<std::size_t>(top)] = 1.0;
             sensor[static_cast<std::size_t>(top)] = 0.0;
-            before.back() = 1.0;
-            sensor.back() = 0.0;
+            before[again] = 1.0;
+            sensor[again] = 0.0;
             EXPECT_EQ(add_log_likelihood_and_find_peak(before, sensor, sum), top) << points;
             for (std::size_t k = 0; k < sum.size(); ++k) ASSERT_EQ(sum[k], before[k] + sensor[k]);
             EXPECT_EQ(likeliest_point(sum), top) << points;
@@ -183,6 +222,8 @@ TEST(CurvePeak, OnAPlateauIsThePointItself) {
 TEST(CurvePeak, IsTheFirstPointIfNoValueIsANumber) {
     const std::vector<double> none(16, std::nan(""));
     EXPECT_EQ(likeliest_point(none), 0);
+    std::vector<double> sum(none.size());
+    EXPECT_EQ(add_log_likelihood_and_find_peak(none, none, sum), 0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <set>
 
 #include "capstan/estimation/direction_pattern.h"
@@ -29,6 +30,13 @@ TEST(AdmissiblePatterns, RestOnlyBetweenTheTwoSides) {
         int changes = 0;
         for (int i = 1; i < 9; ++i) changes += pattern.segment(i, 9) != pattern.segment(i - 1, 9);
         EXPECT_LE(changes, 2);
+    }
+}
+
+TEST(AdmissiblePatterns, SlideInTheirLeadingAndTrailingSegmentsOnly) {
+    for (const DirectionPattern& pattern : admissible_patterns(9)) {
+        const DirectionBits bits = direction_bits(pattern, 9);
+        EXPECT_EQ(std::popcount(bits.forward | bits.backward), pattern.leading + pattern.trailing);
     }
 }
 

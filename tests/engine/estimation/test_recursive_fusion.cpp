@@ -64,13 +64,15 @@ TEST(RecursiveFusion, WMeanRMovesTheCableAsMeanRDoes) {
     const double near_m = moved_proximal_m(model.cable(), 8);
     model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(0.0)});
     int disagreements = 0;
-    for (double factor = 0.5; factor < 1.6; factor += 0.05) {
+    for (int variant = 0; variant < 44; ++variant) {
+        const double factor = 0.5 + 0.05 * (variant / 2);
+        const bool far_sensors_err = variant % 2 == 0;
         RecursiveFusion shared(model, start, mean_r_method, DistalSide::admitted);
         RecursiveFusion unshared(model, start, weighted_mean_r_method, DistalSide::admitted, weight);
         std::vector<NodeReading> readings;
         for (const int node : {0, 2, 4, 8, 10})
-            readings.push_back(
-                {node, truth.tension_N[static_cast<std::size_t>(node)] * (node > 3 ? factor : 1.0)});
+            readings.push_back({node, truth.tension_N[static_cast<std::size_t>(node)] *
+                                          ((node > 3) == far_sensors_err ? factor : 1.0)});
         shared.step(near_m, readings);
         unshared.step(near_m, readings);
         if (shared.estimate().tension_N != unshared.estimate().tension_N) ++disagreements;
@@ -103,6 +105,8 @@ TEST(RecursiveFusion, RefusesWeightsNoReadingsAndNodesBeyondTheCable) {
     const QuasiStaticStep model(test::paper_cable(10), ModelRules::consistent());
     const CableState start = pretensioned(model.cable());
     EXPECT_THROW(RecursiveFusion(model, start, weighted_mean_method, DistalSide::excluded), InvalidInput);
+    EXPECT_THROW(RecursiveFusion(model, start, weighted_mean_r_method, DistalSide::excluded), InvalidInput);
+    EXPECT_THROW(RecursiveFusion(model, start, mean_known_direction, DistalSide::excluded), InvalidInput);
     EXPECT_THROW(RecursiveFusion(model, start, posterior_mean_method, DistalSide::excluded), InvalidInput);
     RecursiveFusion fusion(model, start, mean_method, DistalSide::excluded);
     EXPECT_THROW(fusion.step(0.0, {}), InvalidInput);
@@ -116,9 +120,20 @@ TEST(RecursiveFusion, RefusesMorePatternsThanItCanTry) {
     EXPECT_THROW(RecursiveFusion(model, start, mean_method, DistalSide::admitted), InvalidInput);
 }
 
+TEST(RecursiveFusion, TakesAsManySegmentsAsAWordHolds) {
+    const QuasiStaticStep model(test::paper_cable(max_estimated_segments), ModelRules::consistent());
+    CableState truth = pretensioned(model.cable());
+    RecursiveFusion fusion(model, truth, mean_r_method, DistalSide::excluded);
+    const double near_m = moved_proximal_m(model.cable(), 5);
+    model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(0.0)});
+    const NodeReading readings[] = {{0, truth.tension_N.front()}, {2, truth.tension_N[2]}};
+    fusion.step(near_m, readings);
+    EXPECT_EQ(fusion.estimate().tension_N.back(), truth.tension_N.back());
+}
+
 // To and fro with a spring at the far end: rest, motion from the near end, all of the cable, and back.
-TEST(RecursiveFusion, StaysFiniteThroughEveryKindOfMotionOfTheTruth) {
-    const QuasiStaticStep model(test::paper_cable(6), ModelRules::consistent());
+void expect_finite_estimates(int segments) {
+    const QuasiStaticStep model(test::paper_cable(segments), ModelRules::consistent());
     CableState truth = pretensioned(model.cable());
     RecursiveFusion fusion(model, truth, mean_r_method, DistalSide::admitted);
     std::set<MotionKind> seen;
@@ -128,13 +143,17 @@ TEST(RecursiveFusion, StaysFiniteThroughEveryKindOfMotionOfTheTruth) {
         model.advance(truth, {EndCondition::position_m(near_m), EndCondition::position_m(far_m)});
         seen.insert(truth.last_motion.kind);
         std::vector<NodeReading> readings;
-        for (int node = 0; node <= 6; ++node)
+        for (int node = 0; node <= segments; ++node)
             readings.push_back({node, truth.tension_N[static_cast<std::size_t>(node)]});
         fusion.step(near_m, readings);
         for (std::size_t node = 0; node < truth.tension_N.size(); ++node)
             ASSERT_TRUE(std::isfinite(fusion.estimate().tension_N[node]));
     }
     EXPECT_GE(seen.size(), 3u);
+}
+
+TEST(RecursiveFusion, StaysFiniteThroughEveryKindOfMotionOfTheTruth) {
+    for (const int segments : {6, 8}) expect_finite_estimates(segments);
 }
 
 }  // namespace

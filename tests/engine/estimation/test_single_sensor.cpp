@@ -94,6 +94,47 @@ TEST(SingleSensorEstimator, RefusesMoreSegmentsThanAWordHolds) {
     EXPECT_THROW(SingleSensorEstimator(problem, DistalSide::excluded), InvalidInput);
 }
 
+TEST(SingleSensorEstimator, TakesAsManySegmentsAsAWordHolds) {
+    const QuasiStaticStep step(test::paper_cable(63), ModelRules::paper());
+    const CableState rest = pretensioned(step.cable());
+    const EstimationProblem problem{step, rest, rest.displacement_m.front() - 1e-4};
+    EXPECT_EQ(SingleSensorEstimator(problem, DistalSide::excluded).nodes(), 64);
+}
+
+TEST(SingleSensorEstimator, TriesPatternsTheOtherWayRoundWhereAskedTo) {
+    const Instant instant = paper_instant(6);
+    const SingleSensorEstimator near(instant.problem(), DistalSide::admitted);
+    const SingleSensorEstimator far(instant.problem(), DistalSide::admitted, PatternOrder::farthest_first);
+    for (int sensor = 0; sensor < instant.nodes(); ++sensor) {
+        const auto near_first = near.branches(sensor);
+        const auto far_first = far.branches(sensor);
+        ASSERT_EQ(near_first.size(), far_first.size());
+        const std::size_t verified = near_first.size() - 1;  // the fallback stays the last
+        for (std::size_t k = 0; k < verified; ++k)
+            EXPECT_EQ(near_first[k].directions, far_first[verified - 1 - k].directions);
+    }
+}
+
+// Segment 9 is the last one of the distal side; where all slide there is no side of its own.
+TEST(SingleSensorEstimator, ExcludesExactlyThePatternsWithASideThatTheDistalEndMoves) {
+    for (const int sample : {112, 142, 6, 104}) {
+        const Instant instant = paper_instant(sample);
+        const SingleSensorEstimator admitted(instant.problem(), DistalSide::admitted);
+        const SingleSensorEstimator excluded(instant.problem(), DistalSide::excluded);
+        for (int sensor = 0; sensor < instant.nodes(); ++sensor) {
+            std::vector<DirectionBits> expected;
+            for (const SensorBranch& branch : admitted.branches(sensor)) {
+                const std::uint64_t sliding = branch.directions.forward | branch.directions.backward;
+                const bool of_distal_side = sliding >> 9 != 0 && sliding != (1u << 10) - 1;
+                if (!branch.verified || !of_distal_side) expected.push_back(branch.directions);
+            }
+            const auto branches = excluded.branches(sensor);
+            ASSERT_EQ(branches.size(), expected.size());
+            for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(branches[k].directions, expected[k]);
+        }
+    }
+}
+
 struct SensorSpread {
     double mean_N = 0.0;
     double standard_error_N = 0.0;

@@ -34,6 +34,14 @@ std::vector<double> fused(const FusionMethod& method, const Estimates& estimates
     return tension_N;
 }
 
+TEST(SensorEstimates, LieOneAfterTheOther) {
+    const Estimates estimates;
+    for (int sensor = 0; sensor < nodes; ++sensor) {
+        const double* profile_N = estimates.view().padded_profile_N(sensor);
+        for (int i = 0; i < nodes; ++i) EXPECT_EQ(profile_N[i], estimates.tension_N[sensor * nodes + i]);
+    }
+}
+
 TEST(SensorVote, IsUnanimousIfAllEstimatesAreEqual) {
     const SensorVote vote = take_vote(Estimates{}.view(), std::vector{0, 1, 3});
     EXPECT_TRUE(vote.unanimous);
@@ -93,6 +101,24 @@ TEST(Fusion, FollowsItsDefinitionWhenOneDisagrees) {
     }
 }
 
+// Even a single one: what rests under the true direction carries no information.
+TEST(Fusion, WithAKnownDirectionOnlySensorsThatMoveCount) {
+    Estimates estimates;
+    FusionInput input;
+    const std::vector<int> sensors = {0, 1, 2};
+    input.sensors = sensors;
+    std::vector<double> tension_N(nodes);
+    estimates.verified = {0, 1, 0, 1};
+    input.known = estimates.view();
+    mean_known_direction.fuse(input, tension_N);
+    EXPECT_EQ(tension_N, (std::vector<double>{5, 6, 7, 8}));
+    estimates.verified = {0, 0, 0, 1};
+    input.known = estimates.view();
+    mean_known_direction.fuse(input, tension_N);
+    for (int i = 0; i < nodes; ++i)
+        EXPECT_DOUBLE_EQ(tension_N[i], (1.0 + i + 5.0 + i + 20.0 + 10.0 * i) / 3.0);
+}
+
 // The excluded weight is not shared out (the paper), so that tensions come out too small, whoever is right.
 TEST(Fusion, WMeanRIsBelowWMeanWhereASensorIsExcluded) {
     Estimates estimates;
@@ -123,6 +149,9 @@ TEST(Fusion, FallsBackToTheMeanWhereNoSensorAgrees) {
     estimates.directions[1] = backward;
     const std::vector<int> sensors = {0, 1};
     EXPECT_EQ(fused(mean_r_method, estimates, sensors, {}), fused(mean_method, estimates, sensors, {}));
+    const std::vector<double> weight = {1.0, 2.0, 0.5, 1.0};
+    EXPECT_EQ(fused(weighted_mean_r_method, estimates, sensors, weight),
+              fused(weighted_mean_method, estimates, sensors, weight));
 }
 
 }  // namespace

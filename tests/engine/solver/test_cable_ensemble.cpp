@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "capstan/cable/cable_cut.h"
 #include "capstan/cable/invalid_input.h"
@@ -106,6 +107,85 @@ TEST(CableEnsemble, EveryMemberTakesTheStepOfItsOwnCableAgainstASpring) {
 TEST(CableEnsemble, EveryMemberTakesTheStepOfItsOwnCableWhereSegmentsDifferInLength) {
     for (const int seed : {11, 12, 13}) expect_the_same_walk(seed, 0.0, Cut::at_bends);
     for (const int seed : {14, 15, 16}) expect_the_same_walk(seed, 3000.0, Cut::at_bends);
+}
+
+void expect_same_state(const CableState& member, const CableState& alone) {
+    ASSERT_EQ(member.tension_N.size(), alone.tension_N.size());
+    ASSERT_EQ(member.displacement_m.size(), alone.displacement_m.size());
+    for (std::size_t node = 0; node < alone.tension_N.size(); ++node) {
+        ASSERT_NEAR(member.tension_N[node], alone.tension_N[node], 1e-6);
+        ASSERT_NEAR(member.displacement_m[node], alone.displacement_m[node], 1e-9);
+    }
+    const MotionPattern& moved = member.last_motion;
+    const MotionPattern& expected = alone.last_motion;
+    ASSERT_EQ(moved.kind == MotionKind::slack, expected.kind == MotionKind::slack);
+    if (expected.kind == MotionKind::slack) return;
+    for (int node = 0; node < static_cast<int>(alone.tension_N.size()); ++node) {
+        const int segments = static_cast<int>(alone.tension_N.size()) - 1;
+        ASSERT_EQ(node_direction(moved, node, segments), node_direction(expected, node, segments));
+    }
+    if (expected.kind == MotionKind::rest || expected.kind == MotionKind::mass) {
+        ASSERT_EQ(moved.kind, expected.kind);
+    } else {
+        ASSERT_TRUE(moved.kind == MotionKind::partial || moved.kind == MotionKind::opposed);
+    }
+    if (expected.kind == MotionKind::opposed) {
+        ASSERT_EQ(moved.kind, MotionKind::opposed);
+    }
+}
+
+// Nothing is changed and nothing retuned: all members are the cable that they began as, one state after the
+// other.
+TEST(CableEnsemble, StepsFromTheStartAsTheCableThatItBeganAs) {
+    const Cable cable(arm(0.12, 9000.0));
+    const QuasiStaticStep alone(cable, ModelRules::consistent());
+    CableState state = pretensioned(cable);
+    CableEnsemble ensemble(cable, 8);
+    expect_same_state(ensemble.state_of(5), state);
+    const double far_m = state.displacement_m.back();
+    int searched = 0;
+    for (int step = 1; step <= 120; ++step) {
+        const double near_m = step % 9 == 0 ? 0.0 : 1.3e-3 * std::sin(0.2 * step);
+        const std::vector<double> value(8, far_m + 1e-3 * std::sin(0.13 * step));
+        const bool verified = alone
+                                  .advance(state, {EndCondition::position_m(state.displacement_m[0] + near_m),
+                                                   EndCondition::position_m(value[0])})
+                                  .verified;
+        const EnsembleReport report = ensemble.advance(near_m, {1.0, 0.0, value});
+        ASSERT_EQ(report.unverified, verified ? 0 : 8) << step;
+        ASSERT_TRUE(report.searched == 0 || report.searched == 8);
+        searched += report.searched;
+        expect_same_state(ensemble.state_of(5), state);
+    }
+    EXPECT_GT(searched, 0);
+}
+
+TEST(CableEnsemble, AMemberMadeSlackStepsAsASlackCableAndTheOthersAsBefore) {
+    const Cable cable(arm(0.12, 9000.0));
+    const QuasiStaticStep alone(cable, ModelRules::consistent());
+    CableState taut = pretensioned(cable);
+    CableEnsemble ensemble(cable, 8);
+    const std::vector<double> value(8, taut.displacement_m.back());
+    const auto step_all = [&](double near_m) { ensemble.advance(near_m, {1.0, 0.0, value}); };
+    const auto step_one = [&](CableState& state, double near_m) {
+        alone.advance(state, {EndCondition::position_m(state.displacement_m[0] + near_m),
+                              EndCondition::position_m(value[0])});
+    };
+    step_all(-1e-3);
+    step_one(taut, -1e-3);
+    CableState slack = taut;
+    slack.last_motion = {};
+    slack.last_motion.kind = MotionKind::slack;
+    ensemble.make_slack(2);
+    EXPECT_EQ(ensemble.state_of(2).last_motion.proximal_moving_nodes, 0);
+    EXPECT_EQ(ensemble.state_of(2).last_motion.proximal_direction, Direction::none);
+    for (int step = 0; step < 5; ++step) {
+        step_all(-2e-4);
+        step_one(taut, -2e-4);
+        step_one(slack, -2e-4);
+        expect_same_state(ensemble.state_of(2), slack);
+        expect_same_state(ensemble.state_of(3), taut);
+    }
 }
 
 TEST(CableEnsemble, RefusesANumberOfMembersThatFillsNoLanes) {
