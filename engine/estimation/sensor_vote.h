@@ -26,9 +26,6 @@ struct SensorEstimates {
     const double* padded_profile_N(int sensor) const {
         return tension_N.data() + static_cast<std::ptrdiff_t>(sensor) * padded_nodes(nodes);
     }
-    std::span<const double> profile_N(int sensor) const {
-        return {padded_profile_N(sensor), static_cast<std::size_t>(nodes)};
-    }
 };
 
 /// What a set of sensors decides together before it is averaged: which readings count, and where each
