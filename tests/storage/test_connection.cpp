@@ -4,6 +4,8 @@
 #include <sqlite3.h>
 
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <string>
 
 #include "capstan/storage/database.h"
@@ -42,6 +44,15 @@ TEST(Connection, ForReadingRefusesAnOlderSchema) {
                 "older schema version " + std::to_string(schema_version - 1));
 }
 
+// The file itself still says the version of before.
+TEST(Connection, ForReadingRefusesANewerSchemaThatIsInTheLogOnly) {
+    const TemporaryFolder folder;
+    Database writer = Database::open_or_create(folder / "results.db");
+    writer.execute("PRAGMA user_version = " + std::to_string(schema_version + 1), "migrate");
+    expect_says(error_of([&] { Database::open_read_only(folder / "results.db"); }),
+                "newer than version " + std::to_string(schema_version));
+}
+
 TEST(Connection, NoticesThatItsFileHasGoneElsewhere) {
     const TemporaryFolder folder;
     Database database = Database::open_or_create(folder / "results.db");
@@ -52,24 +63,55 @@ TEST(Connection, NoticesThatItsFileHasGoneElsewhere) {
     EXPECT_NO_THROW(database.require_in_place());
 }
 
-TEST(Connection, ItsLogIsFoldedOnlyWhereNobodyReadsWhatWasBefore) {
+// Its log would stay under the name of before, so it is folded into the file first.
+TEST(NewDatabase, IsOneFileWithItsContent) {
     const TemporaryFolder folder;
-    Database writer = Database::open_or_create(folder / "results.db");
-    sqlite3_busy_timeout(writer.connection(), 0);
-    {
-        Database reader = Database::open_read_only(folder / "results.db");
-        reader.execute("BEGIN; SELECT count(*) FROM study", "read");
+    write_new_database(folder / "new.db", [](Database& writer) {
+        writer.execute("CREATE TABLE further (number INTEGER); INSERT INTO further VALUES (7)", "write");
+        return true;
+    });
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+    Database reader = Database::open_read_only(folder / "new.db");
+    EXPECT_EQ(number_from(reader, "SELECT number FROM further"), 7);
+    expect_says(error_of([&] { write_new_database(folder / "new.db", [](Database&) { return true; }); }),
+                "exists already");
+}
+
+TEST(NewDatabase, IsNotMadeWhileAnotherProgramReadsWhatWasBefore) {
+    const TemporaryFolder folder;
+    std::optional<Database> reader;
+    const auto write = [&](Database& writer) {
+        sqlite3_busy_timeout(writer.connection(), 0);
+        reader.emplace(Database::open_read_only(writer.path()));
+        reader->execute("BEGIN; SELECT count(*) FROM study", "read");
         writer.execute("CREATE TABLE further (number INTEGER)", "write");
-        expect_says(error_of([&] { fold_write_ahead_log(writer); }), "another program reads it");
-    }
-    EXPECT_NO_THROW(fold_write_ahead_log(writer));
-    EXPECT_EQ(std::filesystem::file_size((folder / "results.db").string() + "-wal"), 0u);
+        return true;
+    };
+    expect_says(error_of([&] { write_new_database(folder / "new.db", write); }), "another program reads it");
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.db"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.db.unfinished"));
+}
+
+TEST(NewDatabase, IsLeftOutWhereItsWriterSaysSo) {
+    const TemporaryFolder folder;
+    write_new_database(folder / "new.db", [](Database&) { return false; });
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Connection, ThatCannotBeMadeSaysWhereToLook) {
     const TemporaryFolder folder;
     expect_says(error_of([&] { Database::open_or_create(folder / "no such folder/results.db"); }),
                 "check that its folder exists");
+}
+
+// Also SQLite's "cannot open" can mean a full disk: only where the system said so.
+TEST(Connection, TellsAMissingFolderFromAFullDisk) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    const std::string attach = "ATTACH '" + (folder / "no such folder/other.db").string() + "' AS other";
+    const std::string message = error_of([&] { database.execute(attach, "attach"); });
+    expect_says(message, "Cannot attach in " + (folder / "results.db").string());
+    expect_says(message, "the file cannot be opened");
 }
 
 // A connection that stays open would keep the log: the last one to close takes it away.

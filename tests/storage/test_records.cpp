@@ -29,6 +29,29 @@ TEST_F(Records, TheSecondStudyOfAFileComesBackAsItWasWritten) {
     EXPECT_EQ(load_study(database, second.study.study_id), second);
 }
 
+TEST_F(Records, AStudyThatBeginsIsRunningWhateverItsDescriptionSays) {
+    StudyDescription description = example_study();
+    description.study.status = "complete";
+    EXPECT_EQ(load_study(database, begin_study(database, description)).study.status, "running");
+}
+
+// As the schema says: what has an index is counted from 0 within its study.
+TEST_F(Records, IndicesCountFromZero) {
+    begin_study(database, example_study());
+    StudyDescription worlds;
+    worlds.study = {0, "worlds", "[uncertainty]", "0.1.0", 7, 40, 10, "running"};
+    worlds.world_candidates = {{"[]", "no sensor", "", 0, 0.0}};
+    begin_study(database, worlds);
+    const std::int64_t study_id = begin_study(database, example_study());
+    for (const int unit : pending_units(database, study_id)) write_unit(database, study_id, unit);
+    finish_study(database, study_id, example_recommendations(), example_paper_comparison());
+    for (const char* index :
+         {"scenario_index FROM scenario", "noise_index FROM noise_level", "method_index FROM fusion_method",
+          "set_index FROM sensor_set", "unit_index FROM work_unit", "candidate_index FROM world_candidate",
+          "block FROM cell_block", "row_index FROM paper_comparison"})
+        EXPECT_EQ(number_from(database, std::string("SELECT ") + index + " ORDER BY 1"), 0) << index;
+}
+
 TEST_F(Records, AnySeedOfSixtyFourBitsComesBack) {
     for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
         StudyDescription description = example_study();
