@@ -132,5 +132,36 @@ TEST_F(Hashes, OfADiagnosisNoticeAChangeALossAndAnAddition) {
                 "diagnosis 1 has rows in table diagnosis, but no hash");
 }
 
+TEST_F(Hashes, NameWhatIsMissingAndWhichHashItIs) {
+    begin_study(database, example_study());
+    for (const int unit : pending_units(database, 1)) write_unit(database, 1, unit);
+    finish_study(database, 1, example_recommendations(), example_paper_comparison());
+    database.execute("UPDATE content_hash SET sha256 = replace(sha256, '0', '1') WHERE part = 'study'",
+                     "damage");
+    EXPECT_EQ(check_hashes(database).problems,
+              std::vector<std::string>{
+                  "study 1 (example), hash over all hashes: table content_hash is not as it was written"});
+    database.execute(
+        "DELETE FROM content_hash WHERE part = 'unit' AND part_index = 3 AND table_name = 'cell'", "damage");
+    expect_says(check_hashes(database).problems.front(), "study 1 (example), unit 3 (stage fusion");
+    expect_says(check_hashes(database).problems.front(), ") has rows in table cell, but no hash of them");
+    database.execute("DELETE FROM paper_comparison", "damage");
+    expect_says(check_hashes(database).problems.at(1),
+                "study 1 (example), conclusions has lost its rows in table paper_comparison");
+    database.execute("UPDATE work_unit SET done = 0 WHERE unit_index = 2", "damage");
+    expect_says(check_hashes(database).problems.back(), "is gone, and its hash is still there");
+}
+
+// Ten rows go into one statement, and the rest one by one: all are hashed as they are stored.
+TEST_F(Hashes, OfRowsWrittenInPortionsAreThoseOfTheStoredRows) {
+    const ExampleSize size{.scenarios = 1, .noise_levels = 1, .sensor_sets = 2, .nodes = 13, .blocks = 23};
+    begin_study(database, example_study());
+    const std::int64_t study_id = begin_study(database, example_study(size));
+    for (const int unit : pending_units(database, study_id)) write_unit(database, study_id, unit, size);
+    const HashCheck check = check_hashes(database);
+    EXPECT_EQ(check.problems, std::vector<std::string>{});
+    EXPECT_EQ(check.hashed, 4);  // two descriptions, two units
+}
+
 }  // namespace
 }  // namespace capstan::storage

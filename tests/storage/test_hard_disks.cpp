@@ -110,5 +110,19 @@ TEST(ReadOnlyDisk, AnUnfinishedLogIsNotIgnored) {
     expect_says(error_of([&] { Database::open_read_only(disk / "copy.db"); }), "copy.db");
 }
 
+// Of a writer that was closed in order: the file alone is complete.
+TEST(ReadOnlyDisk, AnEmptyLogIsNoLog) {
+    SmallDisk disk("4m");
+    if (!disk.mounted()) GTEST_SKIP() << disk.reason();
+    {
+        Database database = Database::open_or_create(disk / "results.db");
+        begin_study(database, example_study());
+    }
+    { std::ofstream log(disk / "results.db-wal"); }
+    if (!disk.forbid_writing()) GTEST_SKIP() << "cannot make the disk read-only";
+    Database reader = Database::open_read_only(disk / "results.db");
+    EXPECT_EQ(list_studies(reader).size(), 1u);
+}
+
 }  // namespace
 }  // namespace capstan::storage

@@ -46,6 +46,47 @@ TEST(Migrating, AVersionWithoutAMigrationIsRefused) {
     expect_says(error_of([&] { migrate(database, {}, schema_version + 1); }), "knows no way");
 }
 
+TEST(Migrating, ANewerFileIsRefused) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    expect_says(error_of([&] { migrate(database, {}, schema_version - 1); }),
+                "has schema version " + std::to_string(schema_version) + ", newer than");
+}
+
+// A migration that was killed leaves part of a copy.
+TEST(Migrating, AnUnfinishedCopyIsReplaced) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    const std::string copy = "results.db.version" + std::to_string(schema_version);
+    std::ofstream(folder / (copy + ".unfinished")) << "part of a copy";
+    migrate(database, std::vector<Migration>{{schema_version, "SELECT 1"}}, schema_version + 1);
+    EXPECT_FALSE(std::filesystem::exists(folder / (copy + ".unfinished")));
+    EXPECT_TRUE(Database::open_read_only(folder / copy).is_read_only());
+}
+
+// A step may make a table anew; what refers to it stays.
+TEST(Migrating, AStepMayReplaceATableThatOthersReferTo) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    begin_study(database, example_study());
+    const std::vector<Migration> steps{
+        {schema_version,
+         "CREATE TABLE other AS SELECT * FROM study; DELETE FROM study; INSERT INTO study SELECT "
+         "* FROM other; DROP TABLE other"}};
+    migrate(database, steps, schema_version + 1);
+    EXPECT_EQ(number_from(database, "SELECT count(*) FROM work_unit"), 8);
+}
+
+TEST(Migrating, AStepThatTearsAReferenceIsTakenBack) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    begin_study(database, example_study());
+    const std::vector<Migration> steps{{schema_version, "DELETE FROM noise_level"}};
+    expect_says(error_of([&] { migrate(database, steps, schema_version + 1); }), "would refer to nothing");
+    EXPECT_EQ(number_from(database, "SELECT count(*) FROM noise_level"), 2);
+    EXPECT_EQ(number_from(database, "PRAGMA user_version"), schema_version);
+}
+
 void drop_tables_of_version_six(Database& database) {
     database.execute("DROP TABLE content_hash; DROP TABLE diagnosis_hash; DROP TABLE computed_with",
                      "go back");

@@ -159,6 +159,39 @@ TEST_F(QueryBox, ShowsTheSchemaAsTheFileHasIt) {
     }
 }
 
+// A statement of a few lines can be compiled for minutes, and a pattern be compared for hours.
+TEST_F(QueryBox, RefusesLongStatementsAndPatterns) {
+    expect_says(refusal("SELECT 1" + std::string(100'000, ' ')), "too long");
+    EXPECT_EQ(refusal("SELECT 1" + std::string(90'000, ' ')), "");
+    expect_says(refusal("SELECT 'x' LIKE hex(zeroblob(300))"), "pattern too complex");
+    EXPECT_EQ(refusal("SELECT 'x' LIKE hex(zeroblob(240))"), "");
+}
+
+TEST_F(QueryBox, SaysTheTimeLimitInShortNumbers) {
+    const std::string endless =
+        "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT max(i) FROM n";
+    expect_says(error_of([&] { run_read_only(database(), endless, {}, {.time_limit_s = 0.25}); }),
+                "longer than 0.25 s and");
+    expect_says(error_of([&] { run_read_only(database(), endless, {}, {.time_limit_s = 0}); }),
+                "longer than 0 s and");
+}
+
+// The limit of bytes counts the values' own texts: a few long ones are cut off, many short ones are not.
+TEST_F(QueryBox, CountsTheBytesOfTexts) {
+    const auto rows_of = [&](const std::string& value, int rows) {
+        return run_read_only(database(),
+                             "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < " +
+                                 std::to_string(rows) + ") SELECT " + value + " FROM n",
+                             {}, {.row_limit = 100'000});
+    };
+    const QueryResult longs = rows_of("zeroblob(900000)", 100);
+    EXPECT_TRUE(longs.truncated);
+    EXPECT_EQ(longs.rows.size(), 10u);  // the tenth passes 8 MiB
+    const QueryResult shorts = rows_of("i", 20'000);
+    EXPECT_FALSE(shorts.truncated);
+    EXPECT_EQ(shorts.rows.size(), 20'000u);
+}
+
 // Whatever names a study or belongs to one; what is in the trash is found by no query, until it is restored.
 TEST_F(QueryBox, SeesNothingOfAStudyInTheTrash) {
     const auto rows = [](Database& from, const std::string& table) {

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "capstan/storage/world_store.h"
 #include "example_study.h"
 #include "temporary_results.h"
 
@@ -50,6 +51,51 @@ TEST_F(Records, IndicesCountFromZero) {
           "set_index FROM sensor_set", "unit_index FROM work_unit", "candidate_index FROM world_candidate",
           "block FROM cell_block", "row_index FROM paper_comparison"})
         EXPECT_EQ(number_from(database, std::string("SELECT ") + index + " ORDER BY 1"), 0) << index;
+}
+
+TEST_F(Records, ListsOfNodesAreReadAsTheyAreWrittenAndNothingElseIs) {
+    for (const std::vector<int>& nodes : {std::vector<int>{}, {3}, {1, 2, 31}}) {
+        EXPECT_EQ(parse_node_list(node_list_text(nodes)), nodes);
+    }
+    EXPECT_EQ(node_list_text({1, 2, 31}), "[1,2,31]");
+    EXPECT_EQ(parse_node_list("[1, 2]"), (std::vector<int>{1, 2}));
+    expect_says(error_of([&] { parse_node_list("[1,two]"); }), "Not a list of nodes: [1,two]");
+}
+
+TEST_F(Records, AStudyOverWorldsComesBackAsItWasWritten) {
+    StudyDescription worlds;
+    worlds.study = {0, "worlds", "[uncertainty]", "0.1.0", 7, 40, 10, "running"};
+    worlds.world_candidates = {{"[]", "no sensor", "", 0, 0.5}, {"[{}]", "tension at 0.6 m", "even", 1, 2.5}};
+    worlds.study.study_id = begin_study(database, worlds);
+    EXPECT_EQ(load_study(database, worlds.study.study_id), worlds);
+    const std::vector<WorldErrorRecord> errors = {{0, "as_stated", 3, 0.1, 0.2, 0.3, 0.4, 0.95},
+                                                  {1, "as_stated", 3, 0.5, 0.6, 0.7, 0.8, 0.94}};
+    write_world_errors(database, 1, errors);
+    EXPECT_EQ(read_world_errors(database, 1), errors);
+    EXPECT_FALSE(read_world_recommendation(database, 1));
+    const WorldRecommendationRecord recommendation{"all_nodes", 1, "ensemble_filter", 0.1, 0.2, 0.09, 0.11,
+                                                   0.3,         1, "Use it."};
+    finish_world_study(database, 1, recommendation);
+    EXPECT_EQ(read_world_recommendation(database, 1), recommendation);
+    EXPECT_EQ(load_study(database, 1).study.status, "complete");
+}
+
+TEST_F(Records, ErrorsByLayoutAreThoseOfTheirView) {
+    const auto study_id = begin_study(database, example_study());
+    for (const int unit : pending_units(database, study_id)) write_unit(database, study_id, unit);
+    const auto errors = read_errors_by_layout(database, study_id, 1);
+    Database reader = Database::open_read_only(folder / "results.db");
+    const QueryResult expected = run_read_only(
+        reader,
+        "SELECT regime, family, sensor_count, method, mean_abs_error_N, standard_error_N FROM "
+        "v_error_by_layout JOIN noise_level USING (noise_level_id) WHERE noise_index = 1 ORDER BY "
+        "1, 2, 3, 4");
+    std::vector<std::vector<QueryValue>> rows;
+    for (const LayoutErrorSummary& error : errors)
+        rows.push_back({error.regime, error.family, std::int64_t{error.sensor_count}, error.method,
+                        error.mean_abs_error_N, error.standard_error_N});
+    EXPECT_FALSE(rows.empty());
+    EXPECT_EQ(rows, expected.rows);
 }
 
 TEST_F(Records, AnySeedOfSixtyFourBitsComesBack) {

@@ -86,5 +86,26 @@ TEST(ShardFile, AnInterruptedTransactionIsRolledBackNotRead) {
     EXPECT_EQ(list_studies(database).size(), 1u);
 }
 
+// A worker that comes later, or comes again, goes on with the studies of its shard and of no other.
+TEST(ShardFile, IsFoundAgainByItsNumberOnly) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "shard.db", Journal::rollback);
+    const std::vector<StudyDescription> studies{example_study(), example_study()};
+    EXPECT_EQ(begin_or_find_shard(database, {2, 5}, studies), (std::vector<std::int64_t>{1, 2}));
+    EXPECT_EQ(begin_or_find_shard(database, {2, 5}, studies), (std::vector<std::int64_t>{1, 2}));
+    EXPECT_EQ(list_studies(database).size(), 2u);
+    expect_says(error_of([&] {
+                    begin_or_find_shard(database, {3, 5}, studies);
+                }),
+                "is shard 2 of 5, not shard 3 of 5");
+    expect_says(error_of([&] {
+                    begin_or_find_shard(database, {2, 6}, studies);
+                }),
+                "is shard 2 of 5, not shard 2 of 6");
+    Database complete = Database::open_or_create(folder / "complete.db");
+    begin_study(complete, example_study());
+    expect_says(error_of([&] { begin_or_find_shard(complete, {2, 5}, studies); }), "holds complete studies");
+}
+
 }  // namespace
 }  // namespace capstan::storage

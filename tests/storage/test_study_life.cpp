@@ -229,6 +229,28 @@ TEST_F(StudyLife, AStudyIsFoundByIdByNameAndAsTheLatest) {
     expect_says(message, "1 (example, running), 2 (example, running), 3 (third, running)");
 }
 
+TEST_F(StudyLife, TheHistoryTellsWhatWasDoneInItsOrder) {
+    const auto study_id = complete_study();
+    annotate_study(database, study_id, "a note", std::nullopt);
+    annotate_study(database, study_id, std::nullopt, "some tags");
+    const StudySummary study = list_studies(database).at(0);
+    EXPECT_EQ(study.note, "a note");
+    EXPECT_EQ(study.tags, "some tags");
+    EXPECT_EQ(study.name, "example");
+    trash_study(database, study_id);
+    EXPECT_TRUE(list_studies(database).empty());
+    EXPECT_EQ(list_studies(database, Shelf::trash).at(0).study_id, study_id);
+    expect_says(error_of([&] { find_study(database, "7", Shelf::trash); }),
+                "has no deleted study '7'. It holds 1");
+    restore_study(database, study_id);
+    expect_says(error_of([&] { find_study(database, "7", Shelf::trash); }), "Its trash is empty.");
+    delete_study(database, study_id);
+    Statement events(database,
+                     "SELECT group_concat(event) FROM (SELECT event FROM history ORDER BY event_id)");
+    events.step();
+    EXPECT_EQ(events.get<std::string>(0), "begun,completed,deleted,restored,removed");
+}
+
 TEST_F(StudyLife, ATransactionThatIsNotCommittedLeavesNothing) {
     begin_study(database, example_study());
     {
