@@ -10,6 +10,7 @@
 
 #include "capstan/storage/database.h"
 #include "capstan/storage/schema.h"
+#include "capstan/storage/transaction.h"
 #include "temporary_results.h"
 
 namespace capstan::storage {
@@ -77,6 +78,14 @@ TEST(NewDatabase, IsOneFileWithItsContent) {
                 "exists already");
 }
 
+TEST(NewDatabase, ReplacesWhatAKilledProgramLeft) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "new.db.unfinished") << "part of a file";
+    write_new_database(folder / "new.db", [](Database&) { return true; });
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.db.unfinished"));
+    EXPECT_TRUE(Database::open_read_only(folder / "new.db").is_read_only());
+}
+
 TEST(NewDatabase, IsNotMadeWhileAnotherProgramReadsWhatWasBefore) {
     const TemporaryFolder folder;
     std::optional<Database> reader;
@@ -96,6 +105,15 @@ TEST(NewDatabase, IsLeftOutWhereItsWriterSaysSo) {
     const TemporaryFolder folder;
     write_new_database(folder / "new.db", [](Database&) { return false; });
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Connection, SaysThatItsFileHasGoneWhileItWasWritten) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    Transaction transaction(database);
+    database.execute("CREATE TABLE further (number INTEGER)", "write");
+    std::filesystem::rename(folder / "results.db", folder / "elsewhere.db");
+    expect_says(error_of([&] { transaction.commit(); }), "was removed or renamed");
 }
 
 TEST(Connection, ThatCannotBeMadeSaysWhereToLook) {

@@ -143,7 +143,8 @@ TEST_F(Hashes, NameWhatIsMissingAndWhichHashItIs) {
                   "study 1 (example), hash over all hashes: table content_hash is not as it was written"});
     database.execute(
         "DELETE FROM content_hash WHERE part = 'unit' AND part_index = 3 AND table_name = 'cell'", "damage");
-    expect_says(check_hashes(database).problems.front(), "study 1 (example), unit 3 (stage fusion");
+    expect_says(check_hashes(database).problems.front(),
+                "study 1 (example), unit 3 (stage fusion, instant 0, noise 'level 1')");
     expect_says(check_hashes(database).problems.front(), ") has rows in table cell, but no hash of them");
     database.execute("DELETE FROM paper_comparison", "damage");
     expect_says(check_hashes(database).problems.at(1),
@@ -161,6 +162,33 @@ TEST_F(Hashes, OfRowsWrittenInPortionsAreThoseOfTheStoredRows) {
     const HashCheck check = check_hashes(database);
     EXPECT_EQ(check.problems, std::vector<std::string>{});
     EXPECT_EQ(check.hashed, 4);  // two descriptions, two units
+}
+
+TEST_F(Hashes, AreNeededByNoUnitThatStoresNothing) {
+    StudyDescription description = example_study();
+    description.fusion_methods.clear();
+    begin_study(database, description);
+    write_fusion(database, 1, 1, {0, 0, {}, {}, {}});
+    EXPECT_EQ(check_hashes(database).problems, std::vector<std::string>{});
+}
+
+TEST_F(Hashes, OfManyProblemsNameTwenty) {
+    begin_study(
+        database,
+        example_study({.scenarios = 5, .noise_levels = 3, .sensor_sets = 1, .nodes = 2, .blocks = 1}));
+    database.execute("UPDATE work_unit SET done = 1", "call all units done");
+    database.execute(
+        "INSERT INTO content_hash SELECT 1, 'unit', unit_index, 'cell', hex(zeroblob(32)) FROM work_unit",
+        "name hashes of nothing");
+    EXPECT_EQ(check_hashes(database).problems.size(), 20u);
+    delete_study(database, 1);
+    DiagnosisRecord diagnosis;
+    diagnosis.runs = "[1]";
+    for (int k = 0; k < 25; ++k) write_diagnosis(database, diagnosis);
+    database.execute("UPDATE diagnosis SET worst_run = 7", "damage");
+    EXPECT_EQ(check_hashes(database).problems.size(), 20u);
+    database.execute("UPDATE diagnosis_hash SET table_name = 'diagnosis_gap'", "damage");
+    EXPECT_EQ(check_hashes(database).problems.size(), 20u);
 }
 
 }  // namespace

@@ -117,10 +117,13 @@ TEST_F(Examination, ReportsWhatTheHashesFind) {
 }
 
 TEST_F(Examination, ListsTheCopiesOfOlderVersionsInOrder) {
-    for (const char* name :
-         {"results.db.version4", "results.db.version2", "other.db.version3", "results.txt"})
-        std::ofstream(folder / name) << "a copy";
-    EXPECT_EQ(examined().copies, (std::vector<std::string>{"results.db.version2", "results.db.version4"}));
+    std::vector<std::string> copies;
+    for (const char version : std::string("123456789"))
+        copies.push_back(std::string("results.db.version") + version);
+    for (auto name = copies.rbegin(); name != copies.rend(); ++name)
+        std::ofstream(folder / *name) << "a copy";
+    for (const char* name : {"other.db.version3", "results.txt"}) std::ofstream(folder / name) << "no copy";
+    EXPECT_EQ(examined().copies, copies);
 }
 
 class ComputedWith : public Examination {

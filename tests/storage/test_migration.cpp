@@ -87,6 +87,16 @@ TEST(Migrating, AStepThatTearsAReferenceIsTakenBack) {
     EXPECT_EQ(number_from(database, "PRAGMA user_version"), schema_version);
 }
 
+TEST(Migrating, HappensAlsoWhereAFileWouldBeCreated) {
+    const TemporaryFolder folder;
+    {
+        Database database = Database::open_or_create(folder / "results.db");
+        database.execute("PRAGMA user_version = " + std::to_string(schema_version - 1), "go back");
+    }
+    Database database = Database::open_or_create(folder / "results.db");
+    EXPECT_EQ(number_from(database, "PRAGMA user_version"), schema_version);
+}
+
 void drop_tables_of_version_six(Database& database) {
     database.execute("DROP TABLE content_hash; DROP TABLE diagnosis_hash; DROP TABLE computed_with",
                      "go back");

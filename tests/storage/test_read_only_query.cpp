@@ -1,9 +1,11 @@
 // The query box reads everything and changes nothing.
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include <cmath>
 #include <map>
 
+#include "capstan/storage/report_queries.h"
 #include "example_study.h"
 #include "temporary_results.h"
 
@@ -190,6 +192,58 @@ TEST_F(QueryBox, CountsTheBytesOfTexts) {
     const QueryResult shorts = rows_of("i", 20'000);
     EXPECT_FALSE(shorts.truncated);
     EXPECT_EQ(shorts.rows.size(), 20'000u);
+}
+
+TEST_F(QueryBox, TakesParametersOfEveryKind) {
+    const std::vector<QueryValue> values{std::int64_t{1} << 40, 0.5, std::string("text"), std::monostate{}};
+    EXPECT_EQ(run_read_only(database(), "SELECT ?1, ?2, ?3, ?4", values).rows.at(0), values);
+}
+
+TEST_F(QueryBox, ReadsNoFurtherThanItsText) {
+    const std::string two = "SELECT 1; SELECT 2";
+    EXPECT_EQ(run_read_only(database(), std::string_view(two).substr(0, 8)).rows.size(), 1u);
+    expect_says(refusal("SELECT 1; ; SELECT 2"), "more than one statement");
+}
+
+TEST_F(QueryBox, AnAnswerWithoutRowsIsComplete) {
+    EXPECT_FALSE(run_read_only(database(), "SELECT 1 WHERE 0").truncated);
+    EXPECT_FALSE(QueryResult{}.truncated);
+}
+
+// The next reader of the connection is bound neither by the rules for guests nor by the time of one.
+TEST_F(QueryBox, LeavesTheConnectionFree) {
+    const std::string count =
+        "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 100000) SELECT count(*) FROM n";
+    EXPECT_NE(error_of([&] { run_read_only(database(), count, {}, {.time_limit_s = 0}); }), "");
+    EXPECT_EQ(number_from(database(), count), 100'000);
+    EXPECT_EQ(number_from(database(), "PRAGMA user_version"), schema_version);
+}
+
+TEST_F(QueryBox, GivesEveryRowByItself) {
+    std::vector<std::size_t> sizes;
+    visit_read_only(database(), "SELECT 1, 2 UNION ALL SELECT 3, 4",
+                    {[](const std::vector<std::string>&) {},
+                     [&](std::vector<QueryValue>& row) {
+                         sizes.push_back(row.size());
+                         return true;
+                     }});
+    EXPECT_EQ(sizes, (std::vector<std::size_t>{2, 2}));
+}
+
+TEST_F(QueryBox, RefusesAQueryThatNeedsMoreMemoryThanItMayHave) {
+    const std::string large = "SELECT hex(zeroblob(450000))";
+    EXPECT_EQ(refusal(large), "");
+    limit_query_memory(sqlite3_memory_used() + 300'000);
+    const std::string message = refusal(large);
+    limit_query_memory(0);
+    expect_says(message, "needs more memory than a query may have");
+    EXPECT_EQ(refusal(large), "");
+}
+
+TEST(PaperAgreement, SaysWhenANumberAgrees) {
+    expect_says(paper_agreement_words(),
+                "within 0.03 N (the paper's rounding and single draws) plus 2 of our");
+    expect_says(paper_agreement_words(), "at most 2 standard errors above it.");
 }
 
 // Whatever names a study or belongs to one; what is in the trash is found by no query, until it is restored.

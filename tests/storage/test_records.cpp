@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "capstan/storage/study_ids.h"
 #include "capstan/storage/world_store.h"
 #include "example_study.h"
 #include "temporary_results.h"
@@ -72,6 +73,9 @@ TEST_F(Records, AStudyOverWorldsComesBackAsItWasWritten) {
                                                   {1, "as_stated", 3, 0.5, 0.6, 0.7, 0.8, 0.94}};
     write_world_errors(database, 1, errors);
     EXPECT_EQ(read_world_errors(database, 1), errors);
+    worlds.world_candidates.push_back({"[{},{}]", "two", "", 2, 5.5});
+    add_world_candidate(database, 1, 2, worlds.world_candidates.back());
+    EXPECT_EQ(load_study(database, 1), worlds);
     EXPECT_FALSE(read_world_recommendation(database, 1));
     const WorldRecommendationRecord recommendation{"all_nodes", 1, "ensemble_filter", 0.1, 0.2, 0.09, 0.11,
                                                    0.3,         1, "Use it."};
@@ -96,6 +100,17 @@ TEST_F(Records, ErrorsByLayoutAreThoseOfTheirView) {
                         error.mean_abs_error_N, error.standard_error_N});
     EXPECT_FALSE(rows.empty());
     EXPECT_EQ(rows, expected.rows);
+}
+
+// A number of a cell or recommendation tells its study; neither may run into the next one's.
+TEST_F(Records, NumbersWithinAStudyEndBeforeThoseOfTheNext) {
+    EXPECT_EQ(numbered_within_study(3, 0), 3'000'000'000);
+    EXPECT_EQ(numbered_within_study(3, 999'999'999), numbered_within_study(4, 0) - 1);
+    expect_says(error_of([&] { numbered_within_study(3, 1'000'000'000); }), "at most a billion");
+    const std::vector<std::int64_t> ids{5, 7, 9};
+    EXPECT_EQ(id_at(ids, 2, "sensor set"), 9);
+    expect_says(error_of([&] { id_at(ids, 3, "sensor set"); }), "no sensor set 3: it has 3");
+    expect_says(error_of([&] { id_at(ids, -1, "sensor set"); }), "no sensor set -1");
 }
 
 TEST_F(Records, AnySeedOfSixtyFourBitsComesBack) {

@@ -251,6 +251,22 @@ TEST_F(StudyLife, TheHistoryTellsWhatWasDoneInItsOrder) {
     EXPECT_EQ(events.get<std::string>(0), "begun,completed,deleted,restored,removed");
 }
 
+TEST_F(StudyLife, TheHistoryNamesTheCommand) {
+    set_command("capstan study run");
+    begin_study(database, example_study());
+    set_command("");
+    begin_study(database, example_study());
+    Statement commands(database, "SELECT group_concat(command || '.') FROM history");
+    commands.step();
+    EXPECT_EQ(commands.get<std::string>(0), "capstan study run.,.");
+}
+
+TEST_F(StudyLife, NothingIsSaidAboutAStudyThatIsNotThere) {
+    expect_says(error_of([&] { annotate_study(database, 3, "a note", std::nullopt); }), "holds no study 3");
+    expect_says(error_of([&] { trash_study(database, 3); }), "holds no study 3");
+    EXPECT_EQ(number_from(database, "SELECT count(*) FROM history"), 0);
+}
+
 TEST_F(StudyLife, ATransactionThatIsNotCommittedLeavesNothing) {
     begin_study(database, example_study());
     {
