@@ -10,6 +10,7 @@
 
 #include "capstan/storage/database.h"
 #include "capstan/storage/schema.h"
+#include "capstan/storage/statement.h"
 #include "capstan/storage/transaction.h"
 #include "temporary_results.h"
 
@@ -130,6 +131,14 @@ TEST(Connection, TellsAMissingFolderFromAFullDisk) {
     const std::string message = error_of([&] { database.execute(attach, "attach"); });
     expect_says(message, "Cannot attach in " + (folder / "results.db").string());
     expect_says(message, "the file cannot be opened");
+}
+
+TEST(Connection, SaysWhichStatementsItCannotRead) {
+    const TemporaryFolder folder;
+    Database database = Database::open_or_create(folder / "results.db");
+    const std::string message = error_of([&] { Statement(database, "SELEKT 1"); });
+    expect_says(message, "Cannot prepare a statement in " + (folder / "results.db").string());
+    expect_says(message, "syntax error");
 }
 
 // A connection that stays open would keep the log: the last one to close takes it away.

@@ -82,7 +82,8 @@ TEST(Migrating, AStepThatTearsAReferenceIsTakenBack) {
     Database database = Database::open_or_create(folder / "results.db");
     begin_study(database, example_study());
     const std::vector<Migration> steps{{schema_version, "DELETE FROM noise_level"}};
-    expect_says(error_of([&] { migrate(database, steps, schema_version + 1); }), "would refer to nothing");
+    expect_says(error_of([&] { migrate(database, steps, schema_version + 1); }),
+                "a row of table work_unit would refer to nothing");
     EXPECT_EQ(number_from(database, "SELECT count(*) FROM noise_level"), 2);
     EXPECT_EQ(number_from(database, "PRAGMA user_version"), schema_version);
 }

@@ -91,6 +91,32 @@ TEST(RecursiveReport, WithDragASlackCableIsCountedOnceAndComesBackTaut) {
     EXPECT_LT(all_slack, 60);
 }
 
+// A slack cable slides at no speed that could be told; what drags on it when it is taut again does not depend
+// on that.
+TEST(RecursiveReport, TheDragIsBackAfterACableWasSlack) {
+    const CableState start = pretensioned(consistent_model().cable());
+    RecursiveSettings settings;
+    settings.members = 8;
+    settings.interval_s = 0.01;
+    settings.rate_friction.viscous.drag_N_s_per_m2 = 3.0;
+    RecursiveEstimator dragged(consistent_model(), start, settings);
+    settings.rate_friction.viscous.drag_N_s_per_m2 = 1e-6;
+    RecursiveEstimator free(consistent_model(), start, settings);
+    int all_slack = 0;
+    double largest_N = 0.0;  // what the drag adds anywhere in the second cycle
+    for (int step = 1; step <= 80; ++step) {
+        KnownEnds ends = ends_of(start);
+        ends.proximal_displacement_m += 0.02 * std::sin(2.0 * std::numbers::pi * step / 40.0);
+        const RecursiveReport report = dragged.step(ends, {});
+        if (free.step(ends, {}).slack + report.slack == 16) ++all_slack;
+        if (step <= 40 || report.slack > 0) continue;
+        for (std::size_t node = 0; node < dragged.mean_N().size(); ++node)
+            largest_N = std::max(largest_N, std::abs(dragged.mean_N()[node] - free.mean_N()[node]));
+    }
+    EXPECT_GT(all_slack, 3);
+    EXPECT_GT(largest_N, 0.1);
+}
+
 TEST(RecursiveReport, OneNumberThatIsNotFiniteIsEnoughToRefuseAStep) {
     const CableState start = pretensioned(consistent_model().cable());
     RecursiveEstimator estimator(consistent_model(), start, {});
