@@ -188,8 +188,36 @@ TEST(CableEnsemble, AMemberMadeSlackStepsAsASlackCableAndTheOthersAsBefore) {
     }
 }
 
+// Every segment bends, so that the friction of each one counts; without friction no ratio may be 0 by 0.
+TEST(CableEnsemble, StepsWithAndWithoutFrictionWhereEverySegmentBends) {
+    for (const double friction : {0.0, 0.1}) {
+        CableSpecification bent = arm(friction, 9000.0);
+        bent.curvature = {{0.6, 0.2}, {0.6, 0.15}};
+        const Cable cable(bent);
+        const QuasiStaticStep alone(cable, ModelRules::consistent());
+        CableState state = pretensioned(cable);
+        CableEnsemble ensemble(cable, 8);
+        ASSERT_EQ(ensemble.segments(), cable.segments());
+        const double far_m = state.displacement_m.back();
+        for (int step = 1; step <= 60; ++step) {
+            const double near_m = 1.3e-3 * std::sin(0.2 * step);
+            const std::vector<double> value(8, far_m + 1e-3 * std::sin(0.13 * step));
+            alone.advance(state, {EndCondition::position_m(state.displacement_m[0] + near_m),
+                                  EndCondition::position_m(value[0])});
+            ensemble.advance(near_m, {1.0, 0.0, value});
+            expect_same_state(ensemble.state_of(5), state);
+        }
+    }
+}
+
 TEST(CableEnsemble, RefusesANumberOfMembersThatFillsNoLanes) {
     EXPECT_THROW(CableEnsemble(Cable(arm(0.1, 9000.0)), 12), InvalidInput);
+}
+
+TEST(CableEnsemble, RefusesInputsWhoseTensionsAreBeyondAllNumbers) {
+    CableEnsemble ensemble(Cable(arm(0.1, 9000.0)), 8);
+    const std::vector<double> value(8, 1e200);
+    EXPECT_THROW(ensemble.advance(0.0, {1.0, 0.0, value}), InvalidInput);
 }
 
 TEST(CableEnsemble, AnInputThatIsNotFiniteChangesNothing) {
