@@ -98,9 +98,11 @@ class StudyCheck {
     std::string words_of(const Part& part) {
         const auto& [name, index] = part;
         if (name == "unit") return name_ + ", unit " + std::to_string(index) + unit_words(index);
-        if (name.starts_with("worlds "))
-            return name_ + ", " + name + ", numbers " + std::to_string(index * worlds_per_block) + " to " +
-                   std::to_string((index + 1) * worlds_per_block - 1);
+        if (name.starts_with("worlds ")) {
+            const std::int64_t first = std::int64_t{index} * worlds_per_block;  // a damaged index is large
+            return name_ + ", " + name + ", numbers " + std::to_string(first) + " to " +
+                   std::to_string(first + worlds_per_block - 1);
+        }
         if (name == "study") return name_ + ", hash over all hashes";
         return name_ + ", " + name;
     }

@@ -180,16 +180,6 @@ std::string where_sentence(const DiagnosisRecord& diagnosis) {
                               channel_words(diagnosis.worst_channel), diagnosis.worst_run);
 }
 
-// Where numbers of the bench are named, "none" is stated beside them.
-std::string none_sentence(const DiagnosisRecord& diagnosis) {
-    if (diagnosis.effects.front().effect == "none") return "";
-    for (const auto& each : diagnosis.effects) {
-        if (each.effect == "none" && each.present_fraction >= shown_probability)
-            return " \"none\" says that nothing acts beside the bench's own numbers.";
-    }
-    return "";
-}
-
 reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const Data& values) {
     return {
         .id = "verdict",
@@ -197,8 +187,7 @@ reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const D
         .prose =
             "Every known cause is fitted, with the bench's numbers free within their uncertainty. Causes are judged "
             "by what they leave of the gap and by how many numbers they need. Causes that act together share "
-            "their probability; \"present at all\" is the probability that a cause is there, whatever else is." +
-            none_sentence(diagnosis),
+            "their probability; \"present at all\" is the probability that a cause is there, whatever else is.",
         .tables = {{"probability",
                     "Probability of each cause",
                     {cause_column("effect"),

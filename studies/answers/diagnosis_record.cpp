@@ -146,8 +146,13 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     }
     std::vector<std::string> causes;
     for (const gap::FittedCause& cause : diagnosis.causes) causes.push_back(words_of(cause));
+    const double nothing_beside = present_probability(diagnosis, "none");
     std::string text =
-        causes.size() == 1
+        nothing_beside > likely
+            ? fmt::format(
+                  "The bench's own numbers explain the gap: {}. Nothing acts beside them (probability {:.2f}).",
+                  fmt::join(causes, ", "), nothing_beside)
+        : causes.size() == 1
             ? fmt::format("The cause is {} (probability {:.2f}).", causes.front(), first.present)
             : fmt::format("{} causes act together: {} and {}.", causes.size(),
                           fmt::join(causes.begin(), causes.end() - 1, ", "), causes.back());

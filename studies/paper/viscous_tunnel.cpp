@@ -137,7 +137,8 @@ Recording recorded_bench(const CableSetting& setting, const ViscousComparison& c
     constexpr double motor_step_rad = 7.85e-4;
     const PullPull pair = paper_bench(setting, comparison.pretension_N, 1);
     const Cable& cable = pair.cable_a();
-    Recording recording{.name = "exp2"};
+    Recording recording;
+    recording.name = "exp2";
     recording.sample_rate_Hz = 1.0 / (comparison.samples[1].time_s - comparison.samples[0].time_s);
     recording.channels = {{"motor_torque", "N m", {}, {}},
                           {"motor_angle", "rad", {}, motor_step_rad},
@@ -149,11 +150,12 @@ Recording recorded_bench(const CableSetting& setting, const ViscousComparison& c
                                      .axial_stiffness_N = cable.axial_stiffness_N(),
                                      .dynamic_friction = cable.dynamic_friction(),
                                      .static_friction = cable.static_friction()};
-    RecordedRun run{.number = 1,
-                    .protocol = "exp2",
-                    .pretension_N = comparison.pretension_N,
-                    .output = OutputKind::handle,
-                    .driven = {"motor_torque", "load_angle"}};
+    RecordedRun run;
+    run.number = 1;
+    run.protocol = "exp2";
+    run.pretension_N = comparison.pretension_N;
+    run.output = OutputKind::handle;
+    run.driven = {"motor_torque", "load_angle"};
     run.values.resize(recording.channels.size());
     // What the instruments resolve.
     const auto to_fraction = [](double value, double of_unit) {
