@@ -293,9 +293,13 @@ TEST(CableEnsemble, RefusesANumberOfMembersThatFillsNoLanes) {
 }
 
 TEST(CableEnsemble, RefusesInputsWhoseTensionsAreBeyondAllNumbers) {
-    CableEnsemble ensemble(Cable(arm(0.1, 9000.0)), 8);
-    const std::vector<double> value(8, 1e200);
-    EXPECT_THROW(ensemble.advance(0.0, {1.0, 0.0, value}), InvalidInput);
+    for (const double near_m : {0.0, -1e180, -1e200}) {
+        for (const double far_m : {1e180, 1e200}) {
+            CableEnsemble ensemble(Cable(arm(0.1, 9000.0)), 8);
+            const std::vector<double> value(8, far_m);
+            EXPECT_THROW(ensemble.advance(near_m, {1.0, 0.0, value}), InvalidInput);
+        }
+    }
 }
 
 TEST(CableEnsemble, AnInputThatIsNotFiniteChangesNothing) {

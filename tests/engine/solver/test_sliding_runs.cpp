@@ -141,6 +141,7 @@ TEST_P(SlidingRuns, AreWrittenUnderThePapersRulesIfTheirMeansVerify) {
 
 TEST_P(SlidingRuns, VerifyAndWriteNothingIfTheyAreEmpty) {
     EXPECT_TRUE(SlidingRun{}.empty());
+    EXPECT_EQ(SlidingRun{}.end - SlidingRun{}.first, 0);
     for (const ModelRules& rules : {ModelRules::consistent(), ModelRules::paper()}) {
         EXPECT_TRUE(moves(SlidingRun{}, {tables, rules, state}));
     }
