@@ -93,6 +93,23 @@ TEST(PullPull, WithoutFrictionTheLoadFeelsTheIdealTorque) {
     }
 }
 
+// Torques are then straight lines of the angle, whose slopes a search can tell from the stiffest end and
+// spring.
+TEST(PullPull, WithoutFrictionFourTrialsMeetATorque) {
+    const PullPull pair = frictionless_pair();
+    const auto expect_few = [&](const PullPullInputs& inputs, AngleSearch PullPullReport::*searched) {
+        PullPullState state = pair.at_rest();
+        const PullPullReport report = pair.advance(state, inputs);
+        EXPECT_TRUE(report.solved());
+        EXPECT_GT((report.*searched).iterations, 1);
+        EXPECT_LE((report.*searched).iterations, 4);
+    };
+    expect_few({MotorTorque{0.1}, locked}, &PullPullReport::motor);
+    expect_few({MotorAngle{0.0}, LoadTorque{0.1}}, &PullPullReport::load);
+    for (const double stiffness_Nm_per_rad : {1.0, 100.0, 1e5})
+        expect_few({MotorAngle{0.0}, LoadSpring{stiffness_Nm_per_rad, 1e-3}}, &PullPullReport::load);
+}
+
 TEST(PullPull, MeetsALoadTorque) {
     const PullPull pair = gentle_pair(5.0);
     PullPullState state = pair.at_rest();

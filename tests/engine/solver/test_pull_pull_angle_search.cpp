@@ -52,6 +52,25 @@ TEST(AngleSearch, FindsTheRootOfAStraightLineInFourTrialsWithoutGoingFarBeyondIt
     }
 }
 
+// A torque that is steep near the start and gentle beyond: two trials beyond the kink give the slope to the
+// root.
+TEST(AngleSearch, FindsTheRootBehindAKinkInFiveTrials) {
+    const AngleSearch search = search_angle(
+        {0.0, 20.0}, [](double angle_rad) { return std::min(20.0 * angle_rad - 2.0, angle_rad - 1.05); });
+    EXPECT_TRUE(search.converged);
+    EXPECT_NEAR(search.angle_rad, 1.05, 1e-9);
+    EXPECT_LE(search.iterations, 5);
+}
+
+TEST(AngleSearch, IsDoneAtTheErrorAtWhichItMayStop) {
+    for (const double error_Nm : {torque_tolerance_Nm, -torque_tolerance_Nm}) {
+        const AngleSearch search = search_angle({0.5, 10.0}, [&](double) { return error_Nm; });
+        EXPECT_TRUE(search.converged);
+        EXPECT_EQ(search.iterations, 1);
+        EXPECT_EQ(search.angle_rad, 0.5);
+    }
+}
+
 // The search is asked for a smaller residual than the tolerance, and both sides of the jump are between them.
 TEST(AngleSearch, DoesNotReportAJumpWithinTheTolerance) {
     const auto jumps = [](double angle_rad) { return (angle_rad < 0.3 ? -0.2 : 0.5) * torque_tolerance_Nm; };
