@@ -1,6 +1,7 @@
 #include "random_walk.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace capstan::test {
 
@@ -43,6 +44,25 @@ CableState random_state(const QuasiStaticStep& step, unsigned seed) {
         if (moderately_stretched(next)) state = next;
     }
     return state;
+}
+
+void unsettle(CableState& state, const PrefixTables& tables, std::mt19937_64& random) {
+    const double spread = std::pow(10.0, std::uniform_real_distribution<double>(-3.0, -0.2)(random));
+    std::uniform_real_distribution<double> change(-spread, spread);
+    for (double& tension_N : state.tension_N) tension_N *= std::exp(change(random));
+    for (std::size_t node = 1; node < state.tension_N.size(); ++node)
+        state.displacement_m[node] =
+            state.displacement_m[node - 1] +
+            tables.half_compliance_m_per_N[node - 1] * (state.tension_N[node - 1] + state.tension_N[node]);
+}
+
+double random_size(double lowest_exponent, double highest_exponent, std::mt19937_64& random) {
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const double exponent =
+        lowest_exponent + 0.5 * (1.0 + uniform(random)) * (highest_exponent - lowest_exponent);
+    const double size = std::pow(10.0, exponent);
+    const double chance = uniform(random);
+    return chance < -0.8 ? 0.0 : chance < 0.1 ? -size : size;
 }
 
 }  // namespace capstan::test

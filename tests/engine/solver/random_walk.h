@@ -9,8 +9,8 @@
 namespace capstan::test {
 
 /// Both ends wander at random, each step from where the cable is: positions by up to `step_m`, tensions by up
-/// to the force that would stretch the complete cable as much, springs by moving their walls and by what is in
-/// them. Each end keeps its way for some steps, so that fronts run far into the cable before they turn.
+/// to the force that would stretch the complete cable as much, springs by moving their walls and by what is
+/// in them. Each end keeps its way for some steps, so that fronts run far into the cable before they turn.
 class RandomWalk {
   public:
     RandomWalk(const Cable& cable, const InputPair& pair, double step_m, unsigned seed)
@@ -45,5 +45,12 @@ bool moderately_stretched(const CableState& state);
 
 /// Some state of the cable with a history: both ends thrown about by millimetres from rest.
 CableState random_state(const QuasiStaticStep& step, unsigned seed);
+
+/// Changes the tension of each node by a random factor and stretches the cable accordingly (E2): a state that
+/// friction does not hold, as where friction has fallen or a measurement has corrected a tension.
+void unsettle(CableState& state, const PrefixTables& tables, std::mt19937_64& random);
+
+/// A number of random sign between two powers of ten; in one of ten cases 0.
+double random_size(double lowest_exponent, double highest_exponent, std::mt19937_64& random);
 
 }  // namespace capstan::test

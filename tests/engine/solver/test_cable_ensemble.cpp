@@ -234,14 +234,72 @@ TEST(CableEnsemble, SolvesNearlyEveryStepByItsFirstPattern) {
     }
 }
 
+// Prescribed ends are exact to the last bit, and a change of an input within rounding moves nothing.
+TEST(CableEnsemble, PutsEndsWhereTheyArePrescribed) {
+    CableEnsemble ensemble(Cable(arm(0.12, 9000.0)), 8);
+    const int last = ensemble.segments();
+    ensemble.advance(-6e-3, {1.0, 0.0, std::vector<double>(8, ensemble.displacement_m(last)[3])});
+    for (int step = 1; step <= 60; ++step) {
+        const double near_m = ensemble.displacement_m(0)[3];
+        const double far_m = ensemble.displacement_m(last)[3];
+        const std::vector<double> value(8, far_m + (step % 3 == 0 ? 0.0 : 3e-4 * std::sin(0.7 * step)));
+        const double increment_m = step % 4 == 0 ? 0.0 : 3e-4 * std::cos(0.2 * step);
+        // E6 with a factor of 2 on both sides.
+        std::vector<double> doubled;
+        for (const double each : value) doubled.push_back(2.0 * each);
+        ensemble.advance(increment_m, {2.0, 0.0, doubled});
+        ASSERT_FALSE(ensemble.is_slack(3));
+        EXPECT_EQ(ensemble.displacement_m(0)[3], near_m + increment_m) << step;
+        EXPECT_EQ(ensemble.displacement_m(last)[3], value[3]) << step;
+
+        const CableState before = ensemble.state_of(3);
+        const double tiny_m = 1e-15 * before.displacement_m.front();
+        ASSERT_NE(before.displacement_m.front() + tiny_m, before.displacement_m.front());
+        const std::vector<double> nudged_m(8, before.displacement_m.back() * (1.0 + 1e-15));
+        const std::vector<double> nudged_N(8, before.tension_N.back() * (1.0 + 1e-15));
+        for (const CableEnsemble::DistalEnd& distal :
+             {CableEnsemble::DistalEnd{1.0, 0.0, nudged_m}, {0.0, 1.0, nudged_N}}) {
+            ensemble.advance(tiny_m, distal);
+            EXPECT_EQ(ensemble.state_of(3).displacement_m, before.displacement_m) << step;
+            EXPECT_EQ(ensemble.state_of(3).tension_N, before.tension_N) << step;
+        }
+    }
+}
+
+// The ratio of the two friction coefficients of a cable without friction would be 0 / 0.
+TEST(CableEnsemble, MembersMayHaveFrictionThatTheFirstCableHadNot) {
+    CableSpecification rough = arm(0.1, 9000.0);
+    rough.static_friction = rough.dynamic_friction;
+    const Cable cable(rough);
+    const QuasiStaticStep alone(cable, ModelRules::consistent());
+    CableState state = pretensioned(cable);
+    CableEnsemble ensemble(Cable(arm(0.0, 9000.0)), 8);
+    for (int s = 0; s < cable.segments(); ++s)
+        for (double& each : ensemble.sliding_exponent(s))
+            each = cable.dynamic_friction() * cable.wrap_angle_rad()[s];
+    ensemble.retune();
+    const std::vector<double> value(8, state.displacement_m.back());
+    for (int step = 1; step <= 60; ++step) {
+        const double near_m = -1e-3 * std::cos(0.2 * step);
+        alone.advance(state, {EndCondition::position_m(state.displacement_m[0] + near_m),
+                              EndCondition::position_m(value[0])});
+        ensemble.advance(near_m, {1.0, 0.0, value});
+        expect_same_state(ensemble.state_of(5), state);
+    }
+}
+
 TEST(CableEnsemble, RefusesANumberOfMembersThatFillsNoLanes) {
     EXPECT_THROW(CableEnsemble(Cable(arm(0.1, 9000.0)), 12), InvalidInput);
 }
 
 TEST(CableEnsemble, RefusesInputsWhoseTensionsAreBeyondAllNumbers) {
-    CableEnsemble ensemble(Cable(arm(0.1, 9000.0)), 8);
-    const std::vector<double> value(8, 1e200);
-    EXPECT_THROW(ensemble.advance(0.0, {1.0, 0.0, value}), InvalidInput);
+    for (const double near_m : {0.0, -1e180, -1e200}) {
+        for (const double far_m : {1e180, 1e200}) {
+            CableEnsemble ensemble(Cable(arm(0.1, 9000.0)), 8);
+            const std::vector<double> value(8, far_m);
+            EXPECT_THROW(ensemble.advance(near_m, {1.0, 0.0, value}), InvalidInput);
+        }
+    }
 }
 
 TEST(CableEnsemble, AnInputThatIsNotFiniteChangesNothing) {

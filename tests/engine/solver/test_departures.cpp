@@ -5,6 +5,7 @@
 
 #include "capstan/solver/candidate.h"
 #include "example_cables.h"
+#include "mirror.h"
 #include "trajectories.h"
 
 namespace capstan {
@@ -65,12 +66,17 @@ TEST(ElongationRules, WhereTheirGapLeavesNoAnswerTheCableStillDoesNotPush) {
     CableSpecification specification = test::paper_specification(2);
     specification.dynamic_friction = specification.static_friction;
     const QuasiStaticStep step(Cable(specification), ModelRules::paper());
+    const EndConditions pushed{EndCondition::position_m(0.005), EndCondition::position_m(0.02)};
+    const EndConditions turned{EndCondition::position_m(0.0049), EndCondition::position_m(0.0199)};
     CableState state = pretensioned(step.cable());
-    step.advance(state, {EndCondition::position_m(0.005), EndCondition::position_m(0.02)});
-    const StepReport report =
-        step.advance(state, {EndCondition::position_m(0.0049), EndCondition::position_m(0.0199)});
-    EXPECT_FALSE(report.verified);
+    step.advance(state, pushed);
+    EXPECT_FALSE(step.advance(state, turned).verified);
     for (const double tension_N : state.tension_N) EXPECT_GE(tension_N, 0.0);
+
+    CableState image = test::mirrored(pretensioned(step.cable()));
+    step.advance(image, test::mirrored(pushed));
+    EXPECT_FALSE(step.advance(image, test::mirrored(turned)).verified);
+    for (const double tension_N : image.tension_N) EXPECT_GE(tension_N, 0.0);
 }
 
 TEST(ZeroVelocityPoint, LiesInsideASegmentWhereNoNodeRests) {

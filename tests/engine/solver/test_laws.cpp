@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/solver/sides.h"
 #include "example_cables.h"
 #include "trajectories.h"
 
@@ -115,6 +116,22 @@ TEST(PartialMotion, ReachesTheFarEndWhereMassMotionBegins) {
     for (int node = 0; node < cable.nodes(); ++node) {
         EXPECT_NEAR(before.tension_N[node], after.tension_N[node], 1e-9) << "node " << node;
         EXPECT_NEAR(before.displacement_m[node], after.displacement_m[node], 1e-13) << "node " << node;
+    }
+}
+
+// E3 and E4: what friction holds moves no neighbour, wherever a search begins.
+TEST(PartialMotion, BeginsWithTheEndNodeAlone) {
+    const Cable cable = test::paper_cable(10);
+    const PrefixTables tables(cable, ModelRules::consistent());
+    const CableState state = pretensioned(cable);
+    const ModelRules rules = ModelRules::consistent();
+    const StepView view{tables, rules, state};
+    const EndConditions ends{EndCondition::position_m(state.displacement_m.front() - 1e-6),
+                             EndCondition::position_m(state.displacement_m.back() + 1e-6)};
+    for (const FrontStart start : {FrontStart::remembered, FrontStart::end_of_cable}) {
+        const Sides sides = find_sides(view, ends, start);
+        EXPECT_EQ(sides.proximal.moving_nodes, 1);
+        EXPECT_EQ(sides.distal.moving_nodes, 1);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "capstan/cable/invalid_input.h"
@@ -54,27 +55,83 @@ TEST(PrescribedEnd, OfATensionHasThatTension) {
     EXPECT_GT(moved, 100);
 }
 
-TEST(PrescribedEnd, ThatSaysNothingIsRefused) {
+// A factor on both sides of E6 changes nothing. A power of two as the factor is exact.
+TEST(PrescribedEnd, ScalingItsEquationChangesNothing) {
     const QuasiStaticStep step(test::paper_cable(10), ModelRules::consistent());
-    const EndCondition fixed = EndCondition::position_m(0.0);
-    for (const EndConditions& ends :
-         {EndConditions{fixed, {0.0, 0.0, 1.0}}, EndConditions{{0.0, 0.0, 1.0}, fixed},
-          EndConditions{EndCondition::tension_N(1.0), EndCondition::tension_N(1.0)}}) {
+    const auto times = [](double factor, const EndCondition& end) {
+        return EndCondition{factor * end.displacement_factor, factor * end.tension_factor,
+                            factor * end.value};
+    };
+    for (const test::InputPair& pair : test::every_input_pair()) {
+        test::RandomWalk walk(step.cable(), pair, 5e-4, 7);
         CableState state = pretensioned(step.cable());
-        const CableState before = state;
-        EXPECT_THROW(step.advance(state, ends), InvalidInput);
-        EXPECT_EQ(state.tension_N, before.tension_N);
+        CableState other = state;
+        for (int k = 0; k < 200; ++k) {
+            const EndConditions ends = walk.next(state);
+            step.advance(state, ends);
+            step.advance(other, {times(4.0, ends.proximal), times(0.5, ends.distal)});
+            ASSERT_EQ(other.tension_N, state.tension_N) << k;
+            ASSERT_EQ(other.displacement_m, state.displacement_m) << k;
+        }
     }
 }
 
-TEST(PrescribedEnd, BeyondAllNumbersIsRefused) {
+// A change of an input below the rounding error of the terms of E6 drives nothing.
+TEST(PrescribedEnd, AChangeWithinRoundingMovesNothing) {
     const QuasiStaticStep step(test::paper_cable(10), ModelRules::consistent());
-    for (const double huge : {1e151, -1e151, 1e300}) {
+    CableState state = pretensioned(step.cable());
+    step.advance(state, {EndCondition::position_m(-8e-3), EndCondition::position_m(3e-3)});
+    const CableState before = state;
+    for (const double change : {-1e-15, 1e-15}) {
+        const EndCondition near = EndCondition::position_m(before.displacement_m.front() * (1.0 + change));
+        const EndCondition far = EndCondition::position_m(before.displacement_m.back() * (1.0 + change));
+        const EndCondition far_N = EndCondition::tension_N(before.tension_N.back() * (1.0 + change));
+        ASSERT_NE(near.value, before.displacement_m.front());
+        for (const EndCondition& distal : {far, far_N}) {
+            EXPECT_EQ(step.advance(state, {near, distal}).pattern.kind, MotionKind::rest);
+            EXPECT_EQ(state.displacement_m, before.displacement_m);
+            EXPECT_EQ(state.tension_N, before.tension_N);
+        }
+    }
+}
+
+// A refusal names the end and the reason, and the state is unchanged.
+class RefusedEnds : public testing::Test {
+  protected:
+    void expect_refused(const EndConditions& ends, const std::string& because) const {
         CableState state = pretensioned(step.cable());
-        EXPECT_THROW(step.advance(state, {EndCondition::position_m(0.0), EndCondition::position_m(huge)}),
-                     InvalidInput);
-        EXPECT_THROW(step.advance(state, {EndCondition::position_m(huge), EndCondition::position_m(0.0)}),
-                     InvalidInput);
+        const CableState before = state;
+        try {
+            step.advance(state, ends);
+            FAIL() << "not refused: " << because;
+        } catch (const InvalidInput& refused) {
+            EXPECT_NE(std::string(refused.what()).find(because), std::string::npos) << refused.what();
+        }
+        EXPECT_EQ(state.tension_N, before.tension_N);
+        EXPECT_EQ(state.displacement_m, before.displacement_m);
+    }
+
+    const QuasiStaticStep step{test::paper_cable(10), ModelRules::consistent()};
+    const EndCondition fixed = EndCondition::position_m(0.0);
+};
+
+TEST_F(RefusedEnds, SayNothing) {
+    const EndCondition nothing{0.0, 0.0, 1.0};
+    expect_refused({fixed, nothing}, "the distal end's input says nothing");
+    expect_refused({nothing, fixed}, "the proximal end's input says nothing");
+    expect_refused({EndCondition::tension_N(1.0), EndCondition::tension_N(1.0)},
+                   "a tension is prescribed at both ends");
+}
+
+TEST_F(RefusedEnds, AreBeyondAllNumbers) {
+    for (const double huge : {1e151, -1e151, 1e300, -1e300}) {
+        const double factor = std::abs(huge);
+        expect_refused({fixed, EndCondition::position_m(huge)}, "the distal end's input is not a finite");
+        expect_refused({EndCondition::position_m(huge), fixed}, "the proximal end's input is not a finite");
+        expect_refused({fixed, {0.0, huge, 1.0}}, "the distal end's input is not a finite");
+        expect_refused({{0.0, huge, 1.0}, fixed}, "the proximal end's input is not a finite");
+        expect_refused({fixed, {factor, 1.0, 1.0}}, "the distal end's input is not a finite");
+        expect_refused({{-factor, 1.0, 1.0}, fixed}, "the proximal end's input is not a finite");
     }
 }
 

@@ -84,6 +84,72 @@ TEST(PullPull, WithoutFrictionASpringAndTheCablesAreSpringsInARow) {
     }
 }
 
+TEST(PullPull, WithoutFrictionTheLoadFeelsTheIdealTorque) {
+    const PullPull pair = frictionless_pair();
+    PullPullState state = pair.at_rest();
+    for (int n = 1; n <= 100; ++n) {
+        pair.advance(state, {MotorAngle{0.2 * swing(n)}, LoadAngle{0.03 * swing(3 * n)}});
+        EXPECT_NEAR(pair.load_torque_Nm(state), pair.ideal_load_torque_Nm(pair.motor_torque_Nm(state)), 1e-9);
+    }
+}
+
+// Torques are then straight lines of the angle, whose slopes a search can tell from the stiffest end and
+// spring.
+TEST(PullPull, WithoutFrictionFourTrialsMeetATorque) {
+    const PullPull pair = frictionless_pair();
+    const auto expect_few = [&](const PullPullInputs& inputs, AngleSearch PullPullReport::*searched) {
+        PullPullState state = pair.at_rest();
+        const PullPullReport report = pair.advance(state, inputs);
+        EXPECT_TRUE(report.solved());
+        EXPECT_GT((report.*searched).iterations, 1);
+        EXPECT_LE((report.*searched).iterations, 4);
+    };
+    expect_few({MotorTorque{0.1}, locked}, &PullPullReport::motor);
+    expect_few({MotorAngle{0.0}, LoadTorque{0.1}}, &PullPullReport::load);
+    for (const double stiffness_Nm_per_rad : {1.0, 100.0, 1e5})
+        expect_few({MotorAngle{0.0}, LoadSpring{stiffness_Nm_per_rad, 1e-3}}, &PullPullReport::load);
+}
+
+TEST(PullPull, MeetsALoadTorque) {
+    const PullPull pair = gentle_pair(5.0);
+    PullPullState state = pair.at_rest();
+    for (int n = 1; n <= 100; ++n) {
+        const double torque_Nm = 0.2 * swing(5 * n);
+        const PullPullReport report =
+            pair.advance(state, {MotorAngle{0.5 * swing(n)}, LoadTorque{torque_Nm}});
+        EXPECT_TRUE(report.solved()) << n;
+        EXPECT_NEAR(pair.load_torque_Nm(state), torque_Nm, torque_tolerance_Nm) << n;
+    }
+}
+
+// A prescribed angle needs no search.
+TEST(PullPull, PrescribedAnglesNeedNoTrial) {
+    const PullPull pair = gentle_pair(5.0);
+    PullPullState state = pair.at_rest();
+    const PullPullReport report = pair.advance(state, {MotorAngle{0.1}, LoadAngle{0.01}});
+    EXPECT_TRUE(report.solved());
+    for (const AngleSearch& search : {report.motor, report.load}) {
+        EXPECT_EQ(search.iterations, 0);
+        EXPECT_FALSE(search.at_jump);
+    }
+}
+
+TEST(PullPull, IsSolvedOnlyIfBothCablesAndBothAnglesAre) {
+    EXPECT_TRUE(PullPullReport{}.solved());
+    for (int missing = 0; missing < 4; ++missing) {
+        PullPullReport report;
+        report.cable_a.verified = missing != 0;
+        report.cable_b.verified = missing != 1;
+        report.motor.converged = missing != 2;
+        report.load.converged = missing != 3;
+        EXPECT_FALSE(report.solved()) << missing;
+        for (StepReport* cable : {&report.cable_a, &report.cable_b}) cable->verified = false;
+        EXPECT_FALSE(report.solved()) << missing;
+        for (AngleSearch* search : {&report.motor, &report.load}) search->converged = false;
+        EXPECT_FALSE(report.solved()) << missing;
+    }
+}
+
 TEST(PullPull, MotorTorqueAgainstASpringHoldsBothBalances) {
     const PullPull pair = gentle_pair(5.0);
     PullPullState state = pair.at_rest();
@@ -268,19 +334,32 @@ TEST(PullPull, RefusesTorqueWithTorqueByName) {
     }
 }
 
-TEST(PullPull, RejectsInputsThatAreNotFiniteAndKeepsTheState) {
+TEST(PullPull, RejectsInputsThatAreNotFiniteByNameAndKeepsTheState) {
     const PullPull pair = gentle_pair(5.0);
     PullPullState state = pair.at_rest();
     pair.advance(state, {MotorAngle{0.1}, locked});
     const PullPullState before = state;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
-    const std::vector<PullPullInputs> bad = {
-        {MotorAngle{nan}, locked},          {MotorTorque{infinity}, locked},
-        {MotorAngle{0.0}, LoadAngle{nan}},  {MotorAngle{0.0}, LoadTorque{-infinity}},
-        {MotorAngle{0.0}, LoadSpring{nan}}, {MotorAngle{0.0}, LoadSpring{1.0, nan}},
-        {MotorTorque{0.0}, LoadSpring{0.0}}};
-    for (const PullPullInputs& inputs : bad) EXPECT_THROW(pair.advance(state, inputs), InvalidInput);
+    struct Bad {
+        PullPullInputs inputs;
+        std::string named;
+    };
+    const std::vector<Bad> all = {{{MotorAngle{nan}, locked}, "motor angle"},
+                                  {{MotorTorque{infinity}, locked}, "motor torque"},
+                                  {{MotorAngle{0.0}, LoadAngle{nan}}, "load angle"},
+                                  {{MotorAngle{0.0}, LoadTorque{-infinity}}, "load torque"},
+                                  {{MotorAngle{0.0}, LoadSpring{nan}}, "load spring's stiffness"},
+                                  {{MotorAngle{0.0}, LoadSpring{1.0, nan}}, "wall angle"},
+                                  {{MotorTorque{0.0}, LoadSpring{0.0}}, "load spring's stiffness"}};
+    for (const Bad& bad : all) {
+        try {
+            pair.advance(state, bad.inputs);
+            FAIL() << bad.named << " not refused";
+        } catch (const InvalidInput& refused) {
+            EXPECT_NE(std::string(refused.what()).find(bad.named), std::string::npos) << refused.what();
+        }
+    }
     EXPECT_EQ(state.cable_a.tension_N, before.cable_a.tension_N);
     EXPECT_EQ(state.motor_angle_rad, before.motor_angle_rad);
 }
