@@ -46,6 +46,9 @@ struct EffectParameter {
     double high = std::numeric_limits<double>::infinity();
     double typical = 1.0;  ///< of a mild case on a bench a few metres long: where a fit starts
     ParameterRole role = ParameterRole::size;
+    /// The effect is an oscillation whose frequency it sets: only close to its value does it explain
+    /// anything.
+    bool resonates = false;
     std::optional<double> absent{};  ///< value without the effect; none: the default of the effect's struct
 };
 

@@ -27,8 +27,9 @@ struct Inertia {
                            .end = "motor",
                            .equation = "E35",
                            .meaning = "inertia of rotor and motor pulley"},
-                 .parameters = {{{.name = "inertia", .unit = "kg m2", .high = 10.0, .typical = 1e-4},
-                                 &Inertia::motor_kg_m2}}},
+                 .parameters =
+                     {{{.name = "inertia", .unit = "kg m2", .high = 10.0, .typical = 1e-4, .resonates = true},
+                       &Inertia::motor_kg_m2}}},
                 {.about = {.name = "inertia",
                            .variant = "load",
                            .title = "unmodelled inertia",

@@ -80,9 +80,9 @@ CandidateCause cause_of(const Effect& effect, double length_m, double normal_for
             cause.given.push_back({parameter.name, parameter.unit, normal_force_N_per_m});
             continue;
         }
-        OpenNumber number{parameter.name,    parameter.unit,   kind_of(parameter, effect.absent[k]),
-                          parameter.typical, effect.absent[k], parameter.low,
-                          parameter.high};
+        OpenNumber number{parameter.name,    parameter.unit,     kind_of(parameter, effect.absent[k]),
+                          parameter.typical, effect.absent[k],   parameter.low,
+                          parameter.high,    parameter.resonates};
         if (number.kind == OpenNumber::Kind::place) number.typical = length_m;
         // A ripple of which less than half a period was seen is any function of the position.
         if (number.kind == OpenNumber::Kind::periods && turned_rad > 0.0)

@@ -28,6 +28,8 @@ struct OpenNumber {
     double absent = 0.0;
     double low = 0.0;
     double high = 0.0;
+    /// Of a size: it sets the frequency of an oscillation, and explains something only close to its value.
+    bool resonates = false;
 
     double value(double coordinate) const;
     /// Of a size; the inverse of value() within its range.

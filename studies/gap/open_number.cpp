@@ -7,6 +7,21 @@
 
 namespace capstan::gap {
 
+namespace {
+
+// Three decades of sizes, so close that one of them keeps in step with an oscillation for a few periods: by
+// an eighth, which is a sixteenth of a frequency.
+std::vector<double> close_sizes() {
+    constexpr double least = 0.1;
+    constexpr double most = 100.0;
+    constexpr double ratio = 1.125;
+    std::vector<double> sizes;
+    for (double size = least; size < most; size *= ratio) sizes.push_back(size);
+    return sizes;
+}
+
+}  // namespace
+
 double OpenNumber::value(double coordinate) const {
     double value = 0.0;
     switch (kind) {
@@ -80,7 +95,7 @@ double OpenNumber::log_choices() const {
 std::vector<double> OpenNumber::starts() const {
     switch (kind) {
         case Kind::size:
-            return {0.5, 3.0};
+            return resonates ? close_sizes() : std::vector<double>{0.5, 3.0};
         case Kind::signed_size:
             return {-1.0, 1.0};
         case Kind::shape:

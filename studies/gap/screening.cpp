@@ -153,11 +153,13 @@ std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<Candid
             together.col(known + static_cast<Eigen::Index>(k)) = there - here;
             at_least_none.push_back(probe.cause->numbers[probe.sizes[k]].kind == OpenNumber::Kind::size);
         }
-        // A step fits only where its size is met closely, so a linear estimate means nothing.
-        const bool is_a_step =
-            probe.sizes.size() == 1 && probe.cause->numbers[probe.sizes[0]].kind == OpenNumber::Kind::step;
+        // A step or an oscillation fits only where its size is met closely, so a linear estimate means
+        // nothing.
+        const bool fits_only_there =
+            probe.sizes.size() == 1 && (probe.cause->numbers[probe.sizes[0]].kind == OpenNumber::Kind::step ||
+                                        probe.cause->numbers[probe.sizes[0]].resonates);
         Screened screened{probe.cause, probe.start, std::numeric_limits<double>::infinity()};
-        if (!is_a_step) {
+        if (!fits_only_there) {
             const Explained along = explained(here, together, at_least_none);
             screened = {probe.cause, sized(probe, along.weights), along.left};
         }

@@ -47,6 +47,23 @@ TEST(Screening, ListsEveryCauseOnceAndNeitherNoneNorWhatIsPresent) {
     }
 }
 
+// An oscillation explains something only where its frequency is met within a few hundredths.
+TEST(Screening, FindsAnInertiaThatRingsWhateverItsSize) {
+    for (const double inertia_kg_m2 : {2.3e-4, 9.1e-4}) {
+        BenchNumbers numbers;
+        numbers.effects.of<Inertia>().motor_kg_m2 = inertia_kg_m2;
+        const Recording recording = exact_session(numbers, coarse_twin);
+        const CauseFitter fitter(recording, coarse_twin, 1);
+        const std::vector<CandidateCause> causes =
+            only_named(recording, {"inertia", "viscous_friction", "param_K"});
+        const std::vector<Screened> screened = screen(fitter, causes, nominal);
+        ASSERT_FALSE(screened.empty());
+        EXPECT_EQ(screened.front().cause->variant, "motor");
+        EXPECT_NEAR(screened.front().cause->numbers.front().value(screened.front().start[0]) / inertia_kg_m2,
+                    1.0, 0.07);
+    }
+}
+
 // Half a degree of freedom: drag cannot be negative, so a bench with too little of it gains nothing from it.
 TEST(Screening, ASizeThatCannotBeNegativeExplainsNothingTheOtherWay) {
     Recording recording = exact_session({}, coarse_twin);
