@@ -86,6 +86,10 @@ class FittedNumbers {
             if (!number.interval && number.value == value && one_end != other_end)
                 number.interval = {std::min(one_end, other_end), std::max(one_end, other_end)};
         };
+        take(model_.bend_at_motor_ratio, present.bend_at_motor_ratio, low.bend_at_motor_ratio,
+             high.bend_at_motor_ratio);
+        take(model_.bend_at_load_ratio, present.bend_at_load_ratio, low.bend_at_load_ratio,
+             high.bend_at_load_ratio);
         for (ModelSensor& sensor : model_.sensors) {
             for (const FaultKey& fault : fault_keys()) {
                 const auto of = [&](BenchNumbers& numbers) {
@@ -199,6 +203,8 @@ BenchNumbers BenchModel::numbers() const {
     numbers.friction_ratio = friction_ratio.value;
     numbers.stiffness_ratio = stiffness_ratio.value;
     numbers.pretension_ratio = pretension_ratio.value;
+    numbers.bend_at_motor_ratio = bend_at_motor_ratio.value;
+    numbers.bend_at_load_ratio = bend_at_load_ratio.value;
     numbers.effects = effects_with(effects);
     for (const ModelSensor& sensor : sensors) {
         for (const FaultKey& fault : fault_keys())
@@ -233,8 +239,8 @@ BenchModel model_of(const model_comparison::DiagnosedSplit& split,
                     const gap::DiagnosisOptions& options) {
     const gap::Diagnosis& diagnosis = split.diagnosis;
     // A number that is added to BenchNumbers must be added to the model and its file as well; this names all.
-    const auto& [friction_ratio, stiffness_ratio, pretension_ratio, effects, sensor_faults, follows] =
-        diagnosis.corrected;
+    const auto& [friction_ratio, stiffness_ratio, pretension_ratio, bend_at_motor_ratio, bend_at_load_ratio,
+                 effects, sensor_faults, follows] = diagnosis.corrected;
     BenchModel model;
     model.origin = origin;
     model.recorded_mode = split.recorded.mode;
@@ -245,6 +251,8 @@ BenchModel model_of(const model_comparison::DiagnosedSplit& split,
     model.friction_ratio = {"friction_ratio", "", friction_ratio, diagnosis.friction_interval};
     model.stiffness_ratio = {"stiffness_ratio", "", stiffness_ratio, diagnosis.stiffness_interval};
     model.pretension_ratio = {"pretension_ratio", "", pretension_ratio, diagnosis.pretension_interval};
+    model.bend_at_motor_ratio.value = bend_at_motor_ratio;
+    model.bend_at_load_ratio.value = bend_at_load_ratio;
     model.effects = described_effects(effects, diagnosis.causes);
     model.sensors = sensors_of(sensor_faults, split.diagnosed);
     model.follows = following_of(follows, split.diagnosed);

@@ -82,6 +82,10 @@ struct BenchModel {
     FittedNumber friction_ratio;
     FittedNumber stiffness_ratio;
     FittedNumber pretension_ratio;
+    /// Of a conduit whose routing is not known: how much its first and its last third are bent, in parts of
+    /// the middle third.
+    FittedNumber bend_at_motor_ratio{"bend_at_motor_ratio", "", 1.0, {}};
+    FittedNumber bend_at_load_ratio{"bend_at_load_ratio", "", 1.0, {}};
     std::vector<ModelEffect> effects;
     std::vector<ModelSensor> sensors;
     std::vector<ModelFollowing> follows;

@@ -138,6 +138,12 @@ void write_fitted(ModelText& text, const BenchModel& model) {
                  "each run's pretension.");
     for (const FittedNumber* ratio : {&model.friction_ratio, &model.stiffness_ratio, &model.pretension_ratio})
         text.number(*ratio);
+    if (model.recorded_mode == BenchMode::lumped_drive) {
+        text.comment(
+            "The curvature of the first and the last third of the path in parts of the middle third's.");
+        text.number(model.bend_at_motor_ratio);
+        text.number(model.bend_at_load_ratio);
+    }
     for (const ModelEffect& effect : model.effects) {
         const EffectNumbers& group = *find_effect(effect.name, effect.variant);
         text.section("effect." + effect_key(group), group.title + ": " + group.meaning + ".");

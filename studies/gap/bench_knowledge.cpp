@@ -130,6 +130,17 @@ FloatingNumber presliding_of_bearings() {
             }};
 }
 
+// A conduit of unknown routing has its bends anywhere: a part of it may be bent e times as much as another.
+void add_bends(BenchKnowledge& bench) {
+    const auto number = [](const char* name, double BenchNumbers::*in_bench) -> FloatingNumber {
+        return {.name = name, .prior_std = 1.0, .apply = [in_bench](BenchNumbers& numbers, double value) {
+                    numbers.*in_bench = value;
+                }};
+    };
+    bench.numbers.push_back(number("bends near the motor", &BenchNumbers::bend_at_motor_ratio));
+    bench.numbers.push_back(number("bends near the load", &BenchNumbers::bend_at_load_ratio));
+}
+
 // What holds the load where only its motion was recorded, and the constant of a motor whose current was.
 void add_undescribed_parts(const NominalBench& nominal, double prior_std, BenchKnowledge& bench) {
     if (nominal.load_compliance_rad_per_Nm > 0.0)
@@ -205,6 +216,7 @@ BenchKnowledge undescribed_bench(const Recording& recording) {
     BenchKnowledge bench{ratios(unknown, unknown)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
     bench.numbers.push_back(presliding_of_bearings());
+    if (recording.mode == BenchMode::pull_pull) add_bends(bench);
     add_undescribed_parts(*recording.nominal, by_factors, bench);
     return bench;
 }

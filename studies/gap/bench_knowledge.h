@@ -67,7 +67,7 @@ BenchKnowledge measured_bench(const NominalSpread& stated);
 BenchKnowledge built_bench(const Recording& recording);
 
 /// A drive or band whose numbers nobody stated: `recording` is its equivalent bench, whose numbers were
-/// fitted. All of them float by factors.
+/// fitted. All of them float by factors, and of a drive where its conduit bends.
 BenchKnowledge undescribed_bench(const Recording& recording);
 
 }  // namespace capstan::gap

@@ -32,7 +32,7 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
                                 const BenchNumbers& numbers, int segments) {
     const NominalBench& bench = *recording.nominal;
     const CableSpecification cable =
-        cable_specification(bench.curvature,
+        cable_specification(numbers.routing(bench.curvature),
                             {.dynamic_friction = buildable_friction(bench, numbers.friction_ratio),
                              .axial_stiffness_N = numbers.stiffness_ratio * bench.axial_stiffness_N,
                              .pretension_N = numbers.pretension_ratio * *run.pretension_N},
@@ -90,6 +90,21 @@ BenchNumbers BenchNumbers::in_run(const RecordedRun& run) const {
     }
     numbers.follows.clear();
     return numbers;
+}
+
+std::vector<CurvaturePiece> BenchNumbers::routing(const std::vector<CurvaturePiece>& described) const {
+    if (bend_at_motor_ratio == 1.0 && bend_at_load_ratio == 1.0) return described;
+    double length_m = 0.0;
+    double wrap_rad = 0.0;
+    for (const CurvaturePiece& piece : described) {
+        length_m += piece.length_m;
+        wrap_rad += piece.length_m / piece.bend_radius_m;
+    }
+    const double third_m = length_m / 3.0;
+    const double middle_per_m = wrap_rad / (third_m * (bend_at_motor_ratio + 1.0 + bend_at_load_ratio));
+    return {{third_m, 1.0 / (bend_at_motor_ratio * middle_per_m)},
+            {third_m, 1.0 / middle_per_m},
+            {length_m - 2.0 * third_m, 1.0 / (bend_at_load_ratio * middle_per_m)}};
 }
 
 double BenchNumbers::zero_of(const std::string& channel) const {

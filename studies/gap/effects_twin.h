@@ -21,6 +21,10 @@ struct BenchNumbers {
     double friction_ratio = 1.0;
     double stiffness_ratio = 1.0;
     double pretension_ratio = 1.0;
+    /// Where the conduit bends: the curvature of its first and its last third in parts of that of the middle
+    /// third. The wrap stays as it is.
+    double bend_at_motor_ratio = 1.0;
+    double bend_at_load_ratio = 1.0;
     BenchEffects effects;
     /// By channel. Of a channel that drives the bench only the offset counts.
     std::map<std::string, SensorFaults> sensor_faults;
@@ -46,6 +50,9 @@ struct BenchNumbers {
     BenchNumbers in_run(const RecordedRun& run) const;
 
     double zero_of(const std::string& channel) const;
+
+    /// A path with its wrap moved between its thirds.
+    std::vector<CurvaturePiece> routing(const std::vector<CurvaturePiece>& described) const;
 
     /// A rotor on its cables oscillates at tens of hertz. It is simulated at every sample whatever the
     /// stride.

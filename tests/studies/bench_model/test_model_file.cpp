@@ -52,6 +52,19 @@ TEST(ModelFile, PredictsTheSameBitsAsTheDiagnosis) {
         EXPECT_EQ(twin.run(run, after).values, twin.run(run, before).values);
 }
 
+// Where a described conduit bends is stated by its path.
+TEST(ModelFile, HoldsTheBendsOfADriveOfUnknownGeometryAndOfNoOtherBench) {
+    BenchModel model = full_model();
+    model.recorded_mode = BenchMode::lumped_drive;
+    model.bend_at_motor_ratio.value = odd_number(2.0);
+    model.bend_at_load_ratio.value = odd_number(0.6);
+    const std::string text = model_text(model);
+    const gap::BenchNumbers read = parse_model(text, "m.toml").numbers();
+    EXPECT_EQ(read.bend_at_motor_ratio, model.bend_at_motor_ratio.value);
+    EXPECT_EQ(read.bend_at_load_ratio, model.bend_at_load_ratio.value);
+    EXPECT_THROW(parse_model(with(text, "\"lumped_drive\"", "\"pull_pull\""), "m.toml"), InvalidInput);
+}
+
 TEST(ModelFile, HoldsEveryEffectOfTheCatalogue) {
     for (const Effect& effect : effect_catalogue()) {
         BenchModel model = full_model();
