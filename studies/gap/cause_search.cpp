@@ -305,7 +305,8 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
             model.left_without_cause = std::min(model.left_without_cause, scored.misfit);
         scored.max_visibility = std::sqrt(std::max(0.0, model.left_without_cause - scored.misfit));
     }
-    if (is_undescribed(*scored.fit.bench)) {
+    scored.has_unknown_scales = is_undescribed(*scored.fit.bench);
+    if (scored.has_unknown_scales) {
         scored.beside = model.discrepancy.with_own_scales(scored.fit.residuals);
     } else {
         scored.beside = model.discrepancy.of(scored.fit.residuals);

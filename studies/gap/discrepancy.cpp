@@ -16,13 +16,6 @@ namespace {
 constexpr double as_good_as_noise = 0.95;
 constexpr double below_noise_weight = 0.3;
 
-// The inverse of weighed_log.
-double misfit_of(double weighed) {
-    const double above = weighed / (1.0 + below_noise_weight);
-    if (above >= std::log(as_good_as_noise)) return std::exp(above);
-    return std::exp((weighed - std::log(as_good_as_noise)) / below_noise_weight);
-}
-
 constexpr double stop_widths[] = {0.02, 0.05, 0.1, 0.2, 0.4};  // of a channel's span
 
 // A channel that drives some run, with what is needed to make it dimensionless.
@@ -94,6 +87,10 @@ Features features_of(const Recording& recording, const RecordedRun& run, const s
 
 double weighed_log(double misfit) {
     return std::log(std::max(misfit, as_good_as_noise)) + below_noise_weight * std::log(misfit);
+}
+
+double log_of_unknown_scale(double misfit) {
+    return (1.0 + below_noise_weight) * std::log(misfit);
 }
 
 Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualSeries>& series, int stride,
@@ -188,11 +185,11 @@ Marginals Discrepancy::with_own_scales(const Eigen::VectorXd& residuals) const {
     for (const ChannelFeatures& channel : channels_) {
         const Marginals own = of_channel(channel, residuals);
         for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
-            marginals[k].misfit += channel.part * weighed_log(own[k].misfit);
+            marginals[k].misfit += channel.part * std::log(own[k].misfit);
             marginals[k].log_determinant += own[k].log_determinant;
         }
     }
-    for (Marginal& each : marginals) each.misfit = misfit_of(each.misfit);
+    for (Marginal& each : marginals) each.misfit = std::exp(each.misfit);
     return marginals;
 }
 

@@ -15,6 +15,9 @@ inline constexpr std::array<double, 9> discrepancy_sizes = {0.0, 0.25, 0.5, 1.0,
 /// The logarithm of a mean square residual as the likelihood counts it: below noise with a reduced weight,
 /// because the model's floor is known only roughly.
 double weighed_log(double misfit);
+/// The same where the scale of a channel's error is not known: a smaller one says as much below noise as
+/// above.
+double log_of_unknown_scale(double misfit);
 
 /// What residuals leave beside a discrepancy of each size.
 struct Marginal {
@@ -36,8 +39,8 @@ class Discrepancy {
 
     /// `residuals`: all series one after the other, in units of noise and floor.
     Marginals of(const Eigen::VectorXd& residuals) const;
-    /// The same where each channel's error has an unknown scale of its own: the misfit is one that is as
-    /// likely for all channels alike (E54).
+    /// The same where each channel's error has an unknown scale of its own: the misfit is
+    /// the geometric mean over the channels, each in proportion to its samples (E54).
     Marginals with_own_scales(const Eigen::VectorXd& residuals) const;
 
   private:

@@ -124,8 +124,8 @@ std::vector<std::string> ScoredFit::of_the_bench() const {
 }
 
 // The log-likelihood of Gaussian residuals with a free scale is -n/2 ln(mean square), up to a constant.
-double Evidence::log_likelihood(double misfit) const {
-    return -0.5 * samples_ * weighed_log(misfit);
+double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
+    return -0.5 * samples_ * (fit.has_unknown_scales ? log_of_unknown_scale(misfit) : weighed_log(misfit));
 }
 
 double Evidence::of(const ScoredFit& fit) const {
@@ -151,7 +151,7 @@ double Evidence::of_any_residuals(const ScoredFit& fit) const {
     const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());
     const double size = std::sqrt(std::max(0.0, most - tenable_mean_square(fit)));
     const double of_the_size = 0.5 * std::log(samples_);
-    return log_likelihood(fit.misfit) + fit.fit.log_volume_ratio - of_the_size -
+    return log_likelihood(fit, fit.misfit) + fit.fit.log_volume_ratio - of_the_size -
            invisible_penalty * std::max(0.0, 1.0 - size / min_unknown_size);
 }
 
@@ -160,7 +160,7 @@ double Evidence::marginal(const ScoredFit& fit, const std::function<double(doubl
     double most = -std::numeric_limits<double>::infinity();
     std::array<double, discrepancy_sizes.size()> each{};
     for (std::size_t k = 0; k < each.size(); ++k) {
-        each[k] = log_likelihood(fit.beside[k].misfit) - 0.5 * fit.beside[k].log_determinant;
+        each[k] = log_likelihood(fit, fit.beside[k].misfit) - 0.5 * fit.beside[k].log_determinant;
         if (weight(discrepancy_sizes[k]) > 0.0) most = std::max(most, each[k]);
     }
     double sum = 0.0;
@@ -278,6 +278,7 @@ bool worth_a_further_cause(const ScoredFit& fit) {
     constexpr double close_to_noise = 1.1;
     // Numbers that float widely take up a part of the floor, and leave room for a cause below it.
     constexpr double close_when_numbers_float = 0.5;
+    if (fit.has_unknown_scales) return true;
     if (!fit.fit.bench->is_measured()) return fit.misfit > close_when_numbers_float;
     return fit.misfit > std::max(close_to_noise, tenable_mean_square(fit));
 }

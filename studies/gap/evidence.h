@@ -29,9 +29,10 @@ struct ScoredFit {
                                      ///< noise and floor
     /// Beside numbers that float widely a cause is no more visible than what is left without any, by rms.
     double max_visibility = std::numeric_limits<double>::infinity();
-    Marginals beside{};  ///< what the fit leaves beside a discrepancy of each size
+    Marginals beside{};               ///< what the fit leaves beside a discrepancy of each size
+    bool has_unknown_scales = false;  ///< of the channels' errors (E54)
     /// Mean square residual of each predicted channel, in units of noise and floor. Empty where the scale of
-    /// a channel's error is not known (E54).
+    /// a channel's error is not known.
     std::vector<double> channel_misfits{};
     /// Of the bench's floating numbers those that visibly change what is measured,
     std::vector<std::size_t> visible_numbers{};
@@ -93,7 +94,7 @@ class Evidence {
     static constexpr double overstated = 1.3;
 
   private:
-    double log_likelihood(double misfit) const;
+    double log_likelihood(const ScoredFit& fit, double misfit) const;
     double priors(const ScoredFit& fit) const;
     double marginal(const ScoredFit& fit, const std::function<double(double size)>& weight) const;
     double of_any_residuals(const ScoredFit& fit) const;
@@ -105,7 +106,7 @@ class Evidence {
 std::size_t open_numbers(const CauseFit& fit);
 
 /// True if a fit leaves enough to look for a further cause: more than noise, and more than the law of its
-/// clearest cause may be wrong by.
+/// clearest cause may be wrong by; always where the scale of a channel's error is not known (E54).
 bool worth_a_further_cause(const ScoredFit& fit);
 
 }  // namespace capstan::gap

@@ -111,6 +111,15 @@ TEST(CauseSearch, LooksBelowTheFloorWhereTheBenchsNumbersFloat) {
     EXPECT_FALSE(worth_a_further_cause(fit));
 }
 
+// There nothing says that what is left is only the model's own error (E54).
+TEST(CauseSearch, LooksForAFurtherCauseWhateverIsLeftWhereTheScaleOfItIsNotKnown) {
+    const ThreeCauses known;
+    ScoredFit fit = leaving(0.1, 2.0, known.bend);
+    EXPECT_FALSE(worth_a_further_cause(fit));
+    fit.has_unknown_scales = true;
+    EXPECT_TRUE(worth_a_further_cause(fit));
+}
+
 TEST(CauseSearch, OutOfTimeItGivesTheNominalFitAndSaysSo) {
     Recording recording = exact_session({}, coarse_twin);
     recording.runs.resize(1);

@@ -68,6 +68,24 @@ TEST(Evidence, FavoursNoneWhereNothingIsLeftToExplain) {
     EXPECT_GT(ranked.front().probability, 0.9);
 }
 
+// The floor is an upper value, and a fit may follow the model's own error below it; where the scale of an
+// error is not known (E54), nothing says that it is the model's.
+TEST(Evidence, CountsWhatIsLeftBelowTheFloorOnlyWhereTheScaleOfAnErrorIsNotKnown) {
+    const Known known;
+    const auto gain_of_a_cause = [&](bool has_unknown_scales) {
+        ScoredFit none = fitted(evidence, {&known.none}, 0.5, {0.0});
+        ScoredFit drag = fitted(evidence, {&known.drag}, 0.25, {1.0});
+        for (ScoredFit* each : {&none, &drag}) {
+            each->has_unknown_scales = has_unknown_scales;
+            each->evidence = evidence.of(*each);
+        }
+        return drag.evidence - none.evidence;
+    };
+    EXPECT_LT(gain_of_a_cause(false), 20.0);
+    EXPECT_GT(gain_of_a_cause(true), 60.0);
+    EXPECT_GT(gain_of_a_cause(true), gain_of_a_cause(false) + 50.0);
+}
+
 TEST(Evidence, FavoursTheCauseThatLeavesOnlyNoise) {
     const Known known;
     const auto ranked =
