@@ -64,6 +64,13 @@ double turned_rad(const Recording& recording) {
     return channel ? largest_span(recording, static_cast<std::size_t>(*channel)) : 0.0;
 }
 
+// Half a step of the encoder at an end: between two counts an angle may turn back unseen, which looks like
+// lost motion of that size.
+double unseen_half_gap_rad(const Recording& recording, const std::string& end) {
+    const auto channel = recording.channel(end == "motor" ? channel::motor_angle : channel::load_angle);
+    return channel ? 0.5 * recording.channels[static_cast<std::size_t>(*channel)].step.value_or(0.0) : 0.0;
+}
+
 CandidateCause cause_of(const Effect& effect, double length_m, double normal_force_N_per_m,
                         double turned_rad) {
     CandidateCause cause = plain(effect.name, effect.component);
@@ -233,8 +240,10 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
     causes.insert(causes.end(), {friction, stiffness, pretension});
     for (const Effect& effect : effect_catalogue()) {
         if (effect.needs_pair && recording.mode == BenchMode::single_cable) continue;
-        causes.push_back(
-            cause_of(effect, length_m, usual_normal_force_N_per_m(recording), turned_rad(recording)));
+        CandidateCause cause =
+            cause_of(effect, length_m, usual_normal_force_N_per_m(recording), turned_rad(recording));
+        if (effect.name == "backlash") cause.numbers.front().low = unseen_half_gap_rad(recording, effect.end);
+        causes.push_back(std::move(cause));
     }
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
