@@ -102,8 +102,6 @@ class CauseSearch {
     void add_measured_sets(const ScoredFit& built, Fits& all);
     std::vector<Further> screened(const Level& level, const Hypothesis& present,
                                   const SeriesWeights& weights);
-    void roughly_fit(const Level& level, const Hypothesis& present, const Screened& cause,
-                     const SeriesWeights& weights, Further& further);
     void add_single(const Level& level, const Further& further, Fits& singles);
     void add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles);
     static double pruned_at(const Fits& fits);

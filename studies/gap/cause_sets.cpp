@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -11,14 +10,12 @@ namespace capstan::gap {
 
 namespace {
 
-// How many causes get a full fit beside others, and how many of the best sets of one size are extended. Where
-// the bench's numbers float widely, they take up much of what a cause does, and the screening, which is
-// linear, says less: there more are fitted beside the best set, and more sets extended.
+// How many causes get a full fit beside others. Where the bench's numbers float widely, they take up much of
+// what a cause does, and the screening, which is linear, says less: beside the best set more are fitted.
 constexpr std::size_t max_fitted_further = 3;
 constexpr std::size_t max_fitted_beside_the_best = 8;
-std::size_t max_extended(const BenchKnowledge& bench) {
-    return bench.is_measured() ? 2 : 3;
-}
+// How many of the best sets of one size are extended.
+constexpr std::size_t max_extended = 2;
 constexpr std::size_t max_causes = 5;
 
 // A wrong nominal number beside a cause that lets the same number go far already.
@@ -43,18 +40,6 @@ std::vector<double> periods_of(const Hypothesis& hypothesis) {
         }
     }
     return periods;
-}
-
-// Those of the bench's own numbers beyond the first three that are far from usual are as usual again: they
-// may have stood for a cause that is still to be found.
-Hypothesis with_usual_numbers(Hypothesis hypothesis) {
-    for (Eigen::Index k = nominal_coordinates; k < hypothesis.bench->size(); ++k) {
-        const FloatingNumber& number = hypothesis.bench->numbers[static_cast<std::size_t>(k)];
-        if (number.kind == FloatingNumber::Kind::ratio &&
-            std::abs(hypothesis.coordinates[k]) > number.prior_std)
-            hypothesis.coordinates[k] = 0.0;
-    }
-    return hypothesis;
 }
 
 }  // namespace
@@ -207,7 +192,7 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
     std::vector<std::string> firsts;
     for (const ScoredFit& each : smaller) {
         const std::string& first = each.fit.causes.front()->effect;
-        if (first == "none" || firsts.size() == max_extended(level.bench) ||
+        if (first == "none" || firsts.size() == max_extended ||
             (each.fit.causes.size() == 1 && std::find(firsts.begin(), firsts.end(), first) != firsts.end()))
             continue;
         if (each.fit.causes.size() > 1 && !firsts.empty()) break;
@@ -243,51 +228,30 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, cons
                                                         const SeriesWeights& weights) {
     constexpr std::size_t most_promising = 12;
     std::vector<Further> all;
-    std::vector<Hypothesis> from = {present};
-    if (is_undescribed(level.bench) && !present.causes.empty()) {
-        from.push_back(with_usual_numbers(present));
-        if (from.back().coordinates == present.coordinates) from.pop_back();
-    }
-    for (const Hypothesis& beside : from) {
-        std::size_t tried = 0;
-        for (const Screened& each : screen(coarse_.fitter, level.causes, beside, weights)) {
-            if (!level.bench.is_measured() && !present.causes.empty() && tried++ == most_promising) break;
-            Further further{each.cause, with_cause(beside, each.cause, each.start), each.sum_of_squares};
-            if (!level.bench.is_measured()) roughly_fit(level, present, each, weights, further);
-            const auto same = std::find_if(all.begin(), all.end(),
-                                           [&](const Further& other) { return other.cause == each.cause; });
-            if (same == all.end()) {
-                all.push_back(std::move(further));
-            } else if (further.sum_of_squares < same->sum_of_squares) {
-                *same = std::move(further);
-            }
+    for (const Screened& each : screen(coarse_.fitter, level.causes, present, weights)) {
+        if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
+        all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
+        if (level.bench.is_measured()) continue;
+        std::vector<Hypothesis> starts = {all.back().start};
+        if (present.causes.empty() && is_undescribed(level.bench)) {
+            std::vector<Eigen::VectorXd> benches = further_starts(level.bench);
+            benches.push_back(nominal_hypothesis(level.bench).coordinates);
+            for (const Eigen::VectorXd& numbers : benches)
+                starts.push_back(with_cause({{}, numbers, present.bench}, each.cause, each.start));
+        }
+        all.back().sum_of_squares = std::numeric_limits<double>::infinity();
+        for (const Hypothesis& start : starts) {
+            if (is_out_of_time()) break;
+            const CauseFit rough = coarse_.fitter.rough_fit(start, weights);
+            evaluations_ += rough.evaluations;
+            if (!(rough.sum_of_squares < all.back().sum_of_squares)) continue;
+            all.back().start = rough.hypothesis();
+            all.back().sum_of_squares = rough.sum_of_squares;
         }
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Further& a, const Further& b) { return a.sum_of_squares < b.sum_of_squares; });
     return all;
-}
-
-// A few steps of a search from the start that `further` has, and on an undescribed bench without a cause from
-// others.
-void CauseSearch::roughly_fit(const Level& level, const Hypothesis& present, const Screened& cause,
-                              const SeriesWeights& weights, Further& further) {
-    std::vector<Hypothesis> starts = {further.start};
-    if (present.causes.empty() && is_undescribed(level.bench)) {
-        std::vector<Eigen::VectorXd> benches = further_starts(level.bench);
-        benches.push_back(nominal_hypothesis(level.bench).coordinates);
-        for (const Eigen::VectorXd& numbers : benches)
-            starts.push_back(with_cause({{}, numbers, present.bench}, cause.cause, cause.start));
-    }
-    further.sum_of_squares = std::numeric_limits<double>::infinity();
-    for (const Hypothesis& start : starts) {
-        if (is_out_of_time()) break;
-        const CauseFit rough = coarse_.fitter.rough_fit(start, weights);
-        evaluations_ += rough.evaluations;
-        if (!(rough.sum_of_squares < further.sum_of_squares)) continue;
-        further.start = rough.hypothesis();
-        further.sum_of_squares = rough.sum_of_squares;
-    }
 }
 
 // `weights`: of the fit that the hypothesis comes from; `max_further`: causes that are tried beside it.
