@@ -19,13 +19,18 @@ constexpr double max_prediction = 1e3;
 constexpr int usual_iterations = 20;
 constexpr int spare_iterations = 3000;
 
+double wrap_rad(const std::vector<CurvaturePiece>& path) {
+    double wrap_rad = 0.0;
+    for (const CurvaturePiece& piece : path) wrap_rad += piece.length_m / piece.bend_radius_m;
+    return wrap_rad;
+}
+
 // The friction of a bench that can be built: a search may ask for a number that follows a condition far
 // beyond it.
 double buildable_friction(const NominalBench& bench, double friction_ratio) {
-    double wrap_rad = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) wrap_rad += piece.length_m / piece.bend_radius_m;
     constexpr double below = 0.99;  // against rounding
-    return std::min(friction_ratio * bench.dynamic_friction, below * largest_friction_exponent / wrap_rad);
+    return std::min(friction_ratio * bench.dynamic_friction,
+                    below * largest_friction_exponent / wrap_rad(bench.curvature));
 }
 
 BenchDescription description_of(const Recording& recording, const RecordedRun& run,
@@ -95,13 +100,10 @@ BenchNumbers BenchNumbers::in_run(const RecordedRun& run) const {
 std::vector<CurvaturePiece> BenchNumbers::routing(const std::vector<CurvaturePiece>& described) const {
     if (bend_at_motor_ratio == 1.0 && bend_at_load_ratio == 1.0) return described;
     double length_m = 0.0;
-    double wrap_rad = 0.0;
-    for (const CurvaturePiece& piece : described) {
-        length_m += piece.length_m;
-        wrap_rad += piece.length_m / piece.bend_radius_m;
-    }
+    for (const CurvaturePiece& piece : described) length_m += piece.length_m;
     const double third_m = length_m / 3.0;
-    const double middle_per_m = wrap_rad / (third_m * (bend_at_motor_ratio + 1.0 + bend_at_load_ratio));
+    const double middle_per_m =
+        wrap_rad(described) / (third_m * (bend_at_motor_ratio + 1.0 + bend_at_load_ratio));
     return {{third_m, 1.0 / (bend_at_motor_ratio * middle_per_m)},
             {third_m, 1.0 / middle_per_m},
             {length_m - 2.0 * third_m, 1.0 / (bend_at_load_ratio * middle_per_m)}};

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "capstan/gap/candidate_cause.h"
+#include "sample_recording.h"
 
 namespace capstan::gap {
 namespace {
@@ -23,6 +24,20 @@ TEST(FloatingNumber, IsAtABoundBeyondWhatABenchCanHave) {
     EXPECT_FALSE(pretension.is_at_bound(0.3));
     EXPECT_TRUE(pretension.is_at_bound(-5.0));
     EXPECT_TRUE(pretension.is_at_bound(3.0));
+}
+
+// Between two counts of its encoder an angle turns back unseen.
+TEST(CandidateCauses, HoldNoLostMotionOfLessThanHalfAStepOfTheEncoderAtItsEnd) {
+    Recording recording = driven_session();
+    recording.channels[static_cast<std::size_t>(*recording.channel("motor_angle"))].step = 4e-3;
+    recording.channels[static_cast<std::size_t>(*recording.channel("load_angle"))].step = 1e-3;
+    int ends = 0;
+    for (const CandidateCause& cause : candidate_causes(recording)) {
+        if (cause.effect != "backlash") continue;
+        ++ends;
+        EXPECT_DOUBLE_EQ(cause.numbers.front().value(1e-6), cause.end == "motor" ? 2e-3 : 5e-4);
+    }
+    EXPECT_EQ(ends, 2);
 }
 
 }  // namespace
