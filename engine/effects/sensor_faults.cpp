@@ -22,11 +22,16 @@ void add_hysteresis(std::vector<double>& signal, double half_width) {
     }
 }
 
+// Exact for a signal that is straight between its samples.
 void add_lag(std::vector<double>& signal, double lag_s, double time_step_s) {
-    const double fraction = -std::expm1(-time_step_s / lag_s);
-    double reading = signal.front();
+    const double settled = -std::expm1(-time_step_s / lag_s);
+    const double of_ramp = lag_s / time_step_s * settled;
+    double before = signal.front();
+    double reading = before;
     for (double& value : signal) {
-        reading += fraction * (value - reading);
+        const double now = value;
+        reading += settled * (before - reading) + (1.0 - of_ramp) * (now - before);
+        before = now;
         value = reading;
     }
 }

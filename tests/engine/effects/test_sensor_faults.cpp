@@ -46,14 +46,30 @@ TEST(SensorFaults, QuantisedReadingsAreTheNearestMultiples) {
               (std::vector<double>{0.0, 0.25, -0.25, 1.0}));
 }
 
-TEST(SensorFaults, ALagFollowsAStepExponentially) {
+// Of a first-order sensor whose signal is straight between its samples: r - rate * lag * (1 - exp(-t / lag)).
+TEST(SensorFaults, ALagTrailsARampByTheRampOverItsTimeConstant) {
+    for (const double lag_s : {0.2 * time_step_s, 3.0 * time_step_s, 0.05}) {
+        SensorFaults faults;
+        faults.lag_s = lag_s;
+        const std::vector<double> signal = ramp(40);
+        const double rate_per_s = (signal[1] - signal[0]) / time_step_s;
+        const std::vector<double> readings = sensed(signal, faults, time_step_s);
+        for (std::size_t k = 0; k < signal.size(); ++k) {
+            const double time_s = static_cast<double>(k) * time_step_s;
+            EXPECT_NEAR(readings[k], signal[k] + rate_per_s * lag_s * std::expm1(-time_s / lag_s), 1e-12)
+                << k;
+        }
+    }
+}
+
+TEST(SensorFaults, ALagForgetsAJumpExponentially) {
     SensorFaults faults;
     faults.lag_s = 0.05;
-    std::vector<double> step(40, 1.0);
-    step[0] = 0.0;
-    const std::vector<double> readings = sensed(step, faults, time_step_s);
-    for (std::size_t k = 0; k < step.size(); ++k) {
-        EXPECT_NEAR(readings[k], -std::expm1(-static_cast<double>(k) * time_step_s / 0.05), 1e-12) << k;
+    std::vector<double> jump(40, 1.0);
+    jump[0] = 0.0;
+    const std::vector<double> readings = sensed(jump, faults, time_step_s);
+    for (std::size_t k = 2; k < jump.size(); ++k) {
+        EXPECT_NEAR((1.0 - readings[k]) / (1.0 - readings[k - 1]), std::exp(-time_step_s / 0.05), 1e-12) << k;
     }
 }
 
