@@ -233,14 +233,22 @@ HWY_INLINE LaneTension tension_of(const LaneCable& cable, Lanes stretch_m, Lanes
     if (cable.has_toe) {
         const NonlinearStiffnessLaw<Lanes>& law = cable.toe_of_segment;
         const Which toe = hn::And(hn::Gt(law.toe_strain, zero), hn::Gt(stretch_m, zero));
-        // Strain is concave in tension, so Newton from the left of the root stays there.
+        constexpr int max_refinements = 4;
+        constexpr double refined = 1e-6;  // of the tension: the error left is of the order of its square
+        // Strain is concave in tension, so Newton from the left of the root stays there. A lane rests once it
+        // is refined, whatever the others need.
         Lanes sought_N = hn::Min(hn::Max(last_N, zero), tension_N);
         Lanes per_N = cable.elastic_m_per_N;
-        for (int refinement = 0; refinement < 4; ++refinement) {
+        Which open = toe;
+        for (int refinement = 0; refinement < max_refinements && !hn::AllFalse(BenchTag(), open);
+             ++refinement) {
             const ToeStrain<Lanes> beyond = laws::toe_strain(law, sought_N);
             const Lanes there_m = cable.elastic_m_per_N * sought_N + beyond.strain;
-            per_N = cable.elastic_m_per_N + beyond.strain_per_N;
-            sought_N = hn::Max(zero, sought_N + (stretch_m - there_m) / per_N);
+            per_N = hn::IfThenElse(open, cable.elastic_m_per_N + beyond.strain_per_N, per_N);
+            const Lanes next_N = hn::Max(zero, sought_N + (stretch_m - there_m) / per_N);
+            const Which moves = hn::Gt(hn::Abs(next_N - sought_N), lanes_of(refined) * next_N);
+            sought_N = hn::IfThenElse(open, next_N, sought_N);
+            open = hn::And(open, moves);
         }
         tension_N = hn::IfThenElse(toe, sought_N, tension_N);
         slope = hn::IfThenElse(toe, lanes_of(1.0) / per_N, slope);
