@@ -144,12 +144,13 @@ Eigen::MatrixXd CauseFitter::residuals(const Hypothesis& hypothesis, const Eigen
     return all;
 }
 
-// E53.
+// E53. Where the scale of a channel's error is not known, less than noise and floor is one, too (E54).
 SeriesWeights CauseFitter::balancing_weights(const Eigen::VectorXd& residuals) const {
+    const double least = recording_.nominal_is_fitted ? 1e-6 : 1.0;
     const std::map<std::size_t, double> left = mean_squares(residuals);
     SeriesWeights weights;
     for (const ResidualSeries& series : series_)
-        weights.push_back(1.0 / std::sqrt(std::max(1.0, left.at(series.channel))));
+        weights.push_back(1.0 / std::sqrt(std::max(least, left.at(series.channel))));
     return weights;
 }
 

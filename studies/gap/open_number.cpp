@@ -1,6 +1,7 @@
 // The coordinates in which a search moves, and what is known of them beforehand.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "capstan/gap/candidate_cause.h"
@@ -61,7 +62,7 @@ double OpenNumber::prior_std() const {
         case Kind::step:
             return 30.0;
         case Kind::periods:
-            return 1e3;
+            return std::numeric_limits<double>::infinity();  // nothing pulls at it: a search does not move it
         case Kind::shape:
         case Kind::place:
             return 1.0;

@@ -1,7 +1,9 @@
 // Fits of a bench whose model is wrong by far more than its sensors' noise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "capstan/gap/bench_knowledge.h"
 #include "capstan/gap/cause_fit.h"
@@ -58,6 +60,39 @@ TEST_F(DriveWithAnErrorInItsTorque, DoesNotSpoilTheFitOfTheAngle) {
     ASSERT_GT(rms(balanced, "motor_torque"), 10.0) << "the ripple is not part of the model";
     EXPECT_LT(rms(balanced, "load_angle"), 0.7 * rms(plain, "load_angle"));
     EXPECT_LT(rms(balanced, "motor_torque"), 1.5 * rms(plain, "motor_torque"));
+}
+
+// A ripple keeps the number of periods that its search begins with: another one is another search.
+TEST_F(DriveWithAnErrorInItsTorque, IsARippleOfAsManyPeriodsAsASearchBeginsWith) {
+    const std::vector<CandidateCause> causes = candidate_causes(bench_);
+    const auto ripple = std::find_if(causes.begin(), causes.end(), [](const CandidateCause& cause) {
+        return cause.effect == "motor_cogging";
+    });
+    ASSERT_NE(ripple, causes.end());
+    const CauseFitter fitter(bench_, {.segments = 12}, 1);
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    options.balanced = true;
+    std::map<double, double> misfits;
+    for (const double periods : {5.0, 6.0, 40.0}) {
+        const CauseFit fit = fitter.fit(
+            with_cause(nominal_hypothesis(knowledge_), &*ripple, Eigen::Vector3d(1.0, 1.0, periods)),
+            options);
+        EXPECT_EQ(fit.coordinates[fit.coordinates.size() - 1], periods);
+        misfits[periods] = fitter.misfit(fit);
+    }
+    EXPECT_LT(misfits[6.0], 0.1 * misfits[5.0]);
+    EXPECT_LT(misfits[6.0], 0.1 * misfits[40.0]);
+}
+
+// The scale of its error is not known, so that no channel counts less because little is left of it (E54).
+TEST_F(DriveWithAnErrorInItsTorque, IsWeighedByWhatIsLeftAlsoBelowNoiseAndFloor) {
+    for (Channel& channel : bench_.channels) channel.noise_std = channel.unit == "rad" ? 10.0 : 1.0;
+    const CauseFit fit = fitted(true);
+    ASSERT_LT(rms(fit, "load_angle"), 0.1);
+    const CauseFitter fitter(bench_, {.segments = 12}, 1);
+    for (std::size_t k = 0; k < fit.weights.size(); ++k)
+        EXPECT_NEAR(fit.weights[k] * rms(fit, bench_.channels[fitter.series()[k].channel].name), 1.0, 0.3);
 }
 
 TEST_F(DriveWithAnErrorInItsTorque, LeavesResidualsInUnitsOfNoise) {
