@@ -47,15 +47,20 @@ OpenNumber::Kind kind_of(const EffectParameter& parameter, double absent) {
     return parameter.low < absent ? OpenNumber::Kind::signed_size : OpenNumber::Kind::size;
 }
 
-// Normal force per length where the cable bends, at the runs' mean pretension: about where a bench works.
-double usual_normal_force_N_per_m(const Recording& recording) {
+// The mean over the runs [N].
+double usual_pretension_N(const Recording& recording) {
     double pretension_N = 0.0;
     for (const RecordedRun& run : recording.runs)
         pretension_N += run.pretension_N.value_or(0.0) / static_cast<double>(recording.runs.size());
+    return pretension_N;
+}
+
+// Normal force per length where the cable bends, at the runs' mean pretension: about where a bench works.
+double usual_normal_force_N_per_m(const Recording& recording) {
     double radius_m = straight;
     for (const CurvaturePiece& piece : recording.nominal->curvature)
         radius_m = std::min(radius_m, piece.bend_radius_m);
-    return pretension_N / radius_m;
+    return usual_pretension_N(recording) / radius_m;
 }
 
 // How far the motor turns in the recording [rad].
@@ -71,8 +76,8 @@ double unseen_half_gap_rad(const Recording& recording, const std::string& end) {
     return channel ? 0.5 * recording.channels[static_cast<std::size_t>(*channel)].step.value_or(0.0) : 0.0;
 }
 
-CandidateCause cause_of(const Effect& effect, double length_m, double normal_force_N_per_m,
-                        double turned_rad) {
+CandidateCause cause_of(const Effect& effect, const Recording& recording, double length_m) {
+    const double turned = turned_rad(recording);
     CandidateCause cause = plain(effect.name, effect.component);
     cause.variant = effect.variant;
     cause.end = effect.end;
@@ -83,8 +88,8 @@ CandidateCause cause_of(const Effect& effect, double length_m, double normal_for
         if (parameter.role == ParameterRole::normal_force) {
             // The reference of a power law and its factor are equivalent, and the factor is the friction
             // itself.
-            values[k] = normal_force_N_per_m;
-            cause.given.push_back({parameter.name, parameter.unit, normal_force_N_per_m});
+            values[k] = usual_normal_force_N_per_m(recording);
+            cause.given.push_back({parameter.name, parameter.unit, values[k]});
             continue;
         }
         OpenNumber number{parameter.name,    parameter.unit,     kind_of(parameter, effect.absent[k]),
@@ -92,8 +97,14 @@ CandidateCause cause_of(const Effect& effect, double length_m, double normal_for
                           parameter.high,    parameter.resonates};
         if (number.kind == OpenNumber::Kind::place) number.typical = length_m;
         // A ripple of which less than half a period was seen is any function of the position.
-        if (number.kind == OpenNumber::Kind::periods && turned_rad > 0.0)
-            number.low = std::clamp(std::ceil(std::numbers::pi / turned_rad), number.low, number.high);
+        if (number.kind == OpenNumber::Kind::periods && turned > 0.0)
+            number.low = std::clamp(std::ceil(std::numbers::pi / turned), number.low, number.high);
+        // Forces of a bench whose radii are not known are in proportion to its pretension, and so are the
+        // tensions at which something happens.
+        if (number.kind == OpenNumber::Kind::shape && number.unit == "N" && recording.nominal_is_fitted) {
+            const double scale = usual_pretension_N(recording) / number.typical;
+            for (double* force : {&number.typical, &number.low, &number.high}) *force *= scale;
+        }
         cause.numbers.push_back(number);
         open.push_back(k);
     }
@@ -141,8 +152,10 @@ std::vector<CandidateCause> sensor_causes(const std::string& channel, double spa
         cause.numbers = {{"size", fault.unit, kind_of_fault(fault.size),
                           fault.typical * unit_of_typical(fault.typical_of), SensorFaults().*fault.value,
                           -1e3, 1e3}};
-        if (lattice && fault.size == SensorFault::Size::lattice)
+        if (lattice && fault.size == SensorFault::Size::lattice) {
             cause.numbers.front().low = cause.numbers.front().high = *lattice;
+            cause.is_seen = true;
+        }
         cause.apply = [channel, value = fault.value](BenchNumbers& numbers, Values values) {
             numbers.sensor_faults[channel].*value = values[0];
         };
@@ -240,8 +253,7 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
     causes.insert(causes.end(), {friction, stiffness, pretension});
     for (const Effect& effect : effect_catalogue()) {
         if (effect.needs_pair && recording.mode == BenchMode::single_cable) continue;
-        CandidateCause cause =
-            cause_of(effect, length_m, usual_normal_force_N_per_m(recording), turned_rad(recording));
+        CandidateCause cause = cause_of(effect, recording, length_m);
         if (effect.name == "backlash") cause.numbers.front().low = unseen_half_gap_rad(recording, effect.end);
         causes.push_back(std::move(cause));
     }

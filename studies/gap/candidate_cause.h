@@ -65,6 +65,8 @@ struct CandidateCause {
     std::function<void(BenchNumbers&, std::span<const double> values)> apply;
     /// A wrong number, a zero or a gain: nothing of its law is an idealisation.
     bool is_exact = false;
+    /// The values themselves show it, as those of a coarse channel lie on a lattice. It is not inferred.
+    bool is_seen = false;
     std::string varies;  ///< the condition of the runs that the numbers follow; empty: none
     /// How far friction, stiffness and pretension may be from their nominal values (logarithms, standard
     /// deviation): one of them far, if that is the cause.

@@ -176,11 +176,11 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     std::size_t fitted = 0;
     for (const Further& each : all) {
         // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
-        // numbers.
+        // numbers; and so is a cause that the values themselves show.
         if (is_out_of_time()) break;
-        const bool nominal_number = each.cause->numbers.empty();
-        if (fitted == max_fitted && !nominal_number) continue;
-        if (!nominal_number) ++fitted;
+        const bool is_always_fitted = each.cause->numbers.empty() || each.cause->is_seen;
+        if (fitted == max_fitted && !is_always_fitted) continue;
+        if (!is_always_fitted) ++fitted;
         add_single(level, each, singles);
     }
     sort_by_evidence(singles);

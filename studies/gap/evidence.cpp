@@ -25,14 +25,14 @@ constexpr double further_cause_penalty = 3.9;
 // On a bench whose zeros and bearings float, these explain what is usual; a cause beside them is one of about
 // fifty: ln 50.
 constexpr double cause_beside_floating_numbers_penalty = 3.9;
+// Values of a channel lie on an unstated lattice by chance with no probability to speak of: e^-10.
+constexpr double seen_gain = 10.0;
 // A cause outside the list is rarer than the causes in it.
 constexpr double unknown_penalty = 4.0;
 // A model's floor is known to about a quarter, and a cause's law to law_error of what the cause does. A
 // discrepancy of that size belongs to the model of a named cause.
 constexpr double floor_error = 0.25;
 constexpr double law_error = 0.1;
-// A discrepancy that is a cause of its own is visible.
-constexpr double min_unknown_size = 1.0;
 // The standard deviation of noise and floor together is known to a tenth: of ln variance twice that.
 constexpr double scale_error = 0.2;
 // What a number costs that a recording determines to a fiftieth of what was probable: ln 50 (E57).
@@ -51,6 +51,17 @@ constexpr double anything_fraction = 0.02;
 // acts beside such numbers comes after them, and before every cause that would.
 constexpr double bench_fraction = 0.25;
 constexpr double none_beside_numbers_fraction = 0.1;
+
+// What it costs to name something, in the list or outside it, that changes a channel by this rms.
+double invisible(double change) {
+    return invisible_penalty * std::max(0.0, 1.0 - change / visible);
+}
+
+// Of a discrepancy, in units of noise and floor. Where the scale of the channels' errors is not known, it was
+// sought in proportion to that.
+double absolute_size(const ScoredFit& fit, std::size_t k) {
+    return discrepancy_sizes[k] * (fit.has_unknown_scales ? std::sqrt(fit.beside[k].misfit) : 1.0);
+}
 
 using Effects = std::vector<std::string>;  // of a hypothesis, sorted
 
@@ -107,6 +118,16 @@ void give_unknown_its_fraction(std::map<std::string, double>& shares, double fra
     shares["unknown"] = shares.empty() ? 1.0 : fraction;
 }
 
+// How visible the effect is in an explanation.
+double visibility_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
+    double most = 0.0;
+    const std::vector<const CandidateCause*>& causes = hypothesis.fit->fit.causes;
+    for (std::size_t k = 0; k < causes.size(); ++k) {
+        if (causes[k]->effect == effect) most = std::max(most, hypothesis.fit->visibility[k]);
+    }
+    return most;
+}
+
 // The condition that the effect follows in an explanation; empty: none.
 std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
     for (const CandidateCause* cause : hypothesis.fit->fit.causes) {
@@ -137,7 +158,7 @@ double Evidence::of(const ScoredFit& fit) const {
 double Evidence::with_unknown(const ScoredFit& fit) const {
     const bool named = fit.fit.causes.front()->effect != "none";
     const double prior = priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior);
-    const double function = marginal(fit, [](double size) { return size >= min_unknown_size ? 1.0 : 0.0; });
+    const double function = marginal(fit, [](double size) { return std::exp(-invisible(size)); });
     if (fit.channel_misfits.empty()) return prior + function;
     const double any = of_any_residuals(fit);
     const double most = std::max(function, any);
@@ -151,8 +172,7 @@ double Evidence::of_any_residuals(const ScoredFit& fit) const {
     const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());
     const double size = std::sqrt(std::max(0.0, most - tenable_mean_square(fit)));
     const double of_the_size = 0.5 * std::log(samples_);
-    return log_likelihood(fit, fit.misfit) + fit.fit.log_volume_ratio - of_the_size -
-           invisible_penalty * std::max(0.0, 1.0 - size / min_unknown_size);
+    return log_likelihood(fit, fit.misfit) + fit.fit.log_volume_ratio - of_the_size - invisible(size);
 }
 
 // The logarithm of the likelihood's mean over the sizes of the discrepancy.
@@ -161,12 +181,12 @@ double Evidence::marginal(const ScoredFit& fit, const std::function<double(doubl
     std::array<double, discrepancy_sizes.size()> each{};
     for (std::size_t k = 0; k < each.size(); ++k) {
         each[k] = log_likelihood(fit, fit.beside[k].misfit) - 0.5 * fit.beside[k].log_determinant;
-        if (weight(discrepancy_sizes[k]) > 0.0) most = std::max(most, each[k]);
+        if (weight(absolute_size(fit, k)) > 0.0) most = std::max(most, each[k]);
     }
     double sum = 0.0;
     double weights = 0.0;
     for (std::size_t k = 0; k < each.size(); ++k) {
-        const double its = weight(discrepancy_sizes[k]);
+        const double its = weight(absolute_size(fit, k));
         weights += its;
         if (its > 0.0) sum += its * std::exp(each[k] - most);
     }
@@ -175,24 +195,24 @@ double Evidence::marginal(const ScoredFit& fit, const std::function<double(doubl
 
 double Evidence::priors(const ScoredFit& fit) const {
     double evidence = -fit.nominal_penalty - fit.shape_penalty - fit.unproven_penalty;
+    double inferred = 0.0;  // causes
+    double faintest = 1.0;  // of the inferred causes, relative to the clearest law beside it
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         const CandidateCause& cause = *fit.fit.causes[k];
-        if (cause.effect == "none") {
-            evidence += none_log_prior;
+        if (cause.effect == "none") continue;
+        if (cause.is_seen) {
+            evidence += seen_gain;
             continue;
         }
-        evidence -= invisible_penalty * std::max(0.0, 1.0 - fit.visibility[k] / visible);
+        inferred += 1.0;
+        evidence -= invisible(fit.visibility[k]);
         if (cause.family == "sensor") evidence -= sensor_fault_penalty;
-    }
-    if (!fit.fit.bench->is_measured() && fit.fit.causes.front()->effect != "none")
-        evidence -= cause_beside_floating_numbers_penalty;
-    if (fit.fit.causes.size() < 2) return evidence;
-    double faintest = 1.0;  // relative to the clearest law beside it
-    for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         const double law = clearest_law(fit, k);
         if (law > 0.0) faintest = std::min(faintest, fit.visibility[k] / law);
     }
-    return evidence - further_cause_penalty * static_cast<double>(fit.fit.causes.size() - 1) -
+    if (inferred == 0.0) return evidence + none_log_prior;
+    if (!fit.fit.bench->is_measured()) evidence -= cause_beside_floating_numbers_penalty;
+    return evidence - further_cause_penalty * (inferred - 1.0) -
            faint_penalty * std::max(0.0, 1.0 - faintest / faint);
 }
 
@@ -236,8 +256,13 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
                                          const std::vector<WeighedHypothesis>& weighed) {
     std::map<std::string, RankedEffect> ranked_by_name = {{"unknown", {"unknown"}}};
     for (const CandidateCause& cause : causes) ranked_by_name[cause.effect].effect = cause.effect;
-    // Effects with almost no probability are ordered by their best hypothesis.
-    std::map<std::string, double> best;
+    // Effects with almost no probability are ordered by their best hypothesis, and causes that act together
+    // by how clear they are in it.
+    struct Best {
+        double evidence = -std::numeric_limits<double>::infinity();
+        double visibility = 0.0;
+    };
+    std::map<std::string, Best> best;
     for (const WeighedHypothesis& each : weighed) {
         std::map<std::string, double> shares;
         for (const std::string& effect : each.effects) shares[effect] = 1.0;
@@ -252,7 +277,8 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
             ranked.effect = effect;
             ranked.probability += each.probability * share / sum;
             ranked.present += each.probability;
-            if (best.emplace(effect, each.evidence).second) ranked.varies = varies_in(each, effect);
+            if (best.emplace(effect, Best{each.evidence, visibility_in(each, effect)}).second)
+                ranked.varies = varies_in(each, effect);
         }
     }
     std::vector<RankedEffect> ranked;
@@ -262,14 +288,17 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         each.present = (1.0 - anything_fraction) * each.present + anything;
         ranked.push_back(each);
     }
-    const auto evidence_of = [&](const RankedEffect& each) {
+    const auto best_of = [&](const RankedEffect& each) {
         const auto known = best.find(each.effect);
-        return known == best.end() ? -std::numeric_limits<double>::infinity() : known->second;
+        return known == best.end() ? Best{} : known->second;
     };
     std::stable_sort(ranked.begin(), ranked.end(), [&](const RankedEffect& a, const RankedEffect& b) {
         constexpr double equal = 1e-9;
         if (std::abs(a.probability - b.probability) > equal) return a.probability > b.probability;
-        return evidence_of(a) > evidence_of(b);
+        const Best of_a = best_of(a);
+        const Best of_b = best_of(b);
+        return of_a.evidence != of_b.evidence ? of_a.evidence > of_b.evidence
+                                              : of_a.visibility > of_b.visibility;
     });
     return ranked;
 }

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "capstan/gap/candidate_cause.h"
 #include "sample_recording.h"
 
@@ -38,6 +41,42 @@ TEST(CandidateCauses, HoldNoLostMotionOfLessThanHalfAStepOfTheEncoderAtItsEnd) {
         EXPECT_DOUBLE_EQ(cause.numbers.front().value(1e-6), cause.end == "motor" ? 2e-3 : 5e-4);
     }
     EXPECT_EQ(ends, 2);
+}
+
+const CandidateCause& the_one(const std::vector<CandidateCause>& causes, const std::string& effect) {
+    return *std::find_if(causes.begin(), causes.end(),
+                         [&](const CandidateCause& cause) { return cause.effect == effect; });
+}
+
+// Radii and forces of a drive of unknown geometry are of an equivalent one.
+TEST(CandidateCauses, SeekTheToeOfACableAtAboutTheTensionOfABenchOfUnknownGeometry) {
+    Recording recording = driven_session();
+    const double stated_N =
+        the_one(candidate_causes(recording), "cable_stiffness_nonlinear").numbers[1].typical;
+    for (RecordedRun& run : recording.runs) run.pretension_N = 0.3;
+    EXPECT_EQ(the_one(candidate_causes(recording), "cable_stiffness_nonlinear").numbers[1].typical, stated_N);
+    recording.nominal_is_fitted = true;
+    const std::vector<CandidateCause> causes = candidate_causes(recording);
+    const OpenNumber& toe_tension = the_one(causes, "cable_stiffness_nonlinear").numbers[1];
+    EXPECT_DOUBLE_EQ(toe_tension.typical, 0.3);
+    EXPECT_LT(toe_tension.low, 0.01);
+    EXPECT_GT(toe_tension.high, 100.0);
+}
+
+TEST(CandidateCauses, AreSeenWhereAChannelsValuesLieOnALattice) {
+    Recording recording = driven_session();
+    const auto load_torque = static_cast<std::size_t>(*recording.channel("load_torque"));
+    for (RecordedRun& run : recording.runs) {
+        run.values[load_torque].clear();
+        for (const double time_s : run.time_s)
+            run.values[load_torque].push_back(0.07 * std::round(std::sin(time_s) / 0.07));
+    }
+    int seen = 0;
+    for (const CandidateCause& cause : candidate_causes(recording)) {
+        EXPECT_EQ(cause.is_seen, cause.effect == "sensor_quantization");
+        seen += cause.is_seen ? 1 : 0;
+    }
+    EXPECT_EQ(seen, 1);
 }
 
 }  // namespace

@@ -86,6 +86,45 @@ TEST(Evidence, CountsWhatIsLeftBelowTheFloorOnlyWhereTheScaleOfAnErrorIsNotKnown
     EXPECT_GT(gain_of_a_cause(true), gain_of_a_cause(false) + 50.0);
 }
 
+// What the values of a channel show needs no inference, however faint it is.
+TEST(Evidence, NamesAFaintCauseThatIsSeen) {
+    Known known;
+    const auto probability_of_steps = [&] {
+        return probability(ranked_by(evidence, {known.none, known.gain},
+                                     {fitted(evidence, {&known.none}, 0.5, {0.0}),
+                                      fitted(evidence, {&known.gain}, 0.45, {0.3})}),
+                           "sensor_gain");
+    };
+    EXPECT_LT(probability_of_steps(), 0.1);
+    known.gain.is_seen = true;
+    EXPECT_GT(probability_of_steps(), 0.9);
+}
+
+// A discrepancy in proportion to a small error of unknown scale is as small as that error.
+TEST(Evidence, StructureBelowNoiseAndFloorIsNoUnknownCause) {
+    const Known known;
+    const auto probability_of_unknown = [&](double misfit) {
+        ScoredFit none = fitted(evidence, {&known.none}, misfit, {0.0});
+        none.has_unknown_scales = true;
+        for (std::size_t k = 3; k < discrepancy_sizes.size(); ++k) none.beside[k] = {0.3 * misfit, 20.0};
+        none.evidence = evidence.of(none);
+        return probability(ranked_by(evidence, {known.none}, {none}), "unknown");
+    };
+    EXPECT_LT(probability_of_unknown(0.05), 0.1);
+    EXPECT_GT(probability_of_unknown(20.0), 0.9);
+}
+
+TEST(Evidence, OfCausesThatActTogetherTheClearerOneLeads) {
+    const Known known;
+    for (const double of_gain : {2.0, 9.0}) {
+        const auto ranked = ranked_by(evidence, {known.none, known.drag, known.gain},
+                                      {fitted(evidence, {&known.none}, 20.0, {0.0}),
+                                       fitted(evidence, {&known.drag, &known.gain}, 1.0, {5.0, of_gain})});
+        EXPECT_EQ(ranked.front().effect, of_gain > 5.0 ? "sensor_gain" : "viscous_friction");
+        EXPECT_NEAR(ranked[0].probability, ranked[1].probability, 1e-12);
+    }
+}
+
 TEST(Evidence, FavoursTheCauseThatLeavesOnlyNoise) {
     const Known known;
     const auto ranked =
