@@ -203,6 +203,7 @@ BenchKnowledge built_bench(const Recording& recording) {
     constexpr double bearing_part = 0.03;
     BenchKnowledge bench{ratios(of_values, recording.nominal->spread)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
+    bench.numbers.push_back(presliding_of_bearings());
     return bench;
 }
 
