@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <optional>
 
 #include "capstan/platform/parallel_for.h"
 #include "capstan/recording/channel_range.h"
@@ -228,17 +230,37 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     return fit;
 }
 
-CauseFit CauseFitter::rough_fit(const Hypothesis& start, const SeriesWeights& weights) const {
+CauseFit CauseFitter::rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights) const {
     constexpr int few_iterations = 3;
+    constexpr std::size_t max_continued = 2;
     int evaluations = 0;
-    Hypothesis from = start;
-    from.coordinates = roughly_sized(start, {}, weights, evaluations);
-    CauseFit fit = fit_with(weights, from, {}, few_iterations, rough_step);
-    fit.evaluations += evaluations;
-    Eigen::VectorXd weighted = fit.residuals;
-    apply(weights, weighted);
-    fit.sum_of_squares = weighted.squaredNorm();
-    return fit;
+    std::vector<Hypothesis> sized(starts.begin(), starts.end());
+    for (Hypothesis& each : sized) each.coordinates = roughly_sized(each, {}, weights, evaluations);
+    if (sized.size() > max_continued) {
+        evaluations += static_cast<int>(sized.size());
+        Eigen::MatrixXd left = data_residuals(sized);
+        apply(weights, left);
+        const Eigen::VectorXd sums = left.colwise().squaredNorm();
+        std::vector<Eigen::Index> order(sized.size());
+        std::iota(order.begin(), order.end(), Eigen::Index{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](Eigen::Index a, Eigen::Index b) { return sums[a] < sums[b]; });
+        std::vector<Hypothesis> best;
+        for (std::size_t k = 0; k < max_continued; ++k)
+            best.push_back(sized[static_cast<std::size_t>(order[k])]);
+        sized = std::move(best);
+    }
+    std::optional<CauseFit> least;
+    for (const Hypothesis& from : sized) {
+        CauseFit fit = fit_with(weights, from, {}, few_iterations, rough_step);
+        evaluations += fit.evaluations;
+        Eigen::VectorXd weighted = fit.residuals;
+        apply(weights, weighted);
+        fit.sum_of_squares = weighted.squaredNorm();
+        if (!least || fit.sum_of_squares < least->sum_of_squares) least = std::move(fit);
+    }
+    least->evaluations = evaluations;
+    return *least;
 }
 
 LeastSquaresOptions CauseFitter::search_from(const Hypothesis& start) const {

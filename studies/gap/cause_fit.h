@@ -109,9 +109,9 @@ class CauseFitter {
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
     /// The same causes with the same weights, fitted without each part in turn, from the numbers of `all`.
     std::vector<CauseFit> fits_without(const CauseFit& all, std::span<const LeftOut> parts) const;
-    /// A few rough steps of a search, everything free, with these weights. The sum of squares has weights and
-    /// priors.
-    CauseFit rough_fit(const Hypothesis& start, const SeriesWeights& weights) const;
+    /// A few rough steps of a search, everything free, with these weights, from the more promising of the
+    /// starts: at least one. The sum of squares has weights.
+    CauseFit rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights) const;
     /// Residuals of the data, a column a hypothesis.
     Eigen::MatrixXd data_residuals(std::span<const Hypothesis> hypotheses,
                                    std::optional<LeftOut> left_out = {}) const;

@@ -17,10 +17,12 @@ namespace {
 constexpr std::size_t max_fitted = 8;
 // The screening uses fewer segments and samples. A drive of unknown geometry has no bend at a place, so few
 // segments are enough. But it is moved by two recorded channels: what is left of their noise moves it to and
-// fro, and friction remembers it, so no sample is skipped.
+// fro, and friction remembers it, so samples are skipped only of what was recorded faster than a hand moves.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
-    return recording.nominal_is_fitted ? EffectsTwinOptions{.segments = 12, .stride = stride}
-                                       : EffectsTwinOptions{.segments = 24, .stride = 2 * stride};
+    constexpr double enough_Hz = 100.0;
+    if (!recording.nominal_is_fitted) return {.segments = 24, .stride = 2 * stride};
+    const int skipped = std::max(1, static_cast<int>(recording.sample_rate_Hz / enough_Hz));
+    return {.segments = 9, .stride = skipped * stride};
 }
 
 // Fits that a search usually makes; progress is stated in parts of it.
@@ -172,7 +174,7 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
                                    ? start
                                    : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
-    const std::vector<Further> all = screened(level, nothing, singles.front().fit.weights);
+    const std::vector<Further> all = screened(level, nothing, singles.front().fit.weights, true);
     std::size_t fitted = 0;
     for (const Further& each : all) {
         // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal

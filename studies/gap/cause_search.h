@@ -96,12 +96,17 @@ class CauseSearch {
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);
     void try_fewer(const Level& level, Fits& all);
+    void refine(const Level& level, Fits& all);
+    void try_periods(const Level& level, Fits& sets);
+    void try_usual_numbers(const Level& level, Fits& all);
+    void try_swapping(const Level& level, Fits& all);
+    void add_fit(const Level& level, const Hypothesis& set, Fits& all);
     void try_replacing(const Level& level, Fits& sets);
     void try_others(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;
     void add_measured_sets(const ScoredFit& built, Fits& all);
-    std::vector<Further> screened(const Level& level, const Hypothesis& present,
-                                  const SeriesWeights& weights);
+    std::vector<Further> screened(const Level& level, const Hypothesis& present, const SeriesWeights& weights,
+                                  bool begins_elsewhere);
     void add_single(const Level& level, const Further& further, Fits& singles);
     void add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles);
     static double pruned_at(const Fits& fits);

@@ -38,42 +38,47 @@ double CauseSearch::held_out_log_misfit(const Hypothesis& hypothesis, const Seri
     return sum / static_cast<double>(parts.size());
 }
 
-// A cause that does not help to predict what the fit did not see has only fitted the rest. The set without it
-// then goes before the set with it.
+// A cause that does not help to predict what the fit did not see may only have fitted the rest. It goes where
+// the predictions lose more by it than the fit has gained. The set without it then goes before the set with
+// it.
 void CauseSearch::drop_unearned_causes(Fits& fits) {
     constexpr std::size_t enough_runs = 3;
     constexpr double unearned_penalty = 4.0;
     if (run_count_ < enough_runs) return;
+    const double samples = fine_.fitter.independent_samples();
     while (fits.front().fit.causes.size() > 1 && !is_out_of_time()) {
         report("predicting each run from the others");
-        const Hypothesis all = fits.front().fit.hypothesis();
-        const SeriesWeights weights = fits.front().fit.weights;
+        const ScoredFit best = fits.front();
+        const Hypothesis all = best.fit.hypothesis();
         const std::vector<LeftOut> parts = left_out_in_turn(run_count_, all.causes);
-        double least = held_out_log_misfit(all, weights, parts);
-        std::optional<Hypothesis> earned;
+        const double with_all = held_out_log_misfit(all, best.fit.weights, parts);
+        std::optional<ScoredFit> earned;
+        double most_lost = 0.0;
         for (const CandidateCause* dropped : all.causes) {
             const Hypothesis fewer =
                 only_causes(all, [&](const CandidateCause& cause) { return &cause != dropped; });
-            const double misfit = held_out_log_misfit(fewer, weights, parts);
-            if (misfit > least) continue;
-            least = misfit;
-            earned = fewer;
+            const double lost =
+                0.5 * samples * (with_all - held_out_log_misfit(fewer, best.fit.weights, parts));
+            if (lost < most_lost) continue;
+            CauseFitter::FitOptions options;
+            options.any_size = false;
+            options.weights = best.fit.weights;
+            ScoredFit fit = scored(fine_, fine_.fitter.fit(fewer, options));
+            if (best.evidence - fit.evidence > lost) continue;
+            most_lost = lost;
+            earned = std::move(fit);
         }
         if (!earned) return;
-        CauseFitter::FitOptions options;
-        options.any_size = false;
-        options.weights = weights;
-        ScoredFit fewer = scored(fine_, fine_.fitter.fit(*earned, options));
         for (ScoredFit& each : fits) {
             const auto is_in = [&](const CandidateCause* cause) {
                 return std::find(each.fit.causes.begin(), each.fit.causes.end(), cause) !=
                        each.fit.causes.end();
             };
-            if (each.fit.bench == fewer.fit.bench && each.fit.causes.size() > fewer.fit.causes.size() &&
-                std::all_of(fewer.fit.causes.begin(), fewer.fit.causes.end(), is_in))
-                each.charge_unproven(std::max(0.0, each.evidence - (fewer.evidence - unearned_penalty)));
+            if (each.fit.bench == earned->fit.bench && each.fit.causes.size() > earned->fit.causes.size() &&
+                std::all_of(earned->fit.causes.begin(), earned->fit.causes.end(), is_in))
+                each.charge_unproven(std::max(0.0, each.evidence - (earned->evidence - unearned_penalty)));
         }
-        fits.push_back(std::move(fewer));
+        fits.push_back(std::move(*earned));
         sort_by_evidence(fits);
     }
 }

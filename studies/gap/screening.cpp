@@ -85,7 +85,7 @@ void add_probes(const CandidateCause& cause, std::vector<Probe>& probes) {
     }
 }
 
-std::vector<Probe> probes_of(const std::vector<CandidateCause>& causes, const Hypothesis& present) {
+std::vector<Probe> probes_of(std::span<const CandidateCause> causes, const Hypothesis& present) {
     std::vector<Probe> probes;
     for (const CandidateCause& cause : causes) {
         if (cause.effect != "none" &&
@@ -111,7 +111,7 @@ Eigen::VectorXd sized(const Probe& probe, const Eigen::VectorXd& weights) {
 
 }  // namespace
 
-std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<CandidateCause>& causes,
+std::vector<Screened> screen(const CauseFitter& fitter, std::span<const CandidateCause> causes,
                              const Hypothesis& present, const SeriesWeights& weights) {
     constexpr double step = 0.02;
     const Eigen::Index known = present.coordinates.size();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "capstan/gap/cause_fit.h"
@@ -16,7 +17,7 @@ struct Screened {
 /// A linear estimate of how much each cause could explain in addition to `present`, whose numbers are free to
 /// follow: least squares on the changes of the residuals, weighted by `weights`. Most promising first. The
 /// fitter may be a coarse one.
-std::vector<Screened> screen(const CauseFitter& fitter, const std::vector<CandidateCause>& causes,
+std::vector<Screened> screen(const CauseFitter& fitter, std::span<const CandidateCause> causes,
                              const Hypothesis& present, const SeriesWeights& weights = {});
 
 }  // namespace capstan::gap
