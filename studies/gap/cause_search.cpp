@@ -184,6 +184,17 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
         if (fitted == max_fitted && !is_always_fitted) continue;
         if (!is_always_fitted) ++fitted;
         add_single(level, each, singles);
+        // A few rough steps do not show which start leads to the best fit.
+        const SeriesWeights weights = singles.front().fit.weights;
+        for (const Eigen::VectorXd& numbers : further_starts(level.bench)) {
+            if (each.cause->numbers.empty() || is_out_of_time()) break;
+            const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
+            const Hypothesis start =
+                with_cause({{}, numbers, &level.bench}, each.cause, each.start.coordinates.tail(own));
+            const CauseFit rough = coarse_.fitter.rough_fit({&start, 1}, weights);
+            evaluations_ += rough.evaluations;
+            add_single(level, {each.cause, rough.hypothesis(), rough.sum_of_squares}, singles);
+        }
     }
     sort_by_evidence(singles);
     if (!worth_a_further_cause(singles.front()) && !is_out_of_time()) add_confusable(level, all, singles);

@@ -127,7 +127,7 @@ void CauseSearch::try_swapping(const Level& level, Fits& all) {
         const auto larger = std::find_if(all.begin(), all.end(), [&](const ScoredFit& each) {
             return each.fit.bench == &level.bench && each.fit.causes.size() == more;
         });
-        if (larger == all.end() || more == 2) return;
+        if (larger == all.end() || more == 2 || more > max_causes) return;
         const Hypothesis set = larger->fit.hypothesis();
         for (const CandidateCause* dropped : set.causes) {
             if (is_out_of_time()) break;
