@@ -1,0 +1,58 @@
+// Drives of unknown geometry from spent seeds of the trial, each of which a search once missed because it
+// ended in a local minimum. The simulator knows nothing of the engine.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "capstan/gap/diagnosis.h"
+#include "capstan/gap/equivalent_bench.h"
+#include "capstan/gap_trial/trial_case.h"
+#include "capstan/recording/recording_reader.h"
+#include "scratch_folder.h"
+
+namespace capstan::gap_trial {
+namespace {
+
+gap::Diagnosis diagnosed(std::uint64_t seed, int number) {
+    TrialOptions options;
+    options.seed = seed;
+    options.cases = 40;
+    const PlannedCase planned = plan_rigs(options).at(static_cast<std::size_t>(number - 1));
+    const ScratchFolder folder;
+    const CaseLabel label = make_rig_case(planned, options, folder.path());
+    const Recording drive = read_recording(folder.path() / (label.name + ".csv"));
+    return gap::diagnose(gap::equivalent_bench(drive, drive), {});
+}
+
+double present(const gap::Diagnosis& diagnosis, const std::string& effect) {
+    for (const gap::RankedEffect& each : diagnosis.ranked) {
+        if (each.effect == effect) return each.present;
+    }
+    return 0.0;
+}
+
+// The start that is best without a cause leads a drive with lost motion of 0.02 rad to a misfit of 227.
+TEST(SpentDrives, LargeLostMotionIsNamedBesideAStiffeningCable) {
+    const gap::Diagnosis diagnosis = diagnosed(84517, 38);
+    EXPECT_GT(present(diagnosis, "backlash"), 0.9);
+    EXPECT_GT(present(diagnosis, "cable_stiffness_nonlinear"), 0.9);
+    EXPECT_LT(diagnosis.misfit_after, 1.0);
+}
+
+// Without what follows the bending of the drive, the zero of its load torque makes up for it.
+TEST(SpentDrives, FrictionThatFollowsAConditionIsNamedBesideCreepAndARipple) {
+    const gap::Diagnosis diagnosis = diagnosed(77341, 4);
+    for (const char* effect : {"param_mu", "creep", "motor_cogging"})
+        EXPECT_GT(present(diagnosis, effect), 0.9) << effect;
+}
+
+// A torque that depends on the position, or a zero that follows a condition, stands for a ripple at first.
+TEST(SpentDrives, ARipplePreslidingAndAStiffeningCableAreNamedTogether) {
+    const gap::Diagnosis diagnosis = diagnosed(46213, 3);
+    for (const char* effect : {"cable_stiffness_nonlinear", "presliding", "motor_cogging"})
+        EXPECT_GT(present(diagnosis, effect), 0.9) << effect;
+}
+
+}  // namespace
+}  // namespace capstan::gap_trial
