@@ -189,9 +189,9 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
         for (const Eigen::VectorXd& numbers : further_starts(level.bench)) {
             if (each.cause->numbers.empty() || is_out_of_time()) break;
             const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
-            const Hypothesis start =
+            const Hypothesis elsewhere =
                 with_cause({{}, numbers, &level.bench}, each.cause, each.start.coordinates.tail(own));
-            const CauseFit rough = coarse_.fitter.rough_fit({&start, 1}, weights);
+            const CauseFit rough = coarse_.fitter.rough_fit({&elsewhere, 1}, weights);
             evaluations_ += rough.evaluations;
             add_single(level, {each.cause, rough.hypothesis(), rough.sum_of_squares}, singles);
         }

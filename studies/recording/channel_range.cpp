@@ -33,6 +33,7 @@ std::optional<double> unstated_step(const Recording& recording, std::size_t chan
     for (const RecordedRun& run : recording.runs)
         values.insert(values.end(), run.values[channel].begin(), run.values[channel].end());
     const std::size_t samples = values.size();
+    if (samples == 0) return {};
     std::sort(values.begin(), values.end());
     const double rounding = 1e-9 * (values.back() - values.front());
     values.erase(
