@@ -331,10 +331,14 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
 
 void CauseSearch::add_single(const Level& level, const Further& further, Fits& singles) {
     report("fitting " + in_words({further.cause}));
+    add_fit(level, further.start, level.bench.is_measured(), singles);
+}
+
+void CauseSearch::add_fit(const Level& level, const Hypothesis& start, bool any_size, Fits& fits) {
     CauseFitter::FitOptions options;
-    options.pruned_sum_of_squares = pruned_at(singles);
-    options.any_size = level.bench.is_measured();
-    singles.push_back(fitted(level, further.start, options));
+    options.pruned_sum_of_squares = pruned_at(fits);
+    options.any_size = any_size;
+    fits.push_back(fitted(level, start, options));
 }
 
 // Causes that are easily confused with the best one are fitted whatever the screening says.

@@ -54,6 +54,8 @@ class CauseSearch {
     const std::vector<CandidateCause>& causes() const { return described_.causes; }
 
   private:
+    static constexpr std::size_t max_fitted_further = 3;  // causes that get a full fit beside others
+    static constexpr std::size_t max_causes = 5;          // of a set
     // What is known of the bench, and what could be wrong with it.
     struct Level {
         BenchKnowledge bench;
@@ -100,7 +102,7 @@ class CauseSearch {
     void try_periods(const Level& level, Fits& sets);
     void try_usual_numbers(const Level& level, Fits& all);
     void try_swapping(const Level& level, Fits& all);
-    void add_fit(const Level& level, const Hypothesis& set, Fits& all);
+    void add_fit(const Level& level, const Hypothesis& start, bool any_size, Fits& fits);
     void try_replacing(const Level& level, Fits& sets);
     void try_others(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -11,15 +10,11 @@ namespace capstan::gap {
 
 namespace {
 
-// How many causes get a full fit beside others. Where the bench's numbers float widely, they take up much of
-// what a cause does, and the screening, which is linear, says less: beside the best set more are fitted.
-constexpr std::size_t max_fitted_further = 3;
+// Where the bench's numbers float widely, they take up much of what a cause does, and the screening, which is
+// linear, says less: beside the best set more causes are fitted than max_fitted_further.
 constexpr std::size_t max_fitted_beside_the_best = 8;
 // How many of the best sets of one size are extended.
 constexpr std::size_t max_extended = 2;
-constexpr std::size_t max_causes = 5;
-// A refinement of the best set that gains less evidence than this ends.
-constexpr double clear_gain = 1.0;
 
 // A wrong nominal number beside a cause that lets the same number go far already.
 bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
@@ -29,16 +24,6 @@ bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
             return true;
     }
     return false;
-}
-
-// Those of the bench's own numbers beyond the first three that are far from usual are as usual again: they
-// may have stood for a cause that is still to be found.
-Hypothesis with_usual_numbers(Hypothesis hypothesis) {
-    for (Eigen::Index k = nominal_coordinates; k < hypothesis.bench->size(); ++k) {
-        const FloatingNumber& number = hypothesis.bench->numbers[static_cast<std::size_t>(k)];
-        if (std::abs(hypothesis.coordinates[k]) > number.prior_std) hypothesis.coordinates[k] = 0.0;
-    }
-    return hypothesis;
 }
 
 }  // namespace
@@ -95,62 +80,6 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
     sort_by_evidence(all);
 }
 
-// On a bench of unknown geometry a set that was built up cause by cause may hold one that stands for
-// another, and so may a number of the bench.
-void CauseSearch::refine(const Level& level, Fits& all) {
-    constexpr int max_rounds = 2;
-    for (int round = 0; round < max_rounds && !is_out_of_time(); ++round) {
-        const double before = all.front().evidence;
-        try_usual_numbers(level, all);
-        try_swapping(level, all);
-        if (all.front().evidence < before + clear_gain) return;
-    }
-}
-
-// Further causes beside the best set, beside usual numbers of the bench.
-void CauseSearch::try_usual_numbers(const Level& level, Fits& all) {
-    const CauseFit best = all.front().fit;
-    const Hypothesis usual = with_usual_numbers(best.hypothesis());
-    if (best.causes.front()->effect == "none" || usual.coordinates == best.coordinates) return;
-    Fits sets;
-    add_sets(level, usual, best.weights, max_fitted_further, sets);
-    std::move(sets.begin(), sets.end(), std::back_inserter(all));
-    sort_by_evidence(all);
-}
-
-// The best set with one cause more than the best of all, without each of its causes in turn: the one that was
-// added may do what another one stood for.
-void CauseSearch::try_swapping(const Level& level, Fits& all) {
-    for (;;) {
-        const double before = all.front().evidence;
-        const std::size_t more = all.front().fit.causes.size() + 1;
-        const auto larger = std::find_if(all.begin(), all.end(), [&](const ScoredFit& each) {
-            return each.fit.bench == &level.bench && each.fit.causes.size() == more;
-        });
-        if (larger == all.end() || more == 2 || more > max_causes) return;
-        const Hypothesis set = larger->fit.hypothesis();
-        for (const CandidateCause* dropped : set.causes) {
-            if (is_out_of_time()) break;
-            report("trying fewer causes");
-            add_fit(level, only_causes(set, [&](const CandidateCause& each) { return &each != dropped; }),
-                    all);
-        }
-        sort_by_evidence(all);
-        if (all.front().evidence < before + clear_gain) return;
-        const Fits best = {all.front()};
-        Fits sets = larger_sets(level, best);
-        std::move(sets.begin(), sets.end(), std::back_inserter(all));
-        sort_by_evidence(all);
-    }
-}
-
-void CauseSearch::add_fit(const Level& level, const Hypothesis& set, Fits& all) {
-    CauseFitter::FitOptions options;
-    options.any_size = false;
-    options.pruned_sum_of_squares = pruned_at(all);
-    all.push_back(fitted(level, set, options));
-}
-
 // The best set without each of its causes in turn, from where the set led: a smaller set may have been left
 // in a local minimum.
 void CauseSearch::try_fewer(const Level& level, Fits& all) {
@@ -165,7 +94,7 @@ void CauseSearch::try_fewer(const Level& level, Fits& all) {
             Hypothesis fewer =
                 only_causes(best, [&](const CandidateCause& cause) { return &cause != dropped; });
             if (fewer.causes.empty()) fewer = with_cause(fewer, &level.causes.front(), {});
-            add_fit(level, fewer, all);
+            add_fit(level, fewer, false, all);
         }
         sort_by_evidence(all);
         if (all.front().evidence == before) return;
@@ -329,71 +258,8 @@ void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, con
         };
         if (level.bench.is_measured() && std::any_of(sets.begin(), sets.end(), same)) continue;
         report("fitting " + in_words(set));
-        CauseFitter::FitOptions options;
-        options.pruned_sum_of_squares = pruned_at(sets);
-        options.any_size = level.bench.is_measured();
-        sets.push_back(fitted(level, each.start, options));
+        add_fit(level, each.start, level.bench.is_measured(), sets);
     }
-}
-
-// A ripple was screened beside numbers of the bench that had made up for it. With them free, another number
-// of periods may be better: of the best set that has a ripple, the most promising numbers are fitted, and
-// then their neighbours.
-void CauseSearch::try_periods(const Level& level, Fits& sets) {
-    constexpr std::size_t max_fitted_periods = 3;
-    const auto ripple_of = [](const Hypothesis& set) {
-        Eigen::Index at = set.bench->size();
-        for (const CandidateCause* cause : set.causes) {
-            for (const OpenNumber& number : cause->numbers) {
-                if (number.kind == OpenNumber::Kind::periods) return std::pair{&number, at};
-                ++at;
-            }
-        }
-        return std::pair<const OpenNumber*, Eigen::Index>{nullptr, 0};
-    };
-    const auto found = std::find_if(sets.begin(), sets.end(), [&](const ScoredFit& each) {
-        return ripple_of(each.fit.hypothesis()).first != nullptr;
-    });
-    if (found == sets.end()) return;
-    ScoredFit best = *found;
-    const auto [number, at] = ripple_of(best.fit.hypothesis());
-    std::vector<double> tried = {number->value(best.fit.coordinates[at])};
-    report("trying other numbers of periods");
-    const auto with_periods = [&, at = at](double periods) {
-        Hypothesis other = best.fit.hypothesis();
-        other.coordinates[at] = periods;
-        return other;
-    };
-    const auto fit_with_periods = [&](const Hypothesis& start) {
-        add_fit(level, start, sets);
-        if (sets.back().evidence > best.evidence) best = sets.back();
-    };
-    std::vector<std::pair<double, Hypothesis>> promising;  // by the sum of squares
-    for (const double periods : number->starts()) {
-        if (periods == tried.front() || is_out_of_time()) continue;
-        const Hypothesis other = with_periods(periods);
-        const CauseFit rough = coarse_.fitter.rough_fit({&other, 1}, best.fit.weights);
-        evaluations_ += rough.evaluations;
-        promising.emplace_back(rough.sum_of_squares, rough.hypothesis());
-    }
-    std::stable_sort(promising.begin(), promising.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t k = 0; k < std::min(max_fitted_periods, promising.size()); ++k) {
-        tried.push_back(promising[k].second.coordinates[at]);
-        fit_with_periods(promising[k].second);
-    }
-    for (bool climbs = true; climbs && !is_out_of_time();) {
-        const double middle = number->value(best.fit.coordinates[at]);
-        for (const double periods : {middle - 1.0, middle + 1.0}) {
-            if (number->value(periods) != periods ||
-                std::find(tried.begin(), tried.end(), periods) != tried.end())
-                continue;
-            tried.push_back(periods);
-            fit_with_periods(with_periods(periods));
-        }
-        climbs = number->value(best.fit.coordinates[at]) != middle;
-    }
-    sort_by_evidence(sets);
 }
 
 }  // namespace capstan::gap

@@ -101,7 +101,7 @@ TEST(Evidence, NamesAFaintCauseThatIsSeen) {
 }
 
 // A discrepancy in proportion to a small error of unknown scale is as small as that error.
-TEST(Evidence, StructureBelowNoiseAndFloorIsNoUnknownCause) {
+TEST(Evidence, StructureBelowNoiseAndFloorIsNotAnUnknownCause) {
     const Known known;
     const auto probability_of_unknown = [&](double misfit) {
         ScoredFit none = fitted(evidence, {&known.none}, misfit, {0.0});
