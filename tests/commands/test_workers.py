@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import sqlite3
 import time
@@ -27,6 +28,9 @@ class FolderTest(CapstanTest):
 class Workers(FolderTest):
     def setUp(self):
         super().setUp()
+        self.submit()
+
+    def submit(self):
         self.run_capstan("study", "submit", *STUDY, "--scheduler", "snakemake", "--shards", SHARDS, "--directory", "study")
 
     def status(self):
@@ -50,20 +54,35 @@ class Workers(FolderTest):
         self.assert_same_bits(self.tables("complete.db"), self.tables("study/study.db"))
         self.assertEqual(self.states(), ["done"] * SHARDS)
 
-    def stop_in_the_middle(self, worker):
-        """Of its first shard: it has stored a unit of it and not all. Returns its shard."""
-        def stored():
-            for shard in self.held():
-                try:
-                    with sqlite3.connect(f"file:{self.folder}/study/shard-{shard}-of-{SHARDS}.db?mode=ro", uri=True) as connection:
-                        if connection.execute("SELECT sum(done) FROM work_unit").fetchone()[0]:
-                            return shard
-                except sqlite3.Error:
-                    pass
-            return None
-        self.wait("a stored unit", stored)
-        worker.send_signal(signal.SIGSTOP)
-        return self.held()[0]
+    def units(self, shard):
+        """Of the shard's file: how many are stored, and how many there are."""
+        try:
+            with sqlite3.connect(f"file:{self.folder}/study/shard-{shard}-of-{SHARDS}.db?mode=ro", uri=True) as connection:
+                return connection.execute("SELECT ifnull(sum(done), 0), count(*) FROM work_unit").fetchone()
+        except sqlite3.Error:
+            return 0, 0
+
+    def in_the_middle(self):
+        return next((shard for shard in self.held() if 0 < self.units(shard)[0] < self.units(shard)[1]), None)
+
+    def stopped_in_the_middle(self, *words):
+        """A worker that was stopped when it had stored a unit of its first shard and not all, and the shard. A busy machine may stop it too
+        late: then the study begins again."""
+        end = time.monotonic() + 120
+        while True:
+            worker = self.worker(*words)
+            self.wait("a stored unit or the worker's end", lambda: self.in_the_middle() or worker.poll() is not None)
+            if worker.poll() is None:
+                worker.send_signal(signal.SIGSTOP)
+                os.waitid(os.P_PID, worker.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
+                shard = self.in_the_middle()
+                if shard:
+                    return worker, shard
+                worker.kill()
+            worker.communicate()
+            self.assertLess(time.monotonic(), end, "no worker was stopped in the middle of a shard")
+            shutil.rmtree(self.folder / "study")
+            self.submit()
 
     def test_three_workers_share_the_shards(self):
         workers = [self.worker() for _ in range(3)]
@@ -74,8 +93,7 @@ class Workers(FolderTest):
         self.assertEqual([path.name for path in (self.folder / "study/leases").iterdir() if not path.name.endswith(".done")], [])
 
     def test_the_shard_of_a_killed_worker_is_done_by_another(self):
-        dead = self.worker()
-        shard = self.stop_in_the_middle(dead)
+        dead, shard = self.stopped_in_the_middle()
         dead.kill()
         dead.wait()
         lease = self.folder / f"study/leases/shard-{shard}.lease"
@@ -87,8 +105,7 @@ class Workers(FolderTest):
 
     def test_a_slow_worker_does_not_hold_the_result(self):
         """The slowest there is: stopped in the middle, its lease renewed as by one that lives."""
-        slow = self.worker("--shard", 3)
-        self.assertEqual(self.stop_in_the_middle(slow), 3)
+        slow, _ = self.stopped_in_the_middle("--shard", 3)
         lease = self.folder / "study/leases/shard-3.lease"
         later = time.time() + 600  # a beat that is not stale for the length of the test
         os.utime(lease, (later, later))
@@ -107,8 +124,7 @@ class Workers(FolderTest):
         self.assert_complete()
 
     def test_a_stopped_worker_goes_on(self):
-        worker = self.worker()
-        self.stop_in_the_middle(worker)
+        worker, _ = self.stopped_in_the_middle()
         worker.send_signal(signal.SIGINT)
         worker.send_signal(signal.SIGCONT)
         _, messages = worker.communicate(timeout=60)
@@ -118,25 +134,25 @@ class Workers(FolderTest):
         self.assert_complete()
 
     def test_status_says_who_works_what_failed_and_what_is_left(self):
+        slow, _ = self.stopped_in_the_middle("--shard", 2)
         self.end_of(self.worker("--shard", 1))
-        slow = self.worker("--shard", 2)
-        self.stop_in_the_middle(slow)
         self.write("study/shard-4-of-8.db", "not a database" * 200)
         with open(self.folder / "study/logs/shard-4.log", "w") as log:
             failed = self.start_capstan("study", "work", "study", "--shard", 4)
             _, messages = failed.communicate()
             log.write(messages)
         self.assertEqual(failed.returncode, 3)
+        lease = self.folder / "study/leases/shard-2.lease"
+        worker = lease.read_text().split()[0]
+        lease.write_text(f"{worker} {time.time()}\n")
         status = self.status()
-        self.assertEqual(self.states()[:5], ["done", "running", "not_started", "unfinished", "not_started"])
+        self.assertEqual([shard["state"] for shard in status["shards"]][:5], ["done", "running", "not_started", "unfinished", "not_started"])
         self.assertIn("shard-4-of-8.db is not a database", status["shards"][3]["message"])
         self.assertTrue(status["shards"][1]["worker"].endswith(f"-{slow.pid}"))
         self.assertEqual(status["workers"], 1)
         seconds = json.loads((self.folder / "study/leases/shard-1.done").read_text())["seconds"]
         self.assertAlmostEqual(status["left_core_h"], 7 * seconds / 3600)
-        lease = self.folder / "study/leases/shard-2.lease"
-        begun = lease.read_text().split()
-        lease.write_text(f"{begun[0]} {float(begun[1]) - 100}\n")
+        lease.write_text(f"{worker} {time.time() - 100}\n")
         self.assertEqual(self.states()[1], "late")
 
     def test_the_last_worker_merges_and_nobody_twice(self):
