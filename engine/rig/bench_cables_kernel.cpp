@@ -99,21 +99,25 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
 
     const Lanes full_rigid_N = mechanics.constant_drag_N(group.segment_m);
     const Lanes viscous_N_per_m = mechanics.sliding_drag_N_per_m(group.segment_m);
+    const Lanes bristle_m = static_cast<const PreslidingLaw<Lanes>&>(mechanics).length_m;
     for (int node = 1; node < last; ++node) {
         for (int c = 0; c < cables; ++c) {
             const CableLanes& cable = group.cable[c];
             const SegmentGuess behind = segment_guess(cable, mechanics, active, node, lane);
             const NodeGuess here = node_guess(cable, mechanics, node, lane);
-            // A slack stretch does not press on its conduit.
+            // A slack stretch presses on its conduit only by its bending stiffness. There the way to no drag,
+            // not the slope of bristles that are fully bent, leads to equilibrium.
             const Lanes sum_N = hn::Max(zero, before[c].tension_N + behind.tension_N);
             const Which pressed = hn::Gt(sum_N, zero);
             const Lanes q = hn::IfThenElseZero(pressed, here.friction * here.bend);
-            const Lanes rigid_N = hn::IfThenElseZero(pressed, full_rigid_N);
             const Lanes out_of_balance_N = behind.tension_N - before[c].tension_N - q * sum_N -
-                                           rigid_N * here.bend - viscous_N_per_m * here.slid_m;
+                                           full_rigid_N * here.bend - viscous_N_per_m * here.slid_m;
             const Lanes lower = before[c].per_m * (one + q);
             const Lanes above = behind.per_m * (one - q);
-            const Lanes drag = (here.friction * sum_N + rigid_N) * here.bend_per_m + viscous_N_per_m;
+            const Lanes by_bend_N = here.friction * sum_N + full_rigid_N;
+            const Lanes to_no_drag_m = hn::Max(hn::Abs(here.slid_m), bristle_m);
+            const Lanes drag = hn::IfThenElse(pressed, by_bend_N * here.bend_per_m, full_rigid_N / to_no_drag_m) +
+                               viscous_N_per_m;
             const Lanes pivot = one / hn::Neg(lower + above + drag + lower * upper[c]);
             upper[c] = above * pivot;
             value[c] = (hn::Neg(out_of_balance_N) - lower * value[c]) * pivot;

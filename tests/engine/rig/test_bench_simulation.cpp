@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/effects/effect_catalogue.h"
@@ -222,6 +223,52 @@ TEST(BenchSimulation, FollowsACableThatFallsSlack) {
     double largest_Nm = 0.0;
     for (const double torque_Nm : load_torque_Nm[1]) largest_Nm = std::max(largest_Nm, std::abs(torque_Nm));
     EXPECT_LT(rms_difference(load_torque_Nm[0], load_torque_Nm[1]), 0.02 * largest_Nm);
+}
+
+// A slack cable leaves no choice to the size of the steps: beyond its bending drag it holds no tension, and what
+// drag holds against the motor falls to nothing at the load.
+TEST(BenchSimulation, ASlackCableKeepsTheTensionThatItsBendingDragHolds) {
+    constexpr double drag_N_per_m = 0.3;
+    constexpr double length_m = 2.4;
+    constexpr int segments = 120;
+    BenchEffects effects;
+    effects.of<BendingStiffness>().drag_N_per_m = drag_N_per_m;
+    for (const double friction : {1e-9, 0.17}) {
+        std::vector<double> at_motor_N;
+        for (const int steps : {1, 10, 1000}) {
+            const CableSpecification specification{.curvature = {{length_m, 0.38}},
+                                                   .segments = segments,
+                                                   .axial_stiffness_N = 3100.0,
+                                                   .dynamic_friction = friction,
+                                                   .static_friction = friction,
+                                                   .pretension_N = 6.0};
+            BenchSimulation bench({Cable(specification), CableArrangement::single, pulleys, {}}, effects);
+            double time_s = 0.0;
+            double motor_rad = 0.0;
+            double load_rad = 0.0;
+            const auto move_to = [&](double to_motor_rad, double to_load_rad) {
+                const double from_motor_rad = std::exchange(motor_rad, to_motor_rad);
+                const double from_load_rad = std::exchange(load_rad, to_load_rad);
+                for (int step = 1; step <= steps; ++step) {
+                    time_s += time_step_s;
+                    const double done = static_cast<double>(step) / steps;
+                    const MotorAngle motor{from_motor_rad + done * (to_motor_rad - from_motor_rad)};
+                    const LoadAngle load{from_load_rad + done * (to_load_rad - from_load_rad)};
+                    ASSERT_TRUE(bench.advance({motor, load, time_step_s, time_s}).converged);
+                }
+            };
+            for (const auto& [motor, load] :
+                 {std::pair{0.0, -0.2}, {0.0, -0.1}, {-0.5, -0.1}, {-0.5, -0.2}, {-0.5, 0.0}})
+                move_to(motor, load);
+            EXPECT_NEAR(bench.load_tension_N(0), 0.0, 1e-6);
+            at_motor_N.push_back(bench.motor_tension_N(0));
+        }
+        EXPECT_NEAR(at_motor_N[0], at_motor_N[2], 1e-3) << "friction " << friction;
+        EXPECT_NEAR(at_motor_N[1], at_motor_N[2], 1e-3) << "friction " << friction;
+        const double theta = friction * length_m / 0.38;
+        const double held_N = drag_N_per_m * length_m * (theta < 1e-6 ? 1.0 : std::expm1(theta) / theta);
+        EXPECT_NEAR(at_motor_N[2], held_N, 3.0 * held_N / segments) << "friction " << friction;
+    }
 }
 
 TEST(BenchSimulation, RejectsInputsThatDetermineNoMotion) {
