@@ -15,7 +15,8 @@ namespace {
 // may well have no gap, and `none` is put first; beyond it the cause loses evidence.
 constexpr double tenable_misfit = 1.2;
 // Half of noise and floor (rms) is within what the model may be wrong by: there is no gap, however well a
-// cause fits it. Recordings without noise, as simulations are, show that much.
+// cause fits it. Recordings without noise, as simulations are, show that much. Where zeros and bearings float
+// they take up a part of that, and less may be left of a visible gap.
 constexpr double misfit_without_gap = 0.25;
 constexpr double unproven_penalty = 4.0;
 
@@ -40,7 +41,9 @@ class Diagnoser {
 
     Diagnosis verdict(std::vector<ScoredFit> fits) {
         Diagnosis diagnosis;
-        if (!is_nothing(fits.front()) && nothing_in(fits).misfit < misfit_without_gap)
+        const ScoredFit& nothing = nothing_in(fits);
+        if (!is_nothing(fits.front()) && nothing.fit.bench->is_measured() &&
+            nothing.misfit < misfit_without_gap)
             put_nothing_first(fits, unproven_penalty);
         describe(diagnosis, fits);
         if (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap)) {

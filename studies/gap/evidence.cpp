@@ -306,7 +306,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
 bool worth_a_further_cause(const ScoredFit& fit) {
     constexpr double close_to_noise = 1.1;
     // Numbers that float widely take up a part of the floor, and leave room for a cause below it.
-    constexpr double close_when_numbers_float = 0.5;
+    constexpr double close_when_numbers_float = 0.25;
     if (fit.has_unknown_scales) return true;
     if (!fit.fit.bench->is_measured()) return fit.misfit > close_when_numbers_float;
     return fit.misfit > std::max(close_to_noise, tenable_mean_square(fit));

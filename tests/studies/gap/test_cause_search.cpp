@@ -107,7 +107,7 @@ TEST(CauseSearch, LooksBelowTheFloorWhereTheBenchsNumbersFloat) {
     EXPECT_FALSE(worth_a_further_cause(fit));
     fit.fit.bench = &built;
     EXPECT_TRUE(worth_a_further_cause(fit));
-    fit.misfit = 0.4;
+    fit.misfit = 0.2;
     EXPECT_FALSE(worth_a_further_cause(fit));
 }
 
