@@ -143,10 +143,15 @@ FoundCauses CauseSearch::run() & {
     return found;
 }
 
-// Whether the best explanation leaves much, and gains clearly by rough knowledge of the bench.
+// Whether the best explanation asks for numbers far from those stated, or leaves much and gains clearly by rough
+// knowledge of the bench.
 bool CauseSearch::is_better_when_built(const ScoredFit& best) {
     constexpr double clearly = 3.0;
-    if (!worth_a_further_cause(best) || is_out_of_time()) return false;
+    // Half the squared distance of three numbers from what was stated that one in a hundred exceeds.
+    constexpr double tenable_nominal_penalty = 5.67;
+    if (is_out_of_time()) return false;
+    if (best.nominal_penalty > tenable_nominal_penalty) return true;
+    if (!worth_a_further_cause(best)) return false;
     report("fitting the bench's own numbers");
     Hypothesis built = nominal_hypothesis(built_.bench);
     built.coordinates.head(nominal_coordinates) = best.fit.coordinates.head(nominal_coordinates);
@@ -175,13 +180,18 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
                                    : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
     const std::vector<Further> all = screened(level, nothing, singles.front().fit.weights, true);
+    // Where the numbers of an undescribed bench lead nowhere without the right cause, the screening beside them
+    // says nothing, and every cause is fitted.
+    constexpr double leads_nowhere = 10.0;
+    const bool is_told = !is_undescribed(level.bench) || singles.front().misfit < leads_nowhere;
+    const std::size_t most = is_told ? max_fitted : all.size();
     std::size_t fitted = 0;
     for (const Further& each : all) {
         // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
         // numbers; and so is a cause that the values themselves show.
         if (is_out_of_time()) break;
         const bool is_always_fitted = each.cause->numbers.empty() || each.cause->is_seen;
-        if (fitted == max_fitted && !is_always_fitted) continue;
+        if (fitted == most && !is_always_fitted) continue;
         if (!is_always_fitted) ++fitted;
         add_single(level, each, singles);
         // A few rough steps do not show which start leads to the best fit.
