@@ -69,18 +69,21 @@ void add_zeros_and_bearings(const Recording& recording, double zero_part, double
                                      numbers.sensor_faults[name].offset = value;
                                  }});
     }
-    // Channels are sampled one after the other, and an encoder holds its last count: their times agree to
-    // about half a sample.
+    // An encoder's count is latched when it is read. A force passes an amplifier, whose filter delays it by a
+    // part of a sample.
+    constexpr double time_of_an_encoder = 0.1;  // samples
+    constexpr double time_of_a_force = 0.5;
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
         if (!recording.is_predicted(name)) continue;
+        const double agreement = recording.channels[channel].unit == "rad" ? time_of_an_encoder : time_of_a_force;
         bench.numbers.push_back({.name = "time of " + name,
                                  .unit = "s",
                                  .kind = FloatingNumber::Kind::zero,
                                  .scale = 1.0 / recording.sample_rate_Hz,
-                                 .prior_std = 0.5,
+                                 .prior_std = agreement,
                                  .of_a_sensor = true,
-                                 .usual = 1.0,
+                                 .usual = 2.0 * agreement,
                                  .effect = "time_misalignment",
                                  .variant = name,
                                  .component = "sensor:" + name,

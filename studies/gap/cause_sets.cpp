@@ -26,6 +26,14 @@ bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
     return false;
 }
 
+// A sensor that is slow in two stages looks slow and late at once.
+bool is_slowness_of_one_sensor(const CandidateCause& cause, const CandidateCause& other) {
+    const auto is_slowness = [](const CandidateCause& each) {
+        return each.effect == "sensor_lag" || each.effect == "time_misalignment";
+    };
+    return is_slowness(cause) && is_slowness(other) && cause.variant == other.variant;
+}
+
 }  // namespace
 
 void CauseSearch::search_several(const Level& level, Fits& all) {
@@ -245,7 +253,7 @@ void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, con
         const bool known =
             std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), [&](const CandidateCause* cause) {
                 return (cause->effect == each.cause->effect && cause->variant == each.cause->variant) ||
-                       is_part_of(*each.cause, *cause);
+                       is_part_of(*each.cause, *cause) || is_slowness_of_one_sensor(*each.cause, *cause);
             });
         if (known) continue;
         ++further;
