@@ -16,13 +16,17 @@ namespace {
 // How many causes get a full fit after the screening.
 constexpr std::size_t max_fitted = 8;
 // The screening uses fewer segments and samples. A drive of unknown geometry has no bend at a place, so few
-// segments are enough. But it is moved by two recorded channels: what is left of their noise moves it to and
-// fro, and friction remembers it, so samples are skipped only of what was recorded faster than a hand moves.
+// segments are enough; a band, whose tension falls by a factor round its drum, needs as many as a described
+// cable. But both are moved by recorded channels: what is left of their noise moves them to and fro, and friction
+// remembers it, so samples are skipped only of what was recorded faster than a hand moves.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
     constexpr double enough_Hz = 100.0;
-    if (!recording.nominal_is_fitted) return {.segments = 24, .stride = 2 * stride};
+    constexpr int segments = 24;
+    constexpr int segments_of_a_drive = 9;
+    if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 2 * stride};
     const int skipped = std::max(1, static_cast<int>(recording.sample_rate_Hz / enough_Hz));
-    return {.segments = 9, .stride = skipped * stride};
+    return {.segments = recording.mode == BenchMode::pull_pull ? segments_of_a_drive : segments,
+            .stride = skipped * stride};
 }
 
 // Fits that a search usually makes; progress is stated in parts of it.
