@@ -7,6 +7,7 @@
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/bench_knowledge.h"
 #include "capstan/gap/cause_fit.h"
+#include "capstan/gap/cause_search.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "lumped_session.h"
 #include "sample_recording.h"
@@ -154,6 +155,20 @@ TEST(BandWithoutMotion, HasTheFrictionThatItsTensionsShow) {
     EXPECT_EQ(bench.mode, BenchMode::single_cable);
     EXPECT_NEAR(bench.nominal->dynamic_friction, exponent, 0.05 * exponent);
     EXPECT_LT(left_fraction(bench, "load_torque"), 0.02);
+}
+
+// The few segments that are enough for a drive would differ by more than noise and floor, which a search would fit.
+TEST(BandWithoutMotion, IsSearchedWithAModelThatAgreesWithTheFineOne) {
+    const Recording recording = tension_session(0.35);
+    const Recording bench = equivalent_bench(recording, recording);
+    const CauseSearch search(bench, {});
+    const BenchKnowledge knowledge = undescribed_bench(bench);
+    const Hypothesis nominal = nominal_hypothesis(knowledge);
+    const Eigen::MatrixXd fine = search.fitter().data_residuals({&nominal, 1});
+    const Eigen::MatrixXd coarse = search.coarse_fitter().data_residuals({&nominal, 1});
+    ASSERT_EQ(fine.rows(), coarse.rows());
+    const double rms = (coarse - fine).norm() / std::sqrt(static_cast<double>(fine.rows()));
+    EXPECT_LT(rms, 0.5) << "of noise and floor";
 }
 
 // A torque sensor that reads 0.2 N m too much drives the bench with 0.2 N m less than it reads.
