@@ -116,8 +116,9 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
             const Lanes above = behind.per_m * (one - q);
             const Lanes by_bend_N = here.friction * sum_N + full_rigid_N;
             const Lanes to_no_drag_m = hn::Max(hn::Abs(here.slid_m), bristle_m);
-            const Lanes drag = hn::IfThenElse(pressed, by_bend_N * here.bend_per_m, full_rigid_N / to_no_drag_m) +
-                               viscous_N_per_m;
+            const Lanes drag =
+                hn::IfThenElse(pressed, by_bend_N * here.bend_per_m, full_rigid_N / to_no_drag_m) +
+                viscous_N_per_m;
             const Lanes pivot = one / hn::Neg(lower + above + drag + lower * upper[c]);
             upper[c] = above * pivot;
             value[c] = (hn::Neg(out_of_balance_N) - lower * value[c]) * pivot;

@@ -76,7 +76,8 @@ void add_zeros_and_bearings(const Recording& recording, double zero_part, double
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const std::string& name = recording.channels[channel].name;
         if (!recording.is_predicted(name)) continue;
-        const double agreement = recording.channels[channel].unit == "rad" ? time_of_an_encoder : time_of_a_force;
+        const double agreement =
+            recording.channels[channel].unit == "rad" ? time_of_an_encoder : time_of_a_force;
         bench.numbers.push_back({.name = "time of " + name,
                                  .unit = "s",
                                  .kind = FloatingNumber::Kind::zero,

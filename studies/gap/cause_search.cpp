@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t max_fitted = 8;
 // The screening uses fewer segments and samples. A drive of unknown geometry has no bend at a place, so few
 // segments are enough; a band, whose tension falls by a factor round its drum, needs as many as a described
-// cable. But both are moved by recorded channels: what is left of their noise moves them to and fro, and friction
-// remembers it, so samples are skipped only of what was recorded faster than a hand moves.
+// cable. But both are moved by recorded channels: what is left of their noise moves them to and fro, and
+// friction remembers it, so samples are skipped only of what was recorded faster than a hand moves.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
     constexpr double enough_Hz = 100.0;
     constexpr int segments = 24;
@@ -147,8 +147,8 @@ FoundCauses CauseSearch::run() & {
     return found;
 }
 
-// Whether the best explanation asks for numbers far from those stated, or leaves much and gains clearly by rough
-// knowledge of the bench.
+// Whether the best explanation asks for numbers far from those stated, or leaves much and gains clearly by
+// rough knowledge of the bench.
 bool CauseSearch::is_better_when_built(const ScoredFit& best) {
     constexpr double clearly = 3.0;
     // Half the squared distance of three numbers from what was stated that one in a hundred exceeds.
@@ -184,8 +184,8 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
                                    : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
     const std::vector<Further> all = screened(level, nothing, singles.front().fit.weights, true);
-    // Where the numbers of an undescribed bench lead nowhere without the right cause, the screening beside them
-    // says nothing, and every cause is fitted.
+    // Where the numbers of an undescribed bench lead nowhere without the right cause, the screening beside
+    // them says nothing, and every cause is fitted.
     constexpr double leads_nowhere = 10.0;
     const bool is_told = !is_undescribed(level.bench) || singles.front().misfit < leads_nowhere;
     const std::size_t most = is_told ? max_fitted : all.size();

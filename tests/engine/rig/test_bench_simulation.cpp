@@ -225,8 +225,8 @@ TEST(BenchSimulation, FollowsACableThatFallsSlack) {
     EXPECT_LT(rms_difference(load_torque_Nm[0], load_torque_Nm[1]), 0.02 * largest_Nm);
 }
 
-// A slack cable leaves no choice to the size of the steps: beyond its bending drag it holds no tension, and what
-// drag holds against the motor falls to nothing at the load.
+// A slack cable leaves no choice to the size of the steps: beyond its bending drag it holds no tension, and
+// what drag holds against the motor falls to nothing at the load.
 TEST(BenchSimulation, ASlackCableKeepsTheTensionThatItsBendingDragHolds) {
     constexpr double drag_N_per_m = 0.3;
     constexpr double length_m = 2.4;

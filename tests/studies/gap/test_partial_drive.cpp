@@ -157,7 +157,8 @@ TEST(BandWithoutMotion, HasTheFrictionThatItsTensionsShow) {
     EXPECT_LT(left_fraction(bench, "load_torque"), 0.02);
 }
 
-// The few segments that are enough for a drive would differ by more than noise and floor, which a search would fit.
+// The few segments that are enough for a drive would differ by more than noise and floor, which a search
+// would fit.
 TEST(BandWithoutMotion, IsSearchedWithAModelThatAgreesWithTheFineOne) {
     const Recording recording = tension_session(0.35);
     const Recording bench = equivalent_bench(recording, recording);

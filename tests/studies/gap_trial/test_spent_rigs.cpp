@@ -1,5 +1,5 @@
-// Rigs and drives of unknown geometry from spent seeds of the trial, each of which a diagnosis once missed. The
-// simulator knows nothing of the engine.
+// Rigs and drives of unknown geometry from spent seeds of the trial, each of which a diagnosis once missed.
+// The simulator knows nothing of the engine.
 #include <gtest/gtest.h>
 
 #include <map>
