@@ -122,12 +122,12 @@ FoundCauses CauseSearch::run() & {
     FoundCauses found;
     const bool is_measured = described_.bench.is_measured();
     found.fits = search_one(described_);
-    bool built = is_measured && is_better_when_built(found.fits.front());
+    bool built = is_measured && should_be_taken_as_built(found.fits.front());
     if (!built) {
         search_several(described_, found.fits);
         const ScoredFit& best = found.fits.front();
-        built =
-            is_measured && (leaves_much(best) || (best.fit.causes.size() > 1 && is_better_when_built(best)));
+        built = is_measured &&
+                (leaves_much(best) || (best.fit.causes.size() > 1 && should_be_taken_as_built(best)));
     }
     if (built) {
         Fits rougher = search_one(built_);
@@ -149,7 +149,7 @@ FoundCauses CauseSearch::run() & {
 
 // Whether the best explanation asks for numbers far from those stated, or leaves much and gains clearly by
 // rough knowledge of the bench.
-bool CauseSearch::is_better_when_built(const ScoredFit& best) {
+bool CauseSearch::should_be_taken_as_built(const ScoredFit& best) {
     constexpr double clearly = 3.0;
     // Half the squared distance of three numbers from what was stated that one in a hundred exceeds.
     constexpr double tenable_nominal_penalty = 5.67;
@@ -188,14 +188,14 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     // them says nothing, and every cause is fitted.
     constexpr double leads_nowhere = 10.0;
     const bool is_told = !is_undescribed(level.bench) || singles.front().misfit < leads_nowhere;
-    const std::size_t most = is_told ? max_fitted : all.size();
+    const std::size_t max_count = is_told ? max_fitted : all.size();
     std::size_t fitted = 0;
     for (const Further& each : all) {
         // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
         // numbers; and so is a cause that the values themselves show.
         if (is_out_of_time()) break;
         const bool is_always_fitted = each.cause->numbers.empty() || each.cause->is_seen;
-        if (fitted == most && !is_always_fitted) continue;
+        if (fitted == max_count && !is_always_fitted) continue;
         if (!is_always_fitted) ++fitted;
         add_single(level, each, singles);
         // A few rough steps do not show which start leads to the best fit.

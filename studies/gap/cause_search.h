@@ -93,7 +93,7 @@ class CauseSearch {
     double held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
                                const std::vector<LeftOut>& parts);
     void drop_unearned_causes(Fits& fits);
-    bool is_better_when_built(const ScoredFit& best);
+    bool should_be_taken_as_built(const ScoredFit& best);
     ScoredFit without_cause(const Level& level);
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);

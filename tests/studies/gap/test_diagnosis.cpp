@@ -132,7 +132,8 @@ TEST(Diagnosis, FindsACauseBesideRoughNumbersZerosAndBearings) {
     numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 6.0;
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
     EXPECT_EQ(diagnosis.ranked.front().effect, "viscous_friction");
-    EXPECT_GT(diagnosis.ranked.front().present, 0.8);
+    // Viscous bearings at both ends together do nearly the same, three units of evidence behind.
+    EXPECT_GT(diagnosis.ranked.front().present, 0.85);
     ASSERT_FALSE(diagnosis.bench.empty());
     const auto zero =
         std::find_if(diagnosis.bench.begin(), diagnosis.bench.end(),
