@@ -14,9 +14,12 @@ struct MotorCogging {
     double periods_per_turn = 7.0;
 
     Torque torque(double angle_rad) const {
+        if (sine_Nm == 0.0 && cosine_Nm == 0.0) return {};
         const double phase = periods_per_turn * angle_rad;
-        return {sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase),
-                periods_per_turn * (sine_Nm * std::cos(phase) - cosine_Nm * std::sin(phase))};
+        const double sine = std::sin(phase);
+        const double cosine = std::cos(phase);
+        return {sine_Nm * sine + cosine_Nm * cosine,
+                periods_per_turn * (sine_Nm * cosine - cosine_Nm * sine)};
     }
 
     static std::vector<EffectRow<MotorCogging>> rows() {

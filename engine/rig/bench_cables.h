@@ -9,7 +9,7 @@
 
 namespace capstan {
 
-/// The cables of up to four benches that differ in their numbers: one each, or a pair.
+/// The cables of up to bench_lanes benches that differ in their numbers: one each, or a pair.
 ///
 /// A node stands for the cable from the middle of one segment to that of the next: tension is constant in a
 /// segment and falls across nodes (E1), so t_i - t_{i-1} = z tanh(mu theta / 2) (t_i + t_{i-1}) + drags, z

@@ -22,7 +22,7 @@ constexpr double step_fractions[] = {1.0, 0.5, 0.25, 0.125, 1.0};
 constexpr int iterations_with_each = 15;
 constexpr int max_iterations = iterations_with_each * static_cast<int>(std::size(step_fractions));
 
-void demand_motion(const BenchInputs& inputs, bool pull_pull) {
+void demand_motion(const BenchInputs& inputs, double time_step_s, bool pull_pull) {
     std::vector<std::string> problems;
     const auto demand_finite = [&](double value, const char* what) {
         if (!std::isfinite(value)) problems.push_back(std::string("the ") + what + " is not a finite number");
@@ -45,6 +45,8 @@ void demand_motion(const BenchInputs& inputs, bool pull_pull) {
             problems.push_back("the load spring's stiffness is not positive");
     }
     if (!(inputs.time_step_s > 0.0)) problems.push_back("the time step is not positive");
+    if (inputs.time_step_s != time_step_s)
+        problems.push_back("benches that move side by side have different time steps");
     if (!pull_pull && !std::holds_alternative<LoadAngle>(inputs.load))
         problems.push_back("a single cable's load end is held: prescribe a load angle");
     if (!problems.empty()) throw InvalidInput(problems);
@@ -75,35 +77,41 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
         if (cables_.count() == 1)
             pulleys_.back().rest(radii_.motor_radius_m * pretension_N_.back(),
                                  radii_.load_radius_m * pretension_N_.back());
+        motor_rest_m_.push_back(motor_rest_m(static_cast<int>(bench), 0.0));
     }
 }
 
-void BenchSimulations::begin(const BenchInputs& inputs, const LaneFlags& active) {
+void BenchSimulations::begin(EachInputs inputs, const LaneFlags& active) {
     LaneValues load_angle_rad;
-    const auto* given = std::get_if<LoadAngle>(&inputs.load);
-    for (int lane = 0; lane < count_; ++lane)
+    for (int lane = 0; lane < count_; ++lane) {
+        const auto* given = std::get_if<LoadAngle>(&inputs[static_cast<std::size_t>(lane)].load);
         load_angle_rad.of[lane] = given != nullptr ? given->angle_rad : pulleys(lane).angles().load_rad;
-    cables_.begin(active, load_angle_rad, inputs.time_step_s);
+    }
+    cables_.begin(active, load_angle_rad, inputs.front().time_step_s);
+}
+
+// Where the motor end of a bench's cables rests follows the pretension (E33).
+double BenchSimulations::motor_rest_m(int bench, double session_time_s) const {
+    const BenchEffects& effects = effects_[static_cast<std::size_t>(bench)];
+    const double pretension_N =
+        pretension_N_[static_cast<std::size_t>(bench)] * effects.of<PretensionDrift>().ratio(session_time_s);
+    return cables_.rest_displacement_m(bench, pretension_N) -
+           effects.of<ConduitCompliance>().motor_m_per_N * pretension_N;
 }
 
 // Positive angles: the motor pulley reels cable A in and lets B out, the load pulley goes where A pulls
-// (E15). The motor end's rest follows the pretension (E33).
-BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, const EachAngles& angles,
-                                                   double session_time_s) {
+// (E15).
+BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, const EachAngles& angles) {
     EndPlaces motor[max_cables];
     EndPlaces load[max_cables];
     for (int lane = 0; lane < bench_lanes; ++lane) {
         const auto bench = static_cast<std::size_t>(lane < count_ ? lane : 0);
-        const double pretension_N =
-            pretension_N_[bench] * effects_[bench].of<PretensionDrift>().ratio(session_time_s);
         const ConduitCompliance& conduit = effects_[bench].of<ConduitCompliance>();
-        const double rest_m =
-            cables_.rest_displacement_m(lane, pretension_N) - conduit.motor_m_per_N * pretension_N;
         double way = -1.0;
         for (int cable = 0; cable < cables_.count(); ++cable, way = 1.0) {
             const double motor_m_per_rad = way * radii_.motor_radius_m;
             const double load_m_per_rad = way * radii_.load_radius_m;
-            motor[cable].at_m.of[lane] = rest_m + motor_m_per_rad * angles[bench].motor_rad;
+            motor[cable].at_m.of[lane] = motor_rest_m_[bench] + motor_m_per_rad * angles[bench].motor_rad;
             motor[cable].per_rad.of[lane] = motor_m_per_rad;
             motor[cable].compliance_m_per_N.of[lane] = conduit.motor_m_per_N;
             load[cable].at_m.of[lane] = load_m_per_rad * angles[bench].load_rad;
@@ -128,13 +136,13 @@ BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, cons
 }
 
 // Newton's method on all nodes and the free pulleys of the active benches, from the cables' present guess.
-void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, LaneFlags active,
-                               EachAngles& angles, EachReport& reports) {
+void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags active, EachAngles& angles,
+                               EachReport& reports) {
     cables_.set_free({.motor = any(free.motor), .load = any(free.load)});
     const double r_m = radii_.motor_radius_m;
     const double r_l = radii_.load_radius_m;
     for (int iteration = 1; iteration <= max_iterations && any(active); ++iteration) {
-        const Pull pull = linearise(active, angles, inputs.session_time_s);
+        const Pull pull = linearise(active, angles);
         LaneValues motor_turn;
         LaneValues load_turn;
         LaneValues fractions;
@@ -143,8 +151,8 @@ void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, Lane
             const auto bench = static_cast<std::size_t>(lane);
             ++reports[bench].iterations;
             double fraction = step_fractions[(iteration - 1) / iterations_with_each];
-            const Torque motor = pulleys_[bench].motor_balance(inputs, angles[bench].motor_rad);
-            const Torque load = pulleys_[bench].load_balance(inputs, angles[bench].load_rad);
+            const Torque motor = pulleys_[bench].motor_balance(inputs[bench], angles[bench].motor_rad);
+            const Torque load = pulleys_[bench].load_balance(inputs[bench], angles[bench].load_rad);
             const bool motor_turns = free.motor.of[lane];
             const bool load_turns = free.load.of[lane];
             // A pulley that is not free does not turn further.
@@ -174,7 +182,7 @@ void BenchSimulations::iterate(const BenchInputs& inputs, const Free& free, Lane
 }
 
 // One bench alone, its pulleys beginning there.
-void BenchSimulations::solve(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from,
+void BenchSimulations::solve(EachInputs inputs, const Free& free, int lane, PulleyAngles from,
                              EachAngles& angles, EachReport& reports) {
     LaneFlags only;
     only.of[lane] = true;
@@ -188,7 +196,7 @@ void BenchSimulations::solve(const BenchInputs& inputs, const Free& free, int la
 // Where contact opens and closes, or a cable falls slack, Newton's method can go to and fro. The torque left
 // on a free pulley falls as it turns, so its angle is bracketed and the bracket closed (Illinois), all else
 // solved for each: the load pulley's first, the motor's within.
-void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from,
+void BenchSimulations::bracket(EachInputs inputs, const Free& free, int lane, PulleyAngles from,
                                EachAngles& angles, EachReport& reports) {
     constexpr double first_load_width_rad = 0.005;
     constexpr double min_width_rad = 1e-6;
@@ -210,11 +218,11 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
     const auto torque_left = [&](double angle_rad) {
         (of_load ? from.load_rad : from.motor_rad) = angle_rad;
         solve(inputs, held, lane, from, angles, reports);
-        const Pull pull = linearise(only, angles, inputs.session_time_s);
+        const Pull pull = linearise(only, angles);
         const double left_Nm = of_load ? radii_.load_radius_m * pull.load.value_N.of[lane] +
-                                             pulleys_[bench].load_balance(inputs, angle_rad).value_Nm
+                                             pulleys_[bench].load_balance(inputs[bench], angle_rad).value_Nm
                                        : -radii_.motor_radius_m * pull.motor.value_N.of[lane] -
-                                             pulleys_[bench].motor_balance(inputs, angle_rad).value_Nm;
+                                             pulleys_[bench].motor_balance(inputs[bench], angle_rad).value_Nm;
         if (std::abs(left_Nm) < min_left_Nm) {
             min_left_Nm = std::abs(left_Nm);
             best_rad = angle_rad;
@@ -222,11 +230,11 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
         return left_Nm;
     };
     const auto stiffness_Nm_per_rad = [&](double angle_rad) {
-        const Pull pull = linearise(only, angles, inputs.session_time_s);
+        const Pull pull = linearise(only, angles);
         return std::abs(of_load ? radii_.load_radius_m * pull.load.per_load_rad.of[lane] +
-                                      pulleys_[bench].load_balance(inputs, angle_rad).per_rad
+                                      pulleys_[bench].load_balance(inputs[bench], angle_rad).per_rad
                                 : radii_.motor_radius_m * pull.motor.per_motor_rad.of[lane] +
-                                      pulleys_[bench].motor_balance(inputs, angle_rad).per_rad);
+                                      pulleys_[bench].motor_balance(inputs[bench], angle_rad).per_rad);
     };
     const auto give_up = [&] {
         torque_left(best_rad);
@@ -273,17 +281,27 @@ void BenchSimulations::bracket(const BenchInputs& inputs, const Free& free, int 
 }
 
 std::array<BenchReport, bench_lanes> BenchSimulations::advance(const BenchInputs& inputs) {
-    demand_motion(inputs, cables_.count() == 2);
+    std::array<BenchInputs, bench_lanes> alike;
+    alike.fill(inputs);
+    return advance(std::span(alike).first(static_cast<std::size_t>(count_)));
+}
+
+std::array<BenchReport, bench_lanes> BenchSimulations::advance(EachInputs inputs) {
+    for (const BenchInputs& each : inputs)
+        demand_motion(each, inputs.front().time_step_s, cables_.count() == 2);
     EachReport reports;
     EachAngles angles;
     LaneFlags all;
     Free free;
     for (int lane = 0; lane < count_; ++lane) {
-        const BenchPulleys& pulleys = pulleys_[static_cast<std::size_t>(lane)];
+        const auto bench = static_cast<std::size_t>(lane);
+        const BenchPulleys& pulleys = pulleys_[bench];
         all.of[lane] = !stopped_.of[lane];
-        free.motor.of[lane] = pulleys.motor_is_free(inputs);
-        free.load.of[lane] = pulleys.load_is_free(inputs);
-        angles[static_cast<std::size_t>(lane)] = pulleys.start(inputs);
+        free.motor.of[lane] = pulleys.motor_is_free(inputs[bench]);
+        free.load.of[lane] = pulleys.load_is_free(inputs[bench]);
+        angles[bench] = pulleys.start(inputs[bench]);
+        if (effects_[bench].of<PretensionDrift>().lost_by_100_s != 0.0)
+            motor_rest_m_[bench] = motor_rest_m(lane, inputs[bench].session_time_s);
     }
     begin(inputs, all);
     iterate(inputs, free, all, angles, reports);
@@ -293,7 +311,7 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(const BenchInputs
             reports[bench].converged = false;
             angles[bench] = pulleys_[bench].angles();
         } else if (!reports[bench].converged) {
-            bracket(inputs, free, lane, pulleys_[bench].start(inputs), angles, reports);
+            bracket(inputs, free, lane, pulleys_[bench].start(inputs[bench]), angles, reports);
         }
     }
     cables_.store();
@@ -307,7 +325,7 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(const BenchInputs
             load_pull_N += way * cables_.load_tension_N(cable, lane);
         }
         const auto bench = static_cast<std::size_t>(lane);
-        pulleys_[bench].settle(inputs, angles[bench], motor_pull_N, load_pull_N);
+        pulleys_[bench].settle(inputs[bench], angles[bench], motor_pull_N, load_pull_N);
     }
     return reports;
 }

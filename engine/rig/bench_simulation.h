@@ -23,8 +23,8 @@ struct BenchReport {
     int iterations = 0;
 };
 
-/// Up to bench_lanes benches of one geometry, moved by the same inputs, each with its own numbers and
-/// effects: a SIMD lane each. What a bench does never depends on its neighbours.
+/// Up to bench_lanes benches of one geometry, each with its own inputs, numbers and effects: a SIMD lane
+/// each. What a bench does never depends on its neighbours.
 ///
 /// Node displacements and the free pulley angles solve equilibrium by Newton's method: one tridiagonal system
 /// a cable (BenchCables), bordered by the pulleys' torque balances (BenchPulleys). Friction has bristles
@@ -39,7 +39,10 @@ class BenchSimulations {
 
     int count() const { return count_; }
 
-    /// Throws InvalidInput if the inputs determine no motion or are not finite; nothing has moved then.
+    /// `inputs`: of each bench, with one time step. Throws InvalidInput if those of a bench determine no
+    /// motion or are not finite, or if the time steps differ; nothing has moved then.
+    std::array<BenchReport, bench_lanes> advance(std::span<const BenchInputs> inputs);
+    /// All benches by the same inputs.
     std::array<BenchReport, bench_lanes> advance(const BenchInputs& inputs);
     /// The bench moves no further; its reports say that it does not converge.
     void stop(int bench) { stopped_.of[bench] = true; }
@@ -54,6 +57,7 @@ class BenchSimulations {
   private:
     using EachAngles = std::array<PulleyAngles, bench_lanes>;
     using EachReport = std::array<BenchReport, bench_lanes>;
+    using EachInputs = std::span<const BenchInputs>;
     struct Free {
         LaneFlags motor;
         LaneFlags load;
@@ -64,13 +68,14 @@ class BenchSimulations {
         EndTensions load;
     };
 
-    void begin(const BenchInputs& inputs, const LaneFlags& active);
-    Pull linearise(const LaneFlags& active, const EachAngles& angles, double session_time_s);
-    void iterate(const BenchInputs& inputs, const Free& free, LaneFlags active, EachAngles& angles,
+    void begin(EachInputs inputs, const LaneFlags& active);
+    double motor_rest_m(int bench, double session_time_s) const;
+    Pull linearise(const LaneFlags& active, const EachAngles& angles);
+    void iterate(EachInputs inputs, const Free& free, LaneFlags active, EachAngles& angles,
                  EachReport& reports);
-    void solve(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from, EachAngles& angles,
+    void solve(EachInputs inputs, const Free& free, int lane, PulleyAngles from, EachAngles& angles,
                EachReport& reports);
-    void bracket(const BenchInputs& inputs, const Free& free, int lane, PulleyAngles from, EachAngles& angles,
+    void bracket(EachInputs inputs, const Free& free, int lane, PulleyAngles from, EachAngles& angles,
                  EachReport& reports);
 
     int count_;
@@ -78,6 +83,7 @@ class BenchSimulations {
     Pulleys radii_;
     std::vector<BenchEffects> effects_;
     std::vector<double> pretension_N_;
+    std::vector<double> motor_rest_m_;
     BenchCables cables_;
     std::vector<BenchPulleys> pulleys_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -92,22 +93,20 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
                                             std::optional<LeftOut> left_out) const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data_rows_),
                                                 static_cast<Eigen::Index>(hypotheses.size()));
-    struct RunGroup {
-        std::size_t run;
-        BenchGroup benches;
-    };
-    std::vector<RunGroup> groups;
+    std::vector<SameBench> benches;
     for (std::size_t run = 0; run < recording_.runs.size(); ++run) {
         if (left_out && left_out->run == run && left_out->is_complete_run()) continue;
-        for (BenchGroup& benches : to_be_moved_at_once(by_bench(hypotheses, recording_.runs[run])))
-            groups.push_back({run, std::move(benches)});
+        std::vector<SameBench> of_run = by_bench(hypotheses, recording_, run);
+        std::move(of_run.begin(), of_run.end(), std::back_inserter(benches));
     }
+    const std::vector<BenchGroup> groups = to_be_moved_at_once(std::move(benches), recording_);
     parallel_for_each_index(static_cast<int>(groups.size()), threads_, [&](int task) {
-        const auto& [run, group] = groups[static_cast<std::size_t>(task)];
-        std::vector<BenchNumbers> moved;
-        for (const SameBench& bench : group) moved.push_back(bench.numbers);
-        const std::vector<TwinRun> twins = twin_.run_each(run, moved);
+        const BenchGroup& group = groups[static_cast<std::size_t>(task)];
+        std::vector<MovedBench> moved;
+        for (const SameBench& bench : group) moved.push_back(bench.moved);
+        const std::vector<TwinRun> twins = twin_.run_each(moved);
         for (std::size_t lane = 0; lane < twins.size(); ++lane) {
+            const std::size_t run = moved[lane].run;
             for (const std::size_t k : group[lane].hypotheses) {
                 const auto faults = bench_numbers(hypotheses[k]).in_run(recording_.runs[run]).sensor_faults;
                 auto smooth = faults;

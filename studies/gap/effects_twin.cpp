@@ -131,50 +131,62 @@ int EffectsTwin::samples(std::size_t run) const {
 }
 
 TwinRun EffectsTwin::run(std::size_t run_index, const BenchNumbers& numbers) const {
-    const BenchNumbers of_run = numbers.in_run(recording_.runs[run_index]);
-    return with_faults(run_each(run_index, std::span(&of_run, 1)).front(), of_run.sensor_faults);
+    const MovedBench of_run{run_index, numbers.in_run(recording_.runs[run_index])};
+    return with_faults(run_each({&of_run, 1}).front(), of_run.numbers.sensor_faults);
 }
 
-std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
-                                           std::span<const BenchNumbers> numbers) const {
-    const RecordedRun& run = recording_.runs[run_index];
+std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) const {
     std::vector<BenchDescription> descriptions;
     std::vector<BenchEffects> effects;
-    for (const BenchNumbers& each : numbers) {
-        descriptions.push_back(description_of(recording_, run, each, options_.segments));
-        effects.push_back(each.effects);
+    std::vector<TwinRun> twins(moved.size());
+    std::map<std::size_t, std::vector<Reader>> readers;  // of each run
+    int longest = 0;
+    bool rings = false;
+    for (std::size_t bench = 0; bench < moved.size(); ++bench) {
+        const auto& [run_index, numbers] = moved[bench];
+        const RecordedRun& run = recording_.runs[run_index];
+        descriptions.push_back(description_of(recording_, run, numbers, options_.segments));
+        effects.push_back(numbers.effects);
         double& compliance = effects.back().of<EnvironmentCoupling>().compliance_rad_per_Nm;
         if (compliance == 0.0) compliance = recording_.nominal->load_compliance_rad_per_Nm;
+        const auto its_readers = readers.try_emplace(run_index, readers_of(run)).first;
+        twins[bench].values.resize(recording_.channels.size());
+        for (const Reader& reader : its_readers->second)
+            twins[bench].values[reader.channel].reserve(static_cast<std::size_t>(samples(run_index)));
+        longest = std::max(longest, run.samples());
+        rings = rings || numbers.rings();
     }
     BenchSimulations benches(descriptions, effects);
-    const std::vector<Reader> readers = readers_of(run);
-
-    std::vector<TwinRun> twins(numbers.size());
-    for (TwinRun& twin : twins) {
-        twin.values.resize(recording_.channels.size());
-        for (const Reader& reader : readers)
-            twin.values[reader.channel].reserve(static_cast<std::size_t>(samples(run_index)));
-    }
-    const bool rings =
-        std::any_of(numbers.begin(), numbers.end(), [](const BenchNumbers& each) { return each.rings(); });
     const int step = rings ? 1 : options_.stride;
+    std::vector<BenchInputs> inputs(moved.size());
     std::array<long, bench_lanes> iterations{};
     long steps = 0;
-    for (int sample = 0; sample < run.samples(); sample += step) {
-        const auto reports = benches.advance(inputs_at(run_index, sample, step));
+    for (int sample = 0; sample < longest; sample += step) {
+        for (std::size_t bench = 0; bench < moved.size(); ++bench) {
+            const std::size_t run = moved[bench].run;
+            if (sample >= recording_.runs[run].samples()) {
+                benches.stop(static_cast<int>(bench));
+            } else if (bench > 0 && run == moved[bench - 1].run) {
+                inputs[bench] = inputs[bench - 1];
+            } else {
+                inputs[bench] = inputs_at(run, sample, step);
+            }
+        }
+        const auto reports = benches.advance(inputs);
         ++steps;
-        for (std::size_t bench = 0; bench < twins.size(); ++bench) {
+        for (std::size_t bench = 0; bench < moved.size(); ++bench) {
             iterations[bench] += reports[bench].iterations;
             if (iterations[bench] > spare_iterations + usual_iterations * steps)
                 benches.stop(static_cast<int>(bench));
         }
         if (sample % options_.stride != 0) continue;
-        for (std::size_t bench = 0; bench < twins.size(); ++bench) {
+        for (std::size_t bench = 0; bench < moved.size(); ++bench) {
+            if (sample >= recording_.runs[moved[bench].run].samples()) continue;
             if (!reports[bench].converged) ++twins[bench].unsolved_steps;
             if (options_.reports_sliding_fraction)
                 twins[bench].sliding_fraction.push_back(
                     benches.cables().sliding_fraction(static_cast<int>(bench)));
-            for (const Reader& reader : readers) {
+            for (const Reader& reader : readers[moved[bench].run]) {
                 const double value = reader.read(benches, static_cast<int>(bench));
                 twins[bench].values[reader.channel].push_back(
                     std::isfinite(value) ? std::clamp(value, -max_prediction, max_prediction)
@@ -183,7 +195,8 @@ std::vector<TwinRun> EffectsTwin::run_each(std::size_t run_index,
         }
     }
     if (recording_.nominal_is_fitted) {
-        for (TwinRun& twin : twins) align_load_angle(run_index, twin);
+        for (std::size_t bench = 0; bench < moved.size(); ++bench)
+            align_load_angle(moved[bench].run, twins[bench]);
     }
     return twins;
 }

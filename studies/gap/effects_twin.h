@@ -67,6 +67,12 @@ struct EffectsTwinOptions {
     bool reports_sliding_fraction = false;
 };
 
+/// The recorded bench with these numbers, and the run that moves it.
+struct MovedBench {
+    std::size_t run = 0;
+    BenchNumbers numbers;
+};
+
 /// A recorded bench of known geometry with effects (BenchSimulation), moved by the recording's driven
 /// channels.
 class EffectsTwin {
@@ -85,9 +91,9 @@ class EffectsTwin {
 
     /// channels x predicted samples; empty for driven channels.
     TwinRun run(std::size_t run, const BenchNumbers& numbers) const;
-    /// The same run of up to bench_lanes benches at once; each the same bits as alone, if all of them
-    /// or none ring. Without sensor faults.
-    std::vector<TwinRun> run_each(std::size_t run, std::span<const BenchNumbers> numbers) const;
+    /// Up to bench_lanes benches at once; each the same bits as alone, if all of them or none ring. Without
+    /// sensor faults.
+    std::vector<TwinRun> run_each(std::span<const MovedBench> moved) const;
 
     /// The run as faulty sensors read it.
     TwinRun with_faults(const TwinRun& run, const std::map<std::string, SensorFaults>& faults) const;

@@ -98,7 +98,8 @@ GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, co
     for (std::size_t run = 0; run < recording.runs.size(); ++run) {
         const BenchNumbers leading = models.leading.in_run(recording.runs[run]);
         const BenchNumbers runner_up = models.runner_up.in_run(recording.runs[run]);
-        std::vector<TwinRun> twins = twin.run_each(run, std::vector<BenchNumbers>{{}, leading, runner_up});
+        std::vector<TwinRun> twins =
+            twin.run_each(std::vector<MovedBench>{{run, {}}, {run, leading}, {run, runner_up}});
         twins[1] = twin.with_faults(twins[1], leading.sensor_faults);
         twins[2] = twin.with_faults(twins[2], runner_up.sensor_faults);
         const TwinRun held_out = held_out_run(twin, run, models.held_out);

@@ -74,7 +74,9 @@ Hypothesis only_causes(const Hypothesis& hypothesis, const std::function<bool(co
     return kept;
 }
 
-std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, const RecordedRun& run) {
+std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, const Recording& recording,
+                                std::size_t run_index) {
+    const RecordedRun& run = recording.runs[run_index];
     std::vector<SameBench> benches;
     std::vector<Mechanics> mechanics;
     for (std::size_t k = 0; k < hypotheses.size(); ++k) {
@@ -86,24 +88,25 @@ std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, const Re
             benches[static_cast<std::size_t>(same - mechanics.begin())].hypotheses.push_back(k);
         } else {
             mechanics.push_back(std::move(its));
-            benches.push_back({std::move(numbers), {k}});
+            benches.push_back({{run_index, std::move(numbers)}, {k}});
         }
     }
     return benches;
 }
 
-std::vector<BenchGroup> to_be_moved_at_once(const std::vector<SameBench>& benches) {
+std::vector<BenchGroup> to_be_moved_at_once(std::vector<SameBench> benches, const Recording& recording) {
+    const auto samples = [&](const SameBench& bench) { return recording.runs[bench.moved.run].samples(); };
+    std::stable_sort(benches.begin(), benches.end(), [&](const SameBench& a, const SameBench& b) {
+        const bool a_rings = a.moved.numbers.rings();
+        const bool b_rings = b.moved.numbers.rings();
+        return a_rings != b_rings ? a_rings : samples(a) > samples(b);
+    });
     std::vector<BenchGroup> groups;
-    for (const bool rings : {false, true}) {
-        BenchGroup group;
-        for (const SameBench& bench : benches) {
-            if (bench.numbers.rings() != rings) continue;
-            group.push_back(bench);
-            if (group.size() < bench_lanes) continue;
-            groups.push_back(group);
-            group.clear();
-        }
-        if (!group.empty()) groups.push_back(group);
+    for (SameBench& bench : benches) {
+        if (groups.empty() || groups.back().size() == bench_lanes ||
+            groups.back().front().moved.numbers.rings() != bench.moved.numbers.rings())
+            groups.emplace_back();
+        groups.back().push_back(std::move(bench));
     }
     return groups;
 }

@@ -30,14 +30,17 @@ Hypothesis only_causes(const Hypothesis& hypothesis, const std::function<bool(co
 
 /// Hypotheses that differ in one run in what sensors read: one bench is simulated for all of them.
 struct SameBench {
-    BenchNumbers numbers;  // of the run, without faults of sensors
+    MovedBench moved;  // without faults of sensors
     std::vector<std::size_t> hypotheses;
 };
 
-std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, const RecordedRun& run);
+/// `run`: index of a run of the recording.
+std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, const Recording& recording,
+                                std::size_t run);
 
-/// At most bench_lanes benches. Those that ring are kept apart from those that do not.
+/// At most bench_lanes benches of any runs, long runs first. Benches that ring are kept apart from those that
+/// do not.
 using BenchGroup = std::vector<SameBench>;
-std::vector<BenchGroup> to_be_moved_at_once(const std::vector<SameBench>& benches);
+std::vector<BenchGroup> to_be_moved_at_once(std::vector<SameBench> benches, const Recording& recording);
 
 }  // namespace capstan::gap

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "capstan/cable/invalid_input.h"
 #include "capstan/effects/effect_catalogue.h"
 #include "capstan/rig/bench_simulation.h"
 
@@ -57,6 +58,34 @@ TEST(BenchSimulations, ABenchIsIndependentOfItsNeighbours) {
             ASSERT_EQ(all.tension_at_N(bench, 1, 1.3), alone.tension_at_N(1, 1.3)) << bench << " at " << step;
         }
     }
+}
+
+// Runs of one recording move side by side.
+TEST(BenchSimulations, ABenchFollowsItsOwnInputs) {
+    const std::vector<BenchDescription> descriptions(2, bench_with(0.21));
+    const std::vector<BenchEffects> effects = {typical("pretension_drift", ""), {}};
+    BenchSimulations together(descriptions, effects);
+    BenchSimulation first(descriptions[0], effects[0]);
+    BenchSimulation second(descriptions[1], effects[1]);
+    for (int step = 1; step <= 300; ++step) {
+        const BenchInputs of_first = hand_in_lanes_at(step);
+        const BenchInputs of_second = {MotorAngle{0.01 * step}, LoadTorque{0.2}, 0.005, 100.0 + step * 0.005};
+        together.advance(std::vector<BenchInputs>{of_first, of_second});
+        first.advance(of_first);
+        second.advance(of_second);
+        ASSERT_EQ(together.pulleys(0).load_torque_Nm(), first.load_torque_Nm()) << step;
+        ASSERT_EQ(together.pulleys(1).load_angle_rad(), second.load_angle_rad()) << step;
+        ASSERT_EQ(together.pulleys(1).motor_torque_Nm(), second.motor_torque_Nm()) << step;
+    }
+}
+
+TEST(BenchSimulations, StepsOfDifferentLengthAreRefusedAndNothingMoves) {
+    const std::vector<BenchDescription> descriptions(2, bench_with(0.21));
+    BenchSimulations benches(descriptions, std::vector<BenchEffects>(2));
+    BenchInputs longer = hand_in_lanes_at(40);
+    longer.time_step_s *= 2.0;
+    EXPECT_THROW(benches.advance(std::vector<BenchInputs>{hand_in_lanes_at(40), longer}), InvalidInput);
+    EXPECT_EQ(benches.pulleys(0).load_angle_rad(), 0.0);
 }
 
 // A fit stops a bench that does not converge, so that it costs nothing more.

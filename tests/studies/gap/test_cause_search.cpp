@@ -27,6 +27,15 @@ struct ThreeCauses {
     }
 };
 
+Recording with_runs_of(const std::vector<std::size_t>& samples) {
+    Recording recording;
+    for (const std::size_t count : samples) {
+        recording.runs.emplace_back();
+        recording.runs.back().time_s.resize(count);
+    }
+    return recording;
+}
+
 TEST(Hypothesis, ACauseThatIsAddedComesLastWithItsNumbers) {
     const ThreeCauses known;
     const Hypothesis bend =
@@ -50,19 +59,28 @@ TEST(Hypothesis, ThoseThatDifferInSensorFaultsOnlyShareABench) {
     Hypothesis other_bend = known.together();
     other_bend.coordinates[3] = 4.0;
     const std::vector<SameBench> benches =
-        by_bench(std::vector<Hypothesis>{known.together(), other_bend, other_lag}, RecordedRun{});
+        by_bench(std::vector<Hypothesis>{known.together(), other_bend, other_lag}, with_runs_of({1}), 0);
     ASSERT_EQ(benches.size(), 2u);
     EXPECT_EQ(benches[0].hypotheses, (std::vector<std::size_t>{0, 2}));
     EXPECT_EQ(benches[1].hypotheses, (std::vector<std::size_t>{1}));
 }
 
 TEST(Hypothesis, BenchesThatRingAreGroupedApartAndNoGroupExceedsTheLanes) {
+    const Recording recording = with_runs_of({5, 7});
     std::vector<SameBench> benches(2 * bench_lanes + 1);
-    benches[1].numbers.effects.of<Inertia>().motor_kg_m2 = 1e-5;
+    benches[1].moved.numbers.effects.of<Inertia>().motor_kg_m2 = 1e-5;
+    for (std::size_t k = 0; k < benches.size(); k += 3) benches[k].moved.run = 1;
     std::size_t grouped = 0;
-    for (const BenchGroup& group : to_be_moved_at_once(benches)) {
+    int shortest = 7;
+    for (const BenchGroup& group : to_be_moved_at_once(benches, recording)) {
         EXPECT_LE(group.size(), static_cast<std::size_t>(bench_lanes));
-        for (const SameBench& bench : group) EXPECT_EQ(bench.numbers.rings(), group.front().numbers.rings());
+        const bool rings = group.front().moved.numbers.rings();
+        for (const SameBench& bench : group) {
+            EXPECT_EQ(bench.moved.numbers.rings(), rings);
+            if (rings) continue;
+            EXPECT_LE(recording.runs[bench.moved.run].samples(), shortest) << "long runs go first";
+            shortest = recording.runs[bench.moved.run].samples();
+        }
         grouped += group.size();
     }
     EXPECT_EQ(grouped, benches.size());
