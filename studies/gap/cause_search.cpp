@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "capstan/effects/known_causes.h"
+#include "capstan/platform/parallel_for.h"
 #include "capstan/rig/channel_names.h"
 
 namespace capstan::gap {
@@ -15,6 +17,8 @@ namespace {
 
 // How many causes get a full fit after the screening.
 constexpr std::size_t max_fitted = 8;
+// Fits of single causes that are made side by side. What they are pruned at does not depend on the threads.
+constexpr std::size_t fits_at_once = 4;
 // The screening uses fewer segments and samples. A drive of unknown geometry has no bend at a place, so few
 // segments are enough; a band, whose tension falls by a factor round its drum, needs as many as a described
 // cable. But both are moved by recorded channels: what is left of their noise moves them to and fro, and
@@ -189,26 +193,36 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     constexpr double leads_nowhere = 10.0;
     const bool is_told = !is_undescribed(level.bench) || singles.front().misfit < leads_nowhere;
     const std::size_t max_count = is_told ? max_fitted : all.size();
+    // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
+    // numbers; and so is a cause that the values themselves show.
+    std::vector<Further> chosen;
     std::size_t fitted = 0;
     for (const Further& each : all) {
-        // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
-        // numbers; and so is a cause that the values themselves show.
-        if (is_out_of_time()) break;
         const bool is_always_fitted = each.cause->numbers.empty() || each.cause->is_seen;
         if (fitted == max_count && !is_always_fitted) continue;
         if (!is_always_fitted) ++fitted;
-        add_single(level, each, singles);
-        // A few rough steps do not show which start leads to the best fit.
-        const SeriesWeights weights = singles.front().fit.weights;
-        for (const Eigen::VectorXd& numbers : further_starts(level.bench)) {
-            if (each.cause->numbers.empty() || is_out_of_time()) break;
-            const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
-            const Hypothesis elsewhere =
-                with_cause({{}, numbers, &level.bench}, each.cause, each.start.coordinates.tail(own));
-            const CauseFit rough = coarse_.fitter.rough_fit({&elsewhere, 1}, weights);
-            evaluations_ += rough.evaluations;
-            add_single(level, {each.cause, rough.hypothesis(), rough.sum_of_squares}, singles);
+        chosen.push_back(each);
+    }
+    const SeriesWeights weights = singles.front().fit.weights;
+    for (std::size_t k = 0; k < chosen.size() && !is_out_of_time(); k += fits_at_once) {
+        std::vector<Hypothesis> starts;
+        for (std::size_t next = k; next < std::min(k + fits_at_once, chosen.size()); ++next)
+            starts.push_back(chosen[next].start);
+        report("fitting " + in_words(starts.front().causes));
+        add_fits(level, starts, level.bench.is_measured(), singles);
+    }
+    if (is_undescribed(level.bench) && !is_out_of_time()) {
+        // A few rough steps do not show which start leads to the best fit: promising causes, by the screening
+        // or by their fit, are fitted from all starts.
+        constexpr double promising_factor = 2.5;
+        const auto misfit = [](const ScoredFit& a, const ScoredFit& b) { return a.misfit < b.misfit; };
+        const double least = std::min_element(singles.begin(), singles.end(), misfit)->misfit;
+        std::vector<Further> promising;
+        for (std::size_t k = 0; k < chosen.size(); ++k) {
+            if (k < max_fitted || singles[k + 1].misfit < promising_factor * least)
+                promising.push_back(chosen[k]);
         }
+        add_from_elsewhere(level, promising, weights, singles);
     }
     sort_by_evidence(singles);
     if (!worth_a_further_cause(singles.front()) && !is_out_of_time()) add_confusable(level, all, singles);
@@ -258,22 +272,20 @@ ScoredFit CauseSearch::without_cause(const Level& level) {
                                               ? roughly_sought(level.bench)
                                               : nominal_hypothesis(level.bench),
                                           &level.causes.front(), {});
-    ScoredFit best = fitted(level, nominal, {});
+    std::vector<Hypothesis> starts = {nominal};
     // A search from the stated numbers may end far off; the best causes of the measured bench lead elsewhere.
     if (&level.bench == &built_.bench && built_numbers_.size() > 0) {
-        Hypothesis other = nominal;
-        other.coordinates = built_numbers_;
-        ScoredFit fit = fitted(level, other, {});
-        if (fit.evidence > best.evidence) best = std::move(fit);
+        starts.push_back(nominal);
+        starts.back().coordinates = built_numbers_;
     }
     for (const Eigen::VectorXd& from : further_starts(level.bench)) {
-        if (is_out_of_time()) break;
-        Hypothesis other = nominal;
-        other.coordinates = from;
-        ScoredFit fit = fitted(level, other, {});
-        if (fit.evidence > best.evidence) best = std::move(fit);
+        starts.push_back(nominal);
+        starts.back().coordinates = from;
     }
-    return best;
+    Fits fits = made_side_by_side(model_of(level), starts.size(),
+                                  [&](std::size_t k) { return fit_on(level, starts[k], {}); });
+    sort_by_evidence(fits);
+    return std::move(fits.front());
 }
 
 // Beside the nominal numbers. Of an undescribed bench these are a guess; stiffness and pretension make much
@@ -291,7 +303,7 @@ std::vector<Eigen::VectorXd> CauseSearch::further_starts(const BenchKnowledge& b
 
 bool CauseSearch::is_out_of_time() {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun_;
-    cut_short_ |= taken.count() > options_.time_limit_s;
+    if (taken.count() > options_.time_limit_s) cut_short_ = true;
     return cut_short_;
 }
 
@@ -301,17 +313,26 @@ void CauseSearch::report(const std::string& activity) {
 }
 
 // A bench with many floating numbers is searched with the coarse model, and its best sets are fitted again.
-ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options) {
-    Model& model = level.bench.is_measured() ? fine_ : coarse_;
+CauseFit CauseSearch::fit_on(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options) {
     options.balanced = !level.bench.is_measured();
     // There each channel has a scale of its own, and the sum of squares decides nothing.
     if (is_undescribed(level.bench)) options.pruned_sum_of_squares = std::numeric_limits<double>::infinity();
-    return scored(model, model.fitter.fit(start, options));
+    return model_of(level).fitter.fit(start, options);
 }
 
-ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
-    ++fitted_;
-    evaluations_ += fit.evaluations;
+ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start,
+                              const CauseFitter::FitOptions& options) {
+    return scored(model_of(level), fit_on(level, start, options));
+}
+
+CauseFit CauseSearch::roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights) {
+    CauseFit rough = coarse_.fitter.rough_fit(starts, weights);
+    evaluations_ += rough.evaluations;
+    return rough;
+}
+
+// All of a fit's score that does not depend on other fits.
+ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
     ScoredFit scored;
     scored.fit = std::move(fit);
     scored.misfit = model.fitter.misfit(scored.fit);
@@ -327,11 +348,6 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
         scored.visible_numbers.push_back(k);
         if (std::abs(coordinate) > number.usual) scored.far_numbers.push_back(k);
     }
-    if (!scored.fit.bench->is_measured()) {
-        if (scored.fit.causes.front()->effect == "none")
-            model.left_without_cause = std::min(model.left_without_cause, scored.misfit);
-        scored.max_visibility = std::sqrt(std::max(0.0, model.left_without_cause - scored.misfit));
-    }
     scored.has_unknown_scales = is_undescribed(*scored.fit.bench);
     if (scored.has_unknown_scales) {
         scored.beside = model.discrepancy.with_own_scales(scored.fit.residuals);
@@ -339,20 +355,72 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
         scored.beside = model.discrepancy.of(scored.fit.residuals);
         scored.channel_misfits = model.fitter.channel_misfits(scored.fit);
     }
-    scored.evidence = evidence_.of(scored);
     return scored;
 }
 
-void CauseSearch::add_single(const Level& level, const Further& further, Fits& singles) {
-    report("fitting " + in_words({further.cause}));
-    add_fit(level, further.start, level.bench.is_measured(), singles);
+// In the order of the fits.
+void CauseSearch::weigh(Model& model, ScoredFit& fit) {
+    ++fitted_;
+    evaluations_ += fit.fit.evaluations;
+    if (!fit.fit.bench->is_measured()) {
+        if (fit.fit.causes.front()->effect == "none")
+            model.left_without_cause = std::min(model.left_without_cause, fit.misfit);
+        fit.max_visibility = std::sqrt(std::max(0.0, model.left_without_cause - fit.misfit));
+    }
+    fit.evidence = evidence_.of(fit);
 }
 
-void CauseSearch::add_fit(const Level& level, const Hypothesis& start, bool any_size, Fits& fits) {
+ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
+    ScoredFit scored = measured(model, std::move(fit));
+    weigh(model, scored);
+    return scored;
+}
+
+// Fits that do not depend on one another. Out of time only the first one is made.
+CauseSearch::Fits CauseSearch::made_side_by_side(Model& model, std::size_t count,
+                                                 const std::function<CauseFit(std::size_t)>& fit) {
+    std::vector<std::optional<ScoredFit>> made(count);
+    parallel_for_each_index(static_cast<int>(count), options_.threads, [&](int index) {
+        const auto k = static_cast<std::size_t>(index);
+        if (k == 0 || !is_out_of_time()) made[k] = measured(model, fit(k));
+    });
+    Fits fits;
+    for (std::optional<ScoredFit>& each : made) {
+        if (!each) continue;
+        weigh(model, *each);
+        fits.push_back(std::move(*each));
+    }
+    return fits;
+}
+
+// Single causes of an undescribed bench, from further numbers of it.
+void CauseSearch::add_from_elsewhere(const Level& level, std::span<const Further> some,
+                                     const SeriesWeights& weights, Fits& singles) {
+    for (const Further& each : some) {
+        if (each.cause->numbers.empty() || is_out_of_time()) continue;
+        std::vector<Hypothesis> starts;
+        const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
+        for (const Eigen::VectorXd& numbers : further_starts(level.bench))
+            starts.push_back(
+                with_cause({{}, numbers, &level.bench}, each.cause, each.start.coordinates.tail(own)));
+        report("fitting " + in_words(starts.front().causes));
+        Fits fits = made_side_by_side(model_of(level), starts.size(), [&](std::size_t k) {
+            CauseFitter::FitOptions options;
+            options.any_size = false;
+            return fit_on(level, roughly_fitted({&starts[k], 1}, weights).hypothesis(), options);
+        });
+        std::move(fits.begin(), fits.end(), std::back_inserter(singles));
+    }
+}
+
+void CauseSearch::add_fits(const Level& level, const std::vector<Hypothesis>& starts, bool any_size,
+                           Fits& fits) {
     CauseFitter::FitOptions options;
     options.pruned_sum_of_squares = pruned_at(fits);
     options.any_size = any_size;
-    fits.push_back(fitted(level, start, options));
+    Fits made = made_side_by_side(model_of(level), starts.size(),
+                                  [&](std::size_t k) { return fit_on(level, starts[k], options); });
+    std::move(made.begin(), made.end(), std::back_inserter(fits));
 }
 
 // Causes that are easily confused with the best one are fitted whatever the screening says.
@@ -373,7 +441,8 @@ void CauseSearch::add_confusable(const Level& level, const std::vector<Further>&
                 only_causes(singles.front().fit.hypothesis(), [](const CandidateCause&) { return false; });
             from_best.start = with_cause(bench, found->cause, found->start.coordinates.tail(own));
         }
-        add_single(level, from_best, singles);
+        report("fitting " + in_words({from_best.cause}));
+        add_fits(level, {from_best.start}, level.bench.is_measured(), singles);
     }
     sort_by_evidence(singles);
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -83,12 +85,18 @@ class CauseSearch {
 
     void report(const std::string& activity);
     bool is_out_of_time();
+    Model& model_of(const Level& level) { return level.bench.is_measured() ? fine_ : coarse_; }
+    CauseFit fit_on(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
+    CauseFit roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights);
+    ScoredFit measured(const Model& model, CauseFit fit) const;
+    void weigh(Model& model, ScoredFit& fit);
+    Fits made_side_by_side(Model& model, std::size_t count, const std::function<CauseFit(std::size_t)>& fit);
     ScoredFit scored(Model& model, CauseFit fit);
     static void remove_unstated_numbers(Level& level);
     bool is_undescribed(const BenchKnowledge& bench) const;
     std::vector<Eigen::VectorXd> further_starts(const BenchKnowledge& bench) const;
     Hypothesis roughly_sought(const BenchKnowledge& bench) const;
-    ScoredFit fitted(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
+    ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);
     Fits finely_fitted(Fits coarse);
     double held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
                                const std::vector<LeftOut>& parts);
@@ -101,15 +109,18 @@ class CauseSearch {
     void refine(const Level& level, Fits& all);
     void try_periods(const Level& level, Fits& sets);
     void try_usual_numbers(const Level& level, Fits& all);
-    void try_swapping(const Level& level, Fits& all);
-    void add_fit(const Level& level, const Hypothesis& start, bool any_size, Fits& fits);
+    void try_swapping(const Level& level, Hypothesis& swapped, Fits& all);
+    void add_fits(const Level& level, const std::vector<Hypothesis>& starts, bool any_size, Fits& fits);
     void try_replacing(const Level& level, Fits& sets);
     void try_others(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;
     void add_measured_sets(const ScoredFit& built, Fits& all);
     std::vector<Further> screened(const Level& level, const Hypothesis& present, const SeriesWeights& weights,
                                   bool begins_elsewhere);
-    void add_single(const Level& level, const Further& further, Fits& singles);
+    void fit_roughly(std::vector<Further>& all, const SeriesWeights& weights,
+                     std::span<const Eigen::VectorXd> elsewhere);
+    void add_from_elsewhere(const Level& level, std::span<const Further> some, const SeriesWeights& weights,
+                            Fits& singles);
     void add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles);
     static double pruned_at(const Fits& fits);
     Fits larger_sets(const Level& level, const Fits& smaller);
@@ -126,9 +137,10 @@ class CauseSearch {
     Eigen::VectorXd built_numbers_;  // of the bench as built, beside the best causes of the measured bench
     double nominal_misfit_ = 0.0;
     int fitted_ = 0;
-    int evaluations_ = 0;
+    // Fits that are made side by side count and look at the time.
+    std::atomic<int> evaluations_ = 0;
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-    bool cut_short_ = false;
+    std::atomic<bool> cut_short_ = false;
 };
 
 /// In place, best first.

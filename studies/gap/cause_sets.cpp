@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "capstan/gap/cause_search.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan::gap {
 
@@ -57,21 +58,21 @@ CauseSearch::Fits CauseSearch::finely_fitted(Fits coarse) {
     // What is left without a cause limits how visible one can be.
     std::stable_partition(coarse.begin(), coarse.end(),
                           [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
-    Fits fine;
-    for (auto each = coarse.begin(); each != coarse.end(); ++each) {
+    std::vector<Hypothesis> best;
+    for (auto each = coarse.begin(); each != coarse.end() && best.size() < max_fits; ++each) {
         // The best of several starts with the same causes is enough.
         const auto has_same_causes = [&](const ScoredFit& other) {
             return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
                                        each->fit.causes.begin(), each->fit.causes.end());
         };
-        if (std::any_of(coarse.begin(), each, has_same_causes)) continue;
-        if (fine.size() == max_fits) break;
-        report("fitting " + in_words(each->fit.causes) + " finely");
-        CauseFitter::FitOptions options;
-        options.any_size = false;
-        options.balanced = true;
-        fine.push_back(scored(fine_, fine_.fitter.fit(each->fit.hypothesis(), options)));
+        if (std::none_of(coarse.begin(), each, has_same_causes)) best.push_back(each->fit.hypothesis());
     }
+    report("fitting the best explanations finely");
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    options.balanced = true;
+    Fits fine = made_side_by_side(fine_, best.size(),
+                                  [&](std::size_t k) { return fine_.fitter.fit(best[k], options); });
     sort_by_evidence(fine);
     return fine;
 }
@@ -98,12 +99,10 @@ void CauseSearch::try_fewer(const Level& level, Fits& all) {
         if (best.causes.size() == 1 && level.bench.is_measured()) return;
         const double before = all.front().evidence;
         report("trying fewer causes");
-        for (const CandidateCause* dropped : best.causes) {
-            Hypothesis fewer =
-                only_causes(best, [&](const CandidateCause& cause) { return &cause != dropped; });
-            if (fewer.causes.empty()) fewer = with_cause(fewer, &level.causes.front(), {});
-            add_fit(level, fewer, false, all);
-        }
+        std::vector<Hypothesis> fewer = without_each(best);
+        if (fewer.front().causes.empty())
+            fewer.front() = with_cause(fewer.front(), &level.causes.front(), {});
+        add_fits(level, fewer, false, all);
         sort_by_evidence(all);
         if (all.front().evidence == before) return;
         best = all.front().fit.hypothesis();
@@ -222,32 +221,43 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, cons
     for (const Screened& each : screen(coarse_.fitter, level.causes, present, weights)) {
         if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
         all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
-        if (level.bench.is_measured()) continue;
-        std::vector<Hypothesis> starts = {all.back().start};
-        if (begins_elsewhere && is_undescribed(level.bench)) {
-            std::vector<Eigen::VectorXd> benches = further_starts(level.bench);
-            benches.push_back(nominal_hypothesis(level.bench).coordinates);
-            for (const Eigen::VectorXd& numbers : benches)
-                starts.push_back(with_cause({{}, numbers, present.bench}, each.cause, each.start));
-        }
-        if (is_out_of_time()) {
-            all.back().sum_of_squares = std::numeric_limits<double>::infinity();
-            continue;
-        }
-        const CauseFit rough = coarse_.fitter.rough_fit(starts, weights);
-        evaluations_ += rough.evaluations;
-        all.back().start = rough.hypothesis();
-        all.back().sum_of_squares = rough.sum_of_squares;
     }
+    if (level.bench.is_measured()) return all;
+    std::vector<Eigen::VectorXd> elsewhere;
+    if (begins_elsewhere && is_undescribed(level.bench)) {
+        elsewhere = further_starts(level.bench);
+        elsewhere.push_back(nominal_hypothesis(level.bench).coordinates);
+    }
+    fit_roughly(all, weights, elsewhere);
+    return all;
+}
+
+// A few steps of a search for each, also with these numbers of the bench without other causes; the most
+// promising first.
+void CauseSearch::fit_roughly(std::vector<Further>& all, const SeriesWeights& weights,
+                              std::span<const Eigen::VectorXd> elsewhere) {
+    parallel_for_each_index(static_cast<int>(all.size()), options_.threads, [&](int index) {
+        Further& further = all[static_cast<std::size_t>(index)];
+        further.sum_of_squares = std::numeric_limits<double>::infinity();
+        if (is_out_of_time()) return;
+        const auto own = static_cast<Eigen::Index>(further.cause->numbers.size());
+        std::vector<Hypothesis> starts = {further.start};
+        for (const Eigen::VectorXd& numbers : elsewhere)
+            starts.push_back(with_cause({{}, numbers, further.start.bench}, further.cause,
+                                        further.start.coordinates.tail(own)));
+        const CauseFit rough = roughly_fitted(starts, weights);
+        further.start = rough.hypothesis();
+        further.sum_of_squares = rough.sum_of_squares;
+    });
     std::stable_sort(all.begin(), all.end(),
                      [](const Further& a, const Further& b) { return a.sum_of_squares < b.sum_of_squares; });
-    return all;
 }
 
 // `weights`: of the fit that the hypothesis comes from; `max_further`: causes that are tried beside it.
 void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
                            std::size_t max_further, Fits& sets) {
     std::size_t further = 0;
+    std::vector<Hypothesis> starts;
     for (const Further& each : screened(level, hypothesis, weights, false)) {
         if (further == max_further || is_out_of_time()) break;
         const bool known =
@@ -265,9 +275,11 @@ void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, con
                    std::is_permutation(set.begin(), set.end(), other.fit.causes.begin());
         };
         if (level.bench.is_measured() && std::any_of(sets.begin(), sets.end(), same)) continue;
-        report("fitting " + in_words(set));
-        add_fit(level, each.start, level.bench.is_measured(), sets);
+        starts.push_back(each.start);
     }
+    if (starts.empty()) return;
+    report("fitting " + in_words(starts.front().causes));
+    add_fits(level, starts, level.bench.is_measured(), sets);
 }
 
 }  // namespace capstan::gap

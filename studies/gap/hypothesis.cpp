@@ -74,6 +74,14 @@ Hypothesis only_causes(const Hypothesis& hypothesis, const std::function<bool(co
     return kept;
 }
 
+std::vector<Hypothesis> without_each(const Hypothesis& hypothesis) {
+    std::vector<Hypothesis> fewer;
+    for (const CandidateCause* dropped : hypothesis.causes)
+        fewer.push_back(
+            only_causes(hypothesis, [&](const CandidateCause& cause) { return &cause != dropped; }));
+    return fewer;
+}
+
 std::vector<SameBench> by_bench(std::span<const Hypothesis> hypotheses, const Recording& recording,
                                 std::size_t run_index) {
     const RecordedRun& run = recording.runs[run_index];

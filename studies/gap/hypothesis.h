@@ -28,6 +28,9 @@ Hypothesis with_cause(Hypothesis present, const CandidateCause* cause, const Eig
 /// The hypothesis with only those of its causes that `keep` accepts, at the same numbers.
 Hypothesis only_causes(const Hypothesis& hypothesis, const std::function<bool(const CandidateCause&)>& keep);
 
+/// The hypothesis without each of its causes in turn.
+std::vector<Hypothesis> without_each(const Hypothesis& hypothesis);
+
 /// Hypotheses that differ in one run in what sensors read: one bench is simulated for all of them.
 struct SameBench {
     MovedBench moved;  // without faults of sensors

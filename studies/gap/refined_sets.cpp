@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capstan/gap/cause_search.h"
+#include "capstan/platform/parallel_for.h"
 
 namespace capstan::gap {
 
@@ -32,10 +33,11 @@ Hypothesis with_usual_numbers(Hypothesis hypothesis) {
 // another, and so may a number of the bench.
 void CauseSearch::refine(const Level& level, Fits& all) {
     constexpr int max_rounds = 2;
+    Hypothesis swapped;
     for (int round = 0; round < max_rounds && !is_out_of_time(); ++round) {
         const double before = all.front().evidence;
         try_usual_numbers(level, all);
-        try_swapping(level, all);
+        try_swapping(level, swapped, all);
         if (all.front().evidence < before + clear_gain) return;
     }
 }
@@ -52,8 +54,8 @@ void CauseSearch::try_usual_numbers(const Level& level, Fits& all) {
 }
 
 // The best set with one cause more than the best of all, without each of its causes in turn: the one that was
-// added may do what another one stood for.
-void CauseSearch::try_swapping(const Level& level, Fits& all) {
+// added may do what another one stood for. `swapped`: the last set that this was done to.
+void CauseSearch::try_swapping(const Level& level, Hypothesis& swapped, Fits& all) {
     for (;;) {
         const double before = all.front().evidence;
         const std::size_t more = all.front().fit.causes.size() + 1;
@@ -62,12 +64,10 @@ void CauseSearch::try_swapping(const Level& level, Fits& all) {
         });
         if (larger == all.end() || more == 2 || more > max_causes) return;
         const Hypothesis set = larger->fit.hypothesis();
-        for (const CandidateCause* dropped : set.causes) {
-            if (is_out_of_time()) break;
-            report("trying fewer causes");
-            add_fit(level, only_causes(set, [&](const CandidateCause& each) { return &each != dropped; }),
-                    false, all);
-        }
+        if (set.causes == swapped.causes && set.coordinates == swapped.coordinates) return;
+        swapped = set;
+        report("trying fewer causes");
+        add_fits(level, without_each(set), false, all);
         sort_by_evidence(all);
         if (all.front().evidence < before + clear_gain) return;
         const Fits best = {all.front()};
@@ -81,58 +81,73 @@ void CauseSearch::try_swapping(const Level& level, Fits& all) {
 // of periods may be better: of the best set that has a ripple, the most promising numbers are fitted, and
 // then their neighbours.
 void CauseSearch::try_periods(const Level& level, Fits& sets) {
+    constexpr std::size_t max_rough = 8;
     constexpr std::size_t max_fitted_periods = 3;
+    struct Ripple {
+        const CandidateCause* cause = nullptr;
+        Eigen::Index first = 0;  // of its numbers among the coordinates
+        Eigen::Index periods = 0;
+    };
     const auto ripple_of = [](const Hypothesis& set) {
-        Eigen::Index at = set.bench->size();
+        Eigen::Index first = set.bench->size();
         for (const CandidateCause* cause : set.causes) {
-            for (const OpenNumber& number : cause->numbers) {
-                if (number.kind == OpenNumber::Kind::periods) return std::pair{&number, at};
-                ++at;
+            for (std::size_t k = 0; k < cause->numbers.size(); ++k) {
+                if (cause->numbers[k].kind == OpenNumber::Kind::periods)
+                    return Ripple{cause, first, first + static_cast<Eigen::Index>(k)};
             }
+            first += static_cast<Eigen::Index>(cause->numbers.size());
         }
-        return std::pair<const OpenNumber*, Eigen::Index>{nullptr, 0};
+        return Ripple{};
     };
     const auto found = std::find_if(sets.begin(), sets.end(), [&](const ScoredFit& each) {
-        return ripple_of(each.fit.hypothesis()).first != nullptr;
+        return ripple_of(each.fit.hypothesis()).cause != nullptr;
     });
     if (found == sets.end()) return;
-    ScoredFit best = *found;
-    const auto [number, at] = ripple_of(best.fit.hypothesis());
-    std::vector<double> tried = {number->value(best.fit.coordinates[at])};
     report("trying other numbers of periods");
-    const auto with_periods = [&, at = at](double periods) {
-        Hypothesis other = best.fit.hypothesis();
-        other.coordinates[at] = periods;
-        return other;
+    ScoredFit best = *found;
+    const Hypothesis set = best.fit.hypothesis();
+    const Ripple ripple = ripple_of(set);
+    const auto count = static_cast<Eigen::Index>(ripple.cause->numbers.size());
+    const OpenNumber& number = ripple.cause->numbers[static_cast<std::size_t>(ripple.periods - ripple.first)];
+    std::vector<double> tried = {number.value(set.coordinates[ripple.periods])};
+    const auto is_tried = [&](double periods) {
+        return std::find(tried.begin(), tried.end(), periods) != tried.end();
     };
-    const auto fit_with_periods = [&](const Hypothesis& start) {
-        add_fit(level, start, false, sets);
-        if (sets.back().evidence > best.evidence) best = sets.back();
-    };
-    std::vector<std::pair<double, Hypothesis>> promising;  // by the sum of squares
-    for (const double periods : number->starts()) {
-        if (periods == tried.front() || is_out_of_time()) continue;
-        const Hypothesis other = with_periods(periods);
-        const CauseFit rough = coarse_.fitter.rough_fit({&other, 1}, best.fit.weights);
-        evaluations_ += rough.evaluations;
-        promising.emplace_back(rough.sum_of_squares, rough.hypothesis());
+
+    std::vector<Further> promising;
+    const Hypothesis without =
+        only_causes(set, [&](const CandidateCause& cause) { return &cause != ripple.cause; });
+    for (const Screened& each : screen_each_start(coarse_.fitter, *ripple.cause, without, best.fit.weights)) {
+        if (promising.size() == max_rough) break;
+        Hypothesis other = set;
+        other.coordinates.segment(ripple.first, count) = each.start;
+        if (!is_tried(number.value(other.coordinates[ripple.periods])))
+            promising.push_back({ripple.cause, std::move(other), each.sum_of_squares});
     }
-    std::stable_sort(promising.begin(), promising.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t k = 0; k < std::min(max_fitted_periods, promising.size()); ++k) {
-        tried.push_back(promising[k].second.coordinates[at]);
-        fit_with_periods(promising[k].second);
-    }
-    for (bool climbs = true; climbs && !is_out_of_time();) {
-        const double middle = number->value(best.fit.coordinates[at]);
-        for (const double periods : {middle - 1.0, middle + 1.0}) {
-            if (number->value(periods) != periods ||
-                std::find(tried.begin(), tried.end(), periods) != tried.end())
-                continue;
-            tried.push_back(periods);
-            fit_with_periods(with_periods(periods));
+    fit_roughly(promising, best.fit.weights, {});
+
+    const auto fit_each = [&](const std::vector<Hypothesis>& starts) {
+        for (const Hypothesis& each : starts) tried.push_back(number.value(each.coordinates[ripple.periods]));
+        const std::size_t known = sets.size();
+        if (!starts.empty()) add_fits(level, starts, false, sets);
+        for (std::size_t k = known; k < sets.size(); ++k) {
+            if (sets[k].evidence > best.evidence) best = sets[k];
         }
-        climbs = number->value(best.fit.coordinates[at]) != middle;
+    };
+    std::vector<Hypothesis> starts;
+    for (std::size_t k = 0; k < std::min(max_fitted_periods, promising.size()); ++k)
+        starts.push_back(promising[k].start);
+    fit_each(starts);
+    for (bool climbs = true; climbs && !is_out_of_time();) {
+        const double middle = number.value(best.fit.coordinates[ripple.periods]);
+        std::vector<Hypothesis> neighbours;
+        for (const double periods : {middle - 1.0, middle + 1.0}) {
+            if (number.value(periods) != periods || is_tried(periods)) continue;
+            neighbours.push_back(best.fit.hypothesis());
+            neighbours.back().coordinates[ripple.periods] = periods;
+        }
+        fit_each(neighbours);
+        climbs = number.value(best.fit.coordinates[ripple.periods]) != middle;
     }
     sort_by_evidence(sets);
 }
@@ -182,21 +197,23 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
         const Hypothesis all = best.fit.hypothesis();
         const std::vector<LeftOut> parts = left_out_in_turn(run_count_, all.causes);
         const double with_all = held_out_log_misfit(all, best.fit.weights, parts);
+        // A log likelihood, as the evidence is.
+        const std::vector<Hypothesis> fewer = without_each(all);
+        std::vector<double> lost(fewer.size());
+        parallel_for_each_index(static_cast<int>(fewer.size()), options_.threads, [&](int index) {
+            const auto k = static_cast<std::size_t>(index);
+            lost[k] = 0.5 * samples * (with_all - held_out_log_misfit(fewer[k], best.fit.weights, parts));
+        });
         std::optional<ScoredFit> earned;
         double max_lost = 0.0;
-        for (const CandidateCause* dropped : all.causes) {
-            const Hypothesis fewer =
-                only_causes(all, [&](const CandidateCause& cause) { return &cause != dropped; });
-            // A log likelihood, as the evidence is.
-            const double lost =
-                0.5 * samples * (with_all - held_out_log_misfit(fewer, best.fit.weights, parts));
-            if (lost < max_lost) continue;
+        for (std::size_t k = 0; k < fewer.size(); ++k) {
+            if (lost[k] < max_lost) continue;
             CauseFitter::FitOptions options;
             options.any_size = false;
             options.weights = best.fit.weights;
-            ScoredFit fit = scored(fine_, fine_.fitter.fit(fewer, options));
-            if (best.evidence - fit.evidence > lost) continue;
-            max_lost = lost;
+            ScoredFit fit = scored(fine_, fine_.fitter.fit(fewer[k], options));
+            if (best.evidence - fit.evidence > lost[k]) continue;
+            max_lost = lost[k];
             earned = std::move(fit);
         }
         if (!earned) return;

@@ -109,13 +109,11 @@ Eigen::VectorXd sized(const Probe& probe, const Eigen::VectorXd& weights) {
     return start;
 }
 
-}  // namespace
-
-std::vector<Screened> screen(const CauseFitter& fitter, std::span<const CandidateCause> causes,
-                             const Hypothesis& present, const SeriesWeights& weights) {
+// One for each probe, in their order.
+std::vector<Screened> screened(const CauseFitter& fitter, std::span<const Probe> probes,
+                               const Hypothesis& present, const SeriesWeights& weights) {
     constexpr double step = 0.02;
     const Eigen::Index known = present.coordinates.size();
-    const std::vector<Probe> probes = probes_of(causes, present);
     std::vector<Hypothesis> hypotheses = {present};
     for (Eigen::Index k = 0; k < known; ++k) {
         hypotheses.push_back(present);
@@ -167,15 +165,37 @@ std::vector<Screened> screen(const CauseFitter& fitter, std::span<const Candidat
             const double left = explained(there, directions, {}).left;
             if (left < screened.sum_of_squares) screened = {probe.cause, probe.start, left};
         }
-        if (all.empty() || all.back().cause != probe.cause) {
-            all.push_back(screened);
-        } else if (screened.sum_of_squares < all.back().sum_of_squares) {
-            all.back() = screened;
-        }
+        all.push_back(screened);
     }
+    return all;
+}
+
+void sort_by_promise(std::vector<Screened>& all) {
     std::stable_sort(all.begin(), all.end(), [](const Screened& a, const Screened& b) {
         return a.sum_of_squares < b.sum_of_squares;
     });
+}
+
+}  // namespace
+
+std::vector<Screened> screen(const CauseFitter& fitter, std::span<const CandidateCause> causes,
+                             const Hypothesis& present, const SeriesWeights& weights) {
+    std::vector<Screened> best;
+    for (Screened& each : screened(fitter, probes_of(causes, present), present, weights)) {
+        if (best.empty() || best.back().cause != each.cause) {
+            best.push_back(std::move(each));
+        } else if (each.sum_of_squares < best.back().sum_of_squares) {
+            best.back() = std::move(each);
+        }
+    }
+    sort_by_promise(best);
+    return best;
+}
+
+std::vector<Screened> screen_each_start(const CauseFitter& fitter, const CandidateCause& cause,
+                                        const Hypothesis& present, const SeriesWeights& weights) {
+    std::vector<Screened> all = screened(fitter, probes_of({&cause, 1}, present), present, weights);
+    sort_by_promise(all);
     return all;
 }
 

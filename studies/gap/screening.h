@@ -20,4 +20,8 @@ struct Screened {
 std::vector<Screened> screen(const CauseFitter& fitter, std::span<const CandidateCause> causes,
                              const Hypothesis& present, const SeriesWeights& weights = {});
 
+/// The same for every place and shape at which a search for one cause may start.
+std::vector<Screened> screen_each_start(const CauseFitter& fitter, const CandidateCause& cause,
+                                        const Hypothesis& present, const SeriesWeights& weights);
+
 }  // namespace capstan::gap

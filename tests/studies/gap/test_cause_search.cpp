@@ -52,6 +52,15 @@ TEST(Hypothesis, KeepingSomeCausesKeepsTheirNumbersAndTheNominalOnes) {
     EXPECT_EQ(kept.coordinates, (Eigen::VectorXd{{0.1, 0.2, 0.3, 3.0}}));
 }
 
+TEST(Hypothesis, EachCauseIsLeftOutInTurn) {
+    const ThreeCauses known;
+    const std::vector<Hypothesis> fewer = without_each(known.together());
+    ASSERT_EQ(fewer.size(), 3u);
+    EXPECT_EQ(fewer[0].causes, (std::vector<const CandidateCause*>{&known.friction, &known.lag}));
+    EXPECT_EQ(fewer[0].coordinates, (Eigen::VectorXd{{0.1, 0.2, 0.3, 3.0}}));
+    EXPECT_EQ(fewer[2].coordinates, (Eigen::VectorXd{{0.1, 0.2, 0.3, 1.0, 2.0}}));
+}
+
 TEST(Hypothesis, ThoseThatDifferInSensorFaultsOnlyShareABench) {
     const ThreeCauses known;
     Hypothesis other_lag = known.together();

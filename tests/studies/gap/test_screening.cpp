@@ -64,6 +64,25 @@ TEST(Screening, FindsAnInertiaThatRingsWhateverItsSize) {
     }
 }
 
+// A ripple of six periods a turn is told from those of other numbers of periods, the most promising first.
+TEST(Screening, PutsTheStartWithTheTrueNumberOfPeriodsFirst) {
+    BenchNumbers numbers;
+    numbers.effects.of<MotorCogging>() = {0.02, -0.01, 6.0};
+    const Recording recording = exact_session(numbers, coarse_twin);
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes = only_named(recording, {"motor_cogging"});
+    ASSERT_EQ(causes.size(), 1u);
+    const std::vector<OpenNumber>& own = causes.front().numbers;
+    const auto periods = std::find_if(own.begin(), own.end(), [](const OpenNumber& number) {
+        return number.kind == OpenNumber::Kind::periods;
+    });
+    ASSERT_NE(periods, own.end());
+    const std::vector<Screened> screened = screen_each_start(fitter, causes.front(), nominal, {});
+    ASSERT_EQ(screened.size(), periods->starts().size());
+    EXPECT_EQ(periods->value(screened.front().start[periods - own.begin()]), 6.0);
+    EXPECT_LT(screened.front().sum_of_squares, 0.5 * screened[1].sum_of_squares);
+}
+
 // Half a degree of freedom: drag cannot be negative, so a bench with too little of it gains nothing from it.
 TEST(Screening, ASizeThatCannotBeNegativeExplainsNothingTheOtherWay) {
     Recording recording = exact_session({}, coarse_twin);
