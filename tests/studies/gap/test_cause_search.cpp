@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "capstan/gap/cause_search.h"
+#include "capstan/gap/equivalent_bench.h"
+#include "lumped_session.h"
 #include "session_with_effects.h"
 
 namespace capstan::gap {
@@ -159,6 +163,49 @@ TEST(CauseSearch, OutOfTimeItGivesTheNominalFitAndSaysSo) {
     EXPECT_TRUE(found.cut_short);
     ASSERT_EQ(found.fits.size(), 1u);
     EXPECT_EQ(found.fits.front().fit.causes.front()->effect, "none");
+}
+
+struct FoundFit {
+    std::string causes;
+    Eigen::VectorXd coordinates;
+    double evidence = 0.0;
+
+    bool operator==(const FoundFit&) const = default;
+};
+
+std::vector<FoundFit> found_with_threads(const Recording& recording, int threads) {
+    CauseSearchOptions options;
+    options.segments = 10;
+    options.stride = recording.nominal_is_fitted ? 1 : 4;
+    options.threads = threads;
+    CauseSearch search(recording, options);
+    std::vector<FoundFit> found;
+    for (const ScoredFit& each : search.run().fits)
+        found.push_back({in_words(each.fit.causes), each.fit.coordinates, each.evidence});
+    return found;
+}
+
+// Fits are made side by side, and pruned by those before them.
+TEST(CauseSearch, FindsTheSameOnAMeasuredBenchWithAnyNumberOfThreads) {
+    BenchNumbers numbers;
+    numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 3.0;
+    numbers.effects.of<MotorCogging>() = {0.02, 0.0, 7.0};
+    const Recording recording = exact_session(numbers, coarse_twin);
+    const std::vector<FoundFit> alone = found_with_threads(recording, 1);
+    EXPECT_TRUE(alone.front().causes.starts_with("motor cogging with ")) << alone.front().causes;
+    EXPECT_EQ(alone, found_with_threads(recording, 3));
+}
+
+TEST(CauseSearch, FindsTheSameOnADriveWithAnyNumberOfThreads) {
+    Recording drive = lumped_session({});
+    for (RecordedRun& run : drive.runs) {
+        for (std::size_t sample = 0; sample < run.time_s.size(); ++sample)
+            run.values[0][sample] += 0.05 * std::sin(6.0 * run.values[1][sample] + 1.0);
+    }
+    const Recording bench = equivalent_bench(drive, drive);
+    const std::vector<FoundFit> alone = found_with_threads(bench, 1);
+    EXPECT_EQ(alone.front().causes, "motor cogging");
+    EXPECT_EQ(alone, found_with_threads(bench, 3));
 }
 
 TEST(CauseSearch, StartsWithTheNominalModelAndReportsGrowingProgress) {
