@@ -287,6 +287,9 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(const BenchInputs
 }
 
 std::array<BenchReport, bench_lanes> BenchSimulations::advance(EachInputs inputs) {
+    if (static_cast<int>(inputs.size()) != count_)
+        throw InvalidInput({std::to_string(inputs.size()) + " sets of inputs for " + std::to_string(count_) +
+                            " benches; give one to each"});
     for (const BenchInputs& each : inputs)
         demand_motion(each, inputs.front().time_step_s, cables_.count() == 2);
     EachReport reports;

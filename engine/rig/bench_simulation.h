@@ -39,8 +39,9 @@ class BenchSimulations {
 
     int count() const { return count_; }
 
-    /// `inputs`: of each bench, with one time step. Throws InvalidInput if those of a bench determine no
-    /// motion or are not finite, or if the time steps differ; nothing has moved then.
+    /// `inputs`: of each bench, with one time step. Throws InvalidInput if there are more or fewer of them
+    /// than benches, if those of a bench determine no motion or are not finite, or if the time steps differ;
+    /// nothing has moved then.
     std::array<BenchReport, bench_lanes> advance(std::span<const BenchInputs> inputs);
     /// All benches by the same inputs.
     std::array<BenchReport, bench_lanes> advance(const BenchInputs& inputs);

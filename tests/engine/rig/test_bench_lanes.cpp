@@ -79,12 +79,13 @@ TEST(BenchSimulations, ABenchFollowsItsOwnInputs) {
     }
 }
 
-TEST(BenchSimulations, StepsOfDifferentLengthAreRefusedAndNothingMoves) {
+TEST(BenchSimulations, InputsThatDoNotFitAreRefusedAndNothingMoves) {
     const std::vector<BenchDescription> descriptions(2, bench_with(0.21));
     BenchSimulations benches(descriptions, std::vector<BenchEffects>(2));
     BenchInputs longer = hand_in_lanes_at(40);
     longer.time_step_s *= 2.0;
     EXPECT_THROW(benches.advance(std::vector<BenchInputs>{hand_in_lanes_at(40), longer}), InvalidInput);
+    EXPECT_THROW(benches.advance(std::vector<BenchInputs>{hand_in_lanes_at(40)}), InvalidInput);
     EXPECT_EQ(benches.pulleys(0).load_angle_rad(), 0.0);
 }
 
