@@ -10,7 +10,7 @@ struct DiagnosisCost {
     int runs = 0;               ///< that are fitted
     int samples = 0;            ///< of these runs
     int causes = 0;             ///< that are screened
-    double simulation_s = 0.0;  ///< simulating these runs once, as the search does most often
+    double simulation_s = 0.0;  ///< simulating these runs once, as the search does most often, by one thread
     double min_seconds = 0.0;   ///< where the search ends early
     double max_seconds = 0.0;   ///< where sets of causes are tried
 };

@@ -21,7 +21,9 @@ TEST(DiagnosisCost, IsOfTheRunsThatAreFitted) {
 }
 
 TEST(DiagnosisCost, IsManySimulationsOfTheRecording) {
-    const DiagnosisCost cost = predict_diagnosis_cost(gap::lumped_session({}), {}, {}, no_pilot_s);
+    gap::DiagnosisOptions options;
+    options.threads = 1;
+    const DiagnosisCost cost = predict_diagnosis_cost(gap::lumped_session({}), {}, options, no_pilot_s);
     EXPECT_GT(cost.simulation_s, 0.0);
     EXPECT_GT(cost.min_seconds, 100.0 * cost.simulation_s);
     EXPECT_GT(cost.max_seconds, cost.min_seconds);
