@@ -12,6 +12,7 @@
 #include "capstan/model_comparison/diagnosed_runs.h"
 #include "capstan/model_comparison/diagnosis_cost.h"
 #include "capstan/platform/clocks.h"
+#include "capstan/platform/freed_memory.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
 #include "capstan/recording/driven_inputs.h"
@@ -94,6 +95,7 @@ class DiagnosisProgress {
 };
 
 ExitCode run_diagnose(const Invocation& invocation) {
+    keep_freed_memory();
     if (invocation.has("save")) bench_model::require_model_name(invocation.text("save"));
     const Recording recorded = read_recording(invocation.argument("LOG"));
     gap::DiagnosisOptions options;

@@ -9,6 +9,7 @@
 #include "capstan/cli/commands.h"
 #include "capstan/cli/common_options.h"
 #include "capstan/cli/output.h"
+#include "capstan/platform/freed_memory.h"
 #include "capstan/platform/parsed_number.h"
 #include "capstan/platform/progress.h"
 #include "capstan/platform/standard_streams.h"
@@ -105,6 +106,7 @@ ExitCode answer_one(const Invocation& invocation) {
 }
 
 ExitCode run_gap_trial(const Invocation& invocation) {
+    keep_freed_memory();
     if (invocation.has("case")) return answer_one(invocation);
     if (invocation.has("unseal")) return score_again(invocation);
     const bool only_recordings = invocation.has("generate-only");
