@@ -197,9 +197,8 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
         const Hypothesis all = best.fit.hypothesis();
         const std::vector<LeftOut> parts = left_out_in_turn(run_count_, all.causes);
         const double with_all = held_out_log_misfit(all, best.fit.weights, parts);
-        // A log likelihood, as the evidence is.
         const std::vector<Hypothesis> fewer = without_each(all);
-        std::vector<double> lost(fewer.size());
+        std::vector<double> lost(fewer.size());  // log likelihood, as the evidence is
         parallel_for_each_index(static_cast<int>(fewer.size()), options_.threads, [&](int index) {
             const auto k = static_cast<std::size_t>(index);
             lost[k] = 0.5 * samples * (with_all - held_out_log_misfit(fewer[k], best.fit.weights, parts));
