@@ -152,7 +152,8 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
         motor_.encoder_rad = motor_stands_rad(motor_.torque_Nm, angles.motor_rad);
     } else {
         motor_.torque_Nm =
-            pulleys_.motor_radius_m * motor_pull_N +
+            pulleys_.motor_radius_m * effects_.of<EccentricPulley>().radius_ratio(angles.motor_rad) *
+                motor_pull_N +
             losses(motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
                    effects_.of<PulleyFriction>().motor, effects_.of<Inertia>().motor_kg_m2, angles.motor_rad,
                    inputs.time_step_s)

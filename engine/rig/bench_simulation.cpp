@@ -67,16 +67,16 @@ bool any(const LaneFlags& flags) {
 BenchSimulations::BenchSimulations(std::span<const BenchDescription> descriptions,
                                    std::span<const BenchEffects> effects)
     : count_(static_cast<int>(descriptions.size())),
-      radii_(checked(descriptions.front().pulleys)),
       effects_(effects.begin(), effects.end()),
       cables_(cables_of(descriptions), effects, descriptions.front().arrangement) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
         pretension_N_.push_back(descriptions[bench].cable.pretension_N());
-        pulleys_.emplace_back(radii_, effects_[bench], descriptions[bench].inertia,
+        radii_.push_back(checked(descriptions[bench].pulleys));
+        pulleys_.emplace_back(radii_[bench], effects_[bench], descriptions[bench].inertia,
                               descriptions[bench].zeros);
         if (cables_.count() == 1)
-            pulleys_.back().rest(radii_.motor_radius_m * pretension_N_.back(),
-                                 radii_.load_radius_m * pretension_N_.back());
+            pulleys_.back().rest(radii_[bench].motor_radius_m * pretension_N_.back(),
+                                 radii_[bench].load_radius_m * pretension_N_.back());
         motor_rest_m_.push_back(motor_rest_m(static_cast<int>(bench), 0.0));
     }
 }
@@ -99,6 +99,11 @@ double BenchSimulations::motor_rest_m(int bench, double session_time_s) const {
            effects.of<ConduitCompliance>().motor_m_per_N * pretension_N;
 }
 
+// Where the cables leave the motor pulley (E59).
+double BenchSimulations::motor_radius_m(std::size_t bench, double angle_rad) const {
+    return radii_[bench].motor_radius_m * effects_[bench].of<EccentricPulley>().radius_ratio(angle_rad);
+}
+
 // Positive angles: the motor pulley reels cable A in and lets B out, the load pulley goes where A pulls
 // (E15).
 BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, const EachAngles& angles) {
@@ -107,12 +112,15 @@ BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, cons
     for (int lane = 0; lane < bench_lanes; ++lane) {
         const auto bench = static_cast<std::size_t>(lane < count_ ? lane : 0);
         const ConduitCompliance& conduit = effects_[bench].of<ConduitCompliance>();
+        const double motor_rad = angles[bench].motor_rad;
+        const double reeled_m =
+            radii_[bench].motor_radius_m * effects_[bench].of<EccentricPulley>().reeled_rad(motor_rad);
+        const double radius_m = motor_radius_m(bench, motor_rad);
         double way = -1.0;
         for (int cable = 0; cable < cables_.count(); ++cable, way = 1.0) {
-            const double motor_m_per_rad = way * radii_.motor_radius_m;
-            const double load_m_per_rad = way * radii_.load_radius_m;
-            motor[cable].at_m.of[lane] = motor_rest_m_[bench] + motor_m_per_rad * angles[bench].motor_rad;
-            motor[cable].per_rad.of[lane] = motor_m_per_rad;
+            const double load_m_per_rad = way * radii_[bench].load_radius_m;
+            motor[cable].at_m.of[lane] = motor_rest_m_[bench] + way * reeled_m;
+            motor[cable].per_rad.of[lane] = way * radius_m;
             motor[cable].compliance_m_per_N.of[lane] = conduit.motor_m_per_N;
             load[cable].at_m.of[lane] = load_m_per_rad * angles[bench].load_rad;
             load[cable].per_rad.of[lane] = load_m_per_rad;
@@ -139,8 +147,6 @@ BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, cons
 void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags active, EachAngles& angles,
                                EachReport& reports) {
     cables_.set_free({.motor = any(free.motor), .load = any(free.load)});
-    const double r_m = radii_.motor_radius_m;
-    const double r_l = radii_.load_radius_m;
     for (int iteration = 1; iteration <= max_iterations && any(active); ++iteration) {
         const Pull pull = linearise(active, angles);
         LaneValues motor_turn;
@@ -149,6 +155,11 @@ void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags ac
         for (int lane = 0; lane < count_; ++lane) {
             if (!active.of[lane]) continue;
             const auto bench = static_cast<std::size_t>(lane);
+            const double r_l = radii_[bench].load_radius_m;
+            const double r_m = motor_radius_m(bench, angles[bench].motor_rad);
+            const double r_m_per_rad =
+                radii_[bench].motor_radius_m *
+                effects_[bench].of<EccentricPulley>().radius_ratio_per_rad(angles[bench].motor_rad);
             ++reports[bench].iterations;
             double fraction = step_fractions[(iteration - 1) / iterations_with_each];
             const Torque motor = pulleys_[bench].motor_balance(inputs[bench], angles[bench].motor_rad);
@@ -158,7 +169,9 @@ void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags ac
             // A pulley that is not free does not turn further.
             const double motor_error = motor_turns ? r_m * pull.motor.value_N.of[lane] + motor.value_Nm : 0.0;
             const double load_error = load_turns ? r_l * pull.load.value_N.of[lane] + load.value_Nm : 0.0;
-            const double mm = motor_turns ? r_m * pull.motor.per_motor_rad.of[lane] + motor.per_rad : 1.0;
+            const double mm = motor_turns ? r_m * pull.motor.per_motor_rad.of[lane] +
+                                                r_m_per_rad * pull.motor.value_N.of[lane] + motor.per_rad
+                                          : 1.0;
             const double ml = motor_turns && load_turns ? r_m * pull.motor.per_load_rad.of[lane] : 0.0;
             const double lm = motor_turns && load_turns ? r_l * pull.load.per_motor_rad.of[lane] : 0.0;
             const double ll = load_turns ? r_l * pull.load.per_load_rad.of[lane] + load.per_rad : 1.0;
@@ -219,9 +232,9 @@ void BenchSimulations::bracket(EachInputs inputs, const Free& free, int lane, Pu
         (of_load ? from.load_rad : from.motor_rad) = angle_rad;
         solve(inputs, held, lane, from, angles, reports);
         const Pull pull = linearise(only, angles);
-        const double left_Nm = of_load ? radii_.load_radius_m * pull.load.value_N.of[lane] +
+        const double left_Nm = of_load ? radii_[bench].load_radius_m * pull.load.value_N.of[lane] +
                                              pulleys_[bench].load_balance(inputs[bench], angle_rad).value_Nm
-                                       : -radii_.motor_radius_m * pull.motor.value_N.of[lane] -
+                                       : -motor_radius_m(bench, angle_rad) * pull.motor.value_N.of[lane] -
                                              pulleys_[bench].motor_balance(inputs[bench], angle_rad).value_Nm;
         if (std::abs(left_Nm) < min_left_Nm) {
             min_left_Nm = std::abs(left_Nm);
@@ -231,9 +244,9 @@ void BenchSimulations::bracket(EachInputs inputs, const Free& free, int lane, Pu
     };
     const auto stiffness_Nm_per_rad = [&](double angle_rad) {
         const Pull pull = linearise(only, angles);
-        return std::abs(of_load ? radii_.load_radius_m * pull.load.per_load_rad.of[lane] +
+        return std::abs(of_load ? radii_[bench].load_radius_m * pull.load.per_load_rad.of[lane] +
                                       pulleys_[bench].load_balance(inputs[bench], angle_rad).per_rad
-                                : radii_.motor_radius_m * pull.motor.per_motor_rad.of[lane] +
+                                : motor_radius_m(bench, angle_rad) * pull.motor.per_motor_rad.of[lane] +
                                       pulleys_[bench].motor_balance(inputs[bench], angle_rad).per_rad);
     };
     const auto give_up = [&] {
@@ -241,7 +254,8 @@ void BenchSimulations::bracket(EachInputs inputs, const Free& free, int lane, Pu
         reports[bench].converged = false;
     };
     const double first_width_rad =
-        of_load ? first_load_width_rad : first_load_width_rad * radii_.load_radius_m / radii_.motor_radius_m;
+        of_load ? first_load_width_rad
+                : first_load_width_rad * radii_[bench].load_radius_m / radii_[bench].motor_radius_m;
     double low = of_load ? from.load_rad : from.motor_rad;
     double at_low = torque_left(low);
     // What the stiffness there promises, and a little more.

@@ -32,8 +32,8 @@ struct BenchReport {
 /// iterations a step, O(nodes).
 class BenchSimulations {
   public:
-    /// 1 to bench_lanes of each; pulleys, cable length and segments of the first are everybody's. At rest
-    /// under the pretension. Throws InvalidInput if a radius is not positive or a cable's segments are not
+    /// 1 to bench_lanes of each; cable length and segments of the first are everybody's. At rest under the
+    /// pretension. Throws InvalidInput if a radius is not positive or a cable's segments are not
     /// equal.
     BenchSimulations(std::span<const BenchDescription> descriptions, std::span<const BenchEffects> effects);
 
@@ -71,6 +71,7 @@ class BenchSimulations {
 
     void begin(EachInputs inputs, const LaneFlags& active);
     double motor_rest_m(int bench, double session_time_s) const;
+    double motor_radius_m(std::size_t bench, double angle_rad) const;
     Pull linearise(const LaneFlags& active, const EachAngles& angles);
     void iterate(EachInputs inputs, const Free& free, LaneFlags active, EachAngles& angles,
                  EachReport& reports);
@@ -81,7 +82,7 @@ class BenchSimulations {
 
     int count_;
     LaneFlags stopped_;
-    Pulleys radii_;
+    std::vector<Pulleys> radii_;
     std::vector<BenchEffects> effects_;
     std::vector<double> pretension_N_;
     std::vector<double> motor_rest_m_;

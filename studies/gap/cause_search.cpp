@@ -54,9 +54,11 @@ void remove_wrong_numbers(std::vector<CandidateCause>& causes) {
         causes, [](const CandidateCause& cause) { return cause.numbers.empty() && cause.effect != "none"; });
 }
 
-// Whoever states the numbers of a bench knows of a spring at its motor.
+// Whoever states the numbers of a bench knows of a spring or a cam at its motor.
 void remove_undescribed_parts(std::vector<CandidateCause>& causes) {
-    std::erase_if(causes, [](const CandidateCause& cause) { return cause.effect == "position_torque"; });
+    std::erase_if(causes, [](const CandidateCause& cause) {
+        return cause.effect == "position_torque" || cause.effect == "eccentric_pulley";
+    });
 }
 
 // Zeros and bearings of an undescribed bench float by factors. Its radii and routing are not known, so the

@@ -77,6 +77,18 @@ TEST(PositionTorque, SlopeIsTheDerivative) {
     }
 }
 
+TEST(EccentricPulley, ReelsInWhatItsRadiusSweeps) {
+    const EccentricPulley pulley{0.2, -0.1};
+    EXPECT_EQ(pulley.radius_ratio(0.0), 1.0);
+    EXPECT_EQ(pulley.reeled_rad(0.0), 0.0);
+    for (const double angle_rad : {-1.0, 0.05, 2.0}) {
+        EXPECT_NEAR(pulley.radius_ratio(angle_rad),
+                    by_differences([&](double a) { return pulley.reeled_rad(a); }, angle_rad, 1e-6), 1e-7);
+        EXPECT_NEAR(pulley.radius_ratio_per_rad(angle_rad),
+                    by_differences([&](double a) { return pulley.radius_ratio(a); }, angle_rad, 1e-6), 1e-7);
+    }
+}
+
 TEST(Stribeck, FrictionFallsWithSpeedToCoulombs) {
     const Stribeck law{0.1, 0.05, 0.0};
     EXPECT_EQ(laws::added_friction(law, 0.0), 0.1);

@@ -219,6 +219,40 @@ TEST(TurnedMotor, OnABearingWithPreslidingIsHeldAtRestToo) {
 
 // How much of the cable slides.
 
+// Where it reels in as much as a round pulley, the cables cannot tell the two apart, and its torque is that
+// of the round one times the ratio of the radii.
+TEST(EccentricPulley, PullsLikeARoundOneThatReelsInAsMuch) {
+    BenchEffects effects;
+    effects.of<EccentricPulley>() = {0.2, -0.1};
+    BenchSimulation eccentric = pair_with(effects);
+    BenchSimulation round = pair_with({});
+    for (int step = 1; step <= 400; ++step) {
+        const double angle_rad = 0.8 * swing(step);
+        const double reeled_rad = effects.of<EccentricPulley>().reeled_rad(angle_rad);
+        ASSERT_TRUE(eccentric.advance({MotorAngle{angle_rad}, LoadTorque{0.1}, time_step_s, 0.0}).converged);
+        ASSERT_TRUE(round.advance({MotorAngle{reeled_rad}, LoadTorque{0.1}, time_step_s, 0.0}).converged);
+        ASSERT_NEAR(eccentric.load_angle_rad(), round.load_angle_rad(), 1e-9) << step;
+        ASSERT_NEAR(eccentric.motor_torque_Nm(),
+                    effects.of<EccentricPulley>().radius_ratio(angle_rad) * round.motor_torque_Nm(), 1e-9)
+            << step;
+    }
+}
+
+// A motor that its torque turns finds the angle at which that torque would have been measured.
+TEST(EccentricPulley, TurnsToWhereItsTorqueIsThatOfTheAngle) {
+    BenchEffects effects;
+    effects.of<EccentricPulley>() = {0.2, -0.1};
+    BenchSimulation turned = pair_with(effects);
+    BenchSimulation pulled = pair_with(effects);
+    for (int step = 1; step <= 400; ++step) {
+        const double angle_rad = 0.3 * swing(step);
+        ASSERT_TRUE(turned.advance({MotorAngle{angle_rad}, LoadAngle{0.0}, time_step_s, 0.0}).converged);
+        const MotorTorque torque{turned.motor_torque_Nm()};
+        ASSERT_TRUE(pulled.advance({torque, LoadAngle{0.0}, time_step_s, 0.0}).converged);
+        ASSERT_NEAR(pulled.motor_angle_rad(), angle_rad, 1e-4) << step;
+    }
+}
+
 TEST(SlidingFraction, IsZeroAtRestAndAllButTheHeldEndsInMassMotion) {
     const std::vector<BenchDescription> bench = {{cable_with(30), CableArrangement::pull_pull, pulleys, {}}};
     const std::vector<BenchEffects> effects(1);

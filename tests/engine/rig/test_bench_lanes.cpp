@@ -60,6 +60,23 @@ TEST(BenchSimulations, ABenchIsIndependentOfItsNeighbours) {
     }
 }
 
+TEST(BenchSimulations, ABenchHasItsOwnPulleys) {
+    std::vector<BenchDescription> descriptions(2, bench_with(0.21));
+    descriptions[1].pulleys = {0.03, 0.09};
+    const std::vector<BenchEffects> effects = {{}, typical("eccentric_pulley", "")};
+    BenchSimulations together(descriptions, effects);
+    BenchSimulation first(descriptions[0], effects[0]);
+    BenchSimulation second(descriptions[1], effects[1]);
+    for (int step = 1; step <= 300; ++step) {
+        together.advance(hand_in_lanes_at(step));
+        first.advance(hand_in_lanes_at(step));
+        second.advance(hand_in_lanes_at(step));
+        ASSERT_EQ(together.pulleys(0).load_torque_Nm(), first.load_torque_Nm()) << step;
+        ASSERT_EQ(together.pulleys(1).load_torque_Nm(), second.load_torque_Nm()) << step;
+    }
+    EXPECT_NE(first.load_torque_Nm(), second.load_torque_Nm());
+}
+
 // Runs of one recording move side by side.
 TEST(BenchSimulations, ABenchFollowsItsOwnInputs) {
     const std::vector<BenchDescription> descriptions(2, bench_with(0.21));
