@@ -90,6 +90,8 @@ class FittedNumbers {
              high.bend_at_motor_ratio);
         take(model_.bend_at_load_ratio, present.bend_at_load_ratio, low.bend_at_load_ratio,
              high.bend_at_load_ratio);
+        take(model_.load_radius_ratio, present.load_radius_ratio, low.load_radius_ratio,
+             high.load_radius_ratio);
         for (ModelSensor& sensor : model_.sensors) {
             for (const FaultKey& fault : fault_keys()) {
                 const auto of = [&](BenchNumbers& numbers) {
@@ -205,6 +207,7 @@ BenchNumbers BenchModel::numbers() const {
     numbers.pretension_ratio = pretension_ratio.value;
     numbers.bend_at_motor_ratio = bend_at_motor_ratio.value;
     numbers.bend_at_load_ratio = bend_at_load_ratio.value;
+    numbers.load_radius_ratio = load_radius_ratio.value;
     numbers.effects = effects_with(effects);
     for (const ModelSensor& sensor : sensors) {
         for (const FaultKey& fault : fault_keys())
@@ -240,7 +243,7 @@ BenchModel model_of(const model_comparison::DiagnosedSplit& split,
     const gap::Diagnosis& diagnosis = split.diagnosis;
     // A number that is added to BenchNumbers must be added to the model and its file as well; this names all.
     const auto& [friction_ratio, stiffness_ratio, pretension_ratio, bend_at_motor_ratio, bend_at_load_ratio,
-                 effects, sensor_faults, follows] = diagnosis.corrected;
+                 load_radius_ratio, effects, sensor_faults, follows] = diagnosis.corrected;
     BenchModel model;
     model.origin = origin;
     model.recorded_mode = split.recorded.mode;
@@ -253,6 +256,7 @@ BenchModel model_of(const model_comparison::DiagnosedSplit& split,
     model.pretension_ratio = {"pretension_ratio", "", pretension_ratio, diagnosis.pretension_interval};
     model.bend_at_motor_ratio.value = bend_at_motor_ratio;
     model.bend_at_load_ratio.value = bend_at_load_ratio;
+    model.load_radius_ratio.value = load_radius_ratio;
     model.effects = described_effects(effects, diagnosis.causes);
     model.sensors = sensors_of(sensor_faults, split.diagnosed);
     model.follows = following_of(follows, split.diagnosed);

@@ -86,6 +86,8 @@ struct BenchModel {
     /// the middle third.
     FittedNumber bend_at_motor_ratio{"bend_at_motor_ratio", "", 1.0, {}};
     FittedNumber bend_at_load_ratio{"bend_at_load_ratio", "", 1.0, {}};
+    /// Of a drive of unknown geometry: the load pulley's radius in parts of what the description says.
+    FittedNumber load_radius_ratio{"load_radius_ratio", "", 1.0, {}};
     std::vector<ModelEffect> effects;
     std::vector<ModelSensor> sensors;
     std::vector<ModelFollowing> follows;

@@ -269,9 +269,10 @@ BenchModel parse_model(std::string_view toml, const std::string& file) {
     model.friction_ratio = fitted.fitted("friction_ratio", "", Range::positive);
     model.stiffness_ratio = fitted.fitted("stiffness_ratio", "", Range::positive);
     model.pretension_ratio = fitted.fitted("pretension_ratio", "", Range::positive);
-    for (FittedNumber* bends : {&model.bend_at_motor_ratio, &model.bend_at_load_ratio}) {
-        if (model.recorded_mode == BenchMode::lumped_drive && fitted.has(bends->name))
-            *bends = fitted.fitted(bends->name, "", Range::positive);
+    for (FittedNumber* of_drive :
+         {&model.bend_at_motor_ratio, &model.bend_at_load_ratio, &model.load_radius_ratio}) {
+        if (model.recorded_mode == BenchMode::lumped_drive && fitted.has(of_drive->name))
+            *of_drive = fitted.fitted(of_drive->name, "", Range::positive);
     }
     fitted.reject_other_keys();
     model.effects = effects_in(root.table("effect"));

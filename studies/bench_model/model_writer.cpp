@@ -143,6 +143,8 @@ void write_fitted(ModelText& text, const BenchModel& model) {
             "The curvature of the first and the last third of the path in parts of the middle third's.");
         text.number(model.bend_at_motor_ratio);
         text.number(model.bend_at_load_ratio);
+        text.comment("The load pulley's radius in parts of what [bench] says.");
+        text.number(model.load_radius_ratio);
     }
     for (const ModelEffect& effect : model.effects) {
         const EffectNumbers& group = *find_effect(effect.name, effect.variant);

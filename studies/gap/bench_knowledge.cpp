@@ -145,6 +145,15 @@ void add_bends(BenchKnowledge& bench) {
     bench.numbers.push_back(number("bends near the load", &BenchNumbers::bend_at_load_ratio));
 }
 
+// Where the load is a spring, cables that stretch and a larger load pulley turn the load alike; only the
+// torques tell the two apart. What was read off the motion is a start.
+FloatingNumber radius_of_load_pulley() {
+    constexpr double by_a_tenth = 0.1;
+    return {.name = "radius of the load pulley",
+            .prior_std = by_a_tenth,
+            .apply = [](BenchNumbers& numbers, double value) { numbers.load_radius_ratio = value; }};
+}
+
 // What holds the load where only its motion was recorded, and the constant of a motor whose current was.
 void add_undescribed_parts(const NominalBench& nominal, double prior_std, BenchKnowledge& bench) {
     if (nominal.load_compliance_rad_per_Nm > 0.0)
@@ -221,7 +230,10 @@ BenchKnowledge undescribed_bench(const Recording& recording) {
     BenchKnowledge bench{ratios(unknown, unknown)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
     bench.numbers.push_back(presliding_of_bearings());
-    if (recording.mode == BenchMode::pull_pull) add_bends(bench);
+    if (recording.mode == BenchMode::pull_pull) {
+        add_bends(bench);
+        bench.numbers.push_back(radius_of_load_pulley());
+    }
     add_undescribed_parts(*recording.nominal, by_factors, bench);
     return bench;
 }

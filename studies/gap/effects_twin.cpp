@@ -45,7 +45,7 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
     return {.cable = Cable(cable),
             .arrangement = recording.mode == BenchMode::pull_pull ? CableArrangement::pull_pull
                                                                   : CableArrangement::single,
-            .pulleys = {bench.motor_radius_m, bench.load_radius_m},
+            .pulleys = {bench.motor_radius_m, numbers.load_radius_ratio * bench.load_radius_m},
             .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
             .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)}};
 }

@@ -25,6 +25,8 @@ struct BenchNumbers {
     /// third. The wrap stays as it is.
     double bend_at_motor_ratio = 1.0;
     double bend_at_load_ratio = 1.0;
+    /// The load pulley's radius in parts of what was read off the motion, which stretched cables shorten.
+    double load_radius_ratio = 1.0;
     BenchEffects effects;
     /// By channel. Of a channel that drives the bench only the offset counts.
     std::map<std::string, SensorFaults> sensor_faults;

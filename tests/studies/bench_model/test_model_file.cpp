@@ -53,15 +53,17 @@ TEST(ModelFile, PredictsTheSameBitsAsTheDiagnosis) {
 }
 
 // Where a described conduit bends is stated by its path.
-TEST(ModelFile, HoldsTheBendsOfADriveOfUnknownGeometryAndOfNoOtherBench) {
+TEST(ModelFile, HoldsTheBendsAndTheLoadPulleyOfADriveOfUnknownGeometryAndOfNoOtherBench) {
     BenchModel model = full_model();
     model.recorded_mode = BenchMode::lumped_drive;
     model.bend_at_motor_ratio.value = odd_number(2.0);
     model.bend_at_load_ratio.value = odd_number(0.6);
+    model.load_radius_ratio.value = odd_number(0.97);
     const std::string text = model_text(model);
     const gap::BenchNumbers read = parse_model(text, "m.toml").numbers();
     EXPECT_EQ(read.bend_at_motor_ratio, model.bend_at_motor_ratio.value);
     EXPECT_EQ(read.bend_at_load_ratio, model.bend_at_load_ratio.value);
+    EXPECT_EQ(read.load_radius_ratio, model.load_radius_ratio.value);
     EXPECT_THROW(parse_model(with(text, "\"lumped_drive\"", "\"pull_pull\""), "m.toml"), InvalidInput);
 }
 

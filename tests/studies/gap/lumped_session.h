@@ -14,7 +14,8 @@ struct LumpedTruth {
     double stiffness_Nm_per_rad = 3.0;
     double pretension_Nm = 0.5;
     double speed_ratio = 2.0;
-    double motor_torque_sign = 1.0;  ///< -1: the instrument counts the other way
+    double motor_torque_sign = 1.0;       ///< -1: the instrument counts the other way
+    double load_spring_Nm_per_rad = 0.0;  ///< of what holds the load; 0: constant loads
 };
 
 /// Two runs of such a drive under different loads, as two cables with one radian of wrap and a motor pulley
@@ -46,12 +47,14 @@ inline Recording lumped_session(const LumpedTruth& truth) {
         for (int sample = 0; sample < run_s * sample_rate_Hz; ++sample) {
             const double time_s = sample / sample_rate_Hz;
             const double angle_rad = 0.6 * std::sin(2.0 * std::numbers::pi * time_s);
-            pair.advance(state, {MotorAngle{angle_rad}, LoadTorque{load_Nm}});
+            LoadInput load = LoadTorque{load_Nm};
+            if (truth.load_spring_Nm_per_rad > 0.0) load = LoadSpring{truth.load_spring_Nm_per_rad, 0.0};
+            pair.advance(state, {MotorAngle{angle_rad}, load});
             run.time_s.push_back(time_s);
             run.values[0].push_back(truth.motor_torque_sign * pair.motor_torque_Nm(state));
             run.values[1].push_back(angle_rad);
             run.values[2].push_back(load_angle_offset_rad + state.load_angle_rad);
-            run.values[3].push_back(load_Nm);
+            run.values[3].push_back(pair.load_torque_Nm(state));
         }
         recording.runs.push_back(run);
     }

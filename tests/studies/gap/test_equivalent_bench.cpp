@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/gap/bench_channels.h"
+#include "capstan/gap/cause_fit.h"
 #include "capstan/gap/effects_twin.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "lumped_session.h"
@@ -42,6 +44,22 @@ TEST(EquivalentBench, OfADriveMovesAndPullsAsTheDriveDoes) {
         EXPECT_NEAR(bench.runs[1].values[torque][sample], -recording.runs[1].values[0][sample], 1e-12);
         EXPECT_NEAR(predicted.values[torque][sample], bench.runs[1].values[torque][sample], 0.02);
     }
+}
+
+// Cables that stretch against a spring shorten the motion as a larger load pulley does; torques tell the two
+// apart.
+TEST(EquivalentBench, TheRadiusOfItsLoadPulleyFloats) {
+    const LumpedTruth truth{.load_spring_Nm_per_rad = 3.0};
+    constexpr double misread = 1.05;
+    Recording bench = as_bench(lumped_session(truth),
+                               {.bench = equivalent_pair(truth.friction_exponent, truth.stiffness_Nm_per_rad,
+                                                         misread * truth.speed_ratio),
+                                .pretension_N = truth.pretension_Nm / equivalent_motor_radius_m});
+    for (Channel& channel : bench.channels) channel.noise_std = 1e-3;
+    const BenchKnowledge undescribed = undescribed_bench(bench);
+    const CauseFitter fitter(bench, {.segments = 24, .stride = 1}, 0);
+    const CauseFit fit = fitter.fit(nominal_hypothesis(undescribed), {});
+    EXPECT_NEAR(bench_numbers(fit.hypothesis()).load_radius_ratio * misread, 1.0, 0.01);
 }
 
 TEST(BenchEquivalence, DescribesRunsThatItWasNotFittedTo) {
