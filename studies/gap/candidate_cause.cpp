@@ -47,6 +47,16 @@ OpenNumber::Kind kind_of(const EffectParameter& parameter, double absent) {
     return parameter.low < absent ? OpenNumber::Kind::signed_size : OpenNumber::Kind::size;
 }
 
+// The mean magnitude of a channel in a run; 0 where it was not recorded.
+double mean_magnitude(const Recording& recording, const RecordedRun& run, const char* name) {
+    const auto channel = recording.channel(name);
+    if (!channel) return 0.0;
+    const std::vector<double>& values = run.values[static_cast<std::size_t>(*channel)];
+    double sum = 0.0;
+    for (const double value : values) sum += std::abs(value);
+    return sum / static_cast<double>(values.size());
+}
+
 // The mean over the runs [N].
 double usual_pretension_N(const Recording& recording) {
     double pretension_N = 0.0;
@@ -55,12 +65,27 @@ double usual_pretension_N(const Recording& recording) {
     return pretension_N;
 }
 
-// Normal force per length where the cable bends, at the runs' mean pretension: about where a bench works.
+// About what the cables carry, the mean over the runs [N]: the pretension, or what the torques ask for where
+// that is more, as in a drive with little pretension.
+double usual_tension_N(const Recording& recording) {
+    const NominalBench& bench = *recording.nominal;
+    double tension_N = 0.0;
+    for (const RecordedRun& run : recording.runs) {
+        const double of_run_N =
+            std::max({run.pretension_N.value_or(0.0),
+                      mean_magnitude(recording, run, channel::motor_torque) / bench.motor_radius_m,
+                      mean_magnitude(recording, run, channel::load_torque) / bench.load_radius_m});
+        tension_N += of_run_N / static_cast<double>(recording.runs.size());
+    }
+    return tension_N;
+}
+
+// Normal force per length where the cable bends most: about where a bench works.
 double usual_normal_force_N_per_m(const Recording& recording) {
     double radius_m = straight;
     for (const CurvaturePiece& piece : recording.nominal->curvature)
         radius_m = std::min(radius_m, piece.bend_radius_m);
-    return usual_pretension_N(recording) / radius_m;
+    return usual_tension_N(recording) / radius_m;
 }
 
 // How far the motor turns in the recording [rad].

@@ -63,6 +63,28 @@ TEST(CandidateCauses, SeekTheToeOfACableAtAboutTheTensionOfABenchOfUnknownGeomet
     EXPECT_GT(toe_tension.high, 100.0);
 }
 
+double reference_N_per_m(const Recording& recording) {
+    return the_one(candidate_causes(recording), "load_dependent_friction").given.front().value;
+}
+
+// The law of friction is limited to a range about its reference, which must lie where the cables work.
+TEST(CandidateCauses, ReferToTheTensionOfADriveWithoutPretensionByItsTorques) {
+    Recording recording = driven_session();
+    const double taut_N_per_m = reference_N_per_m(recording);
+    for (RecordedRun& run : recording.runs) *run.pretension_N *= 2.0;
+    EXPECT_DOUBLE_EQ(reference_N_per_m(recording), 2.0 * taut_N_per_m) << "of a taut pair by its pretension";
+    for (RecordedRun& run : recording.runs) run.pretension_N = 1e-3;
+    const double slack_N_per_m = reference_N_per_m(recording);
+    EXPECT_GT(slack_N_per_m, 0.1 * taut_N_per_m);
+    const auto load_torque = static_cast<std::size_t>(*recording.channel("load_torque"));
+    const auto motor_torque = static_cast<std::size_t>(*recording.channel("motor_torque"));
+    for (RecordedRun& run : recording.runs) {
+        for (const std::size_t channel : {load_torque, motor_torque})
+            for (double& value : run.values[channel]) value *= 3.0;
+    }
+    EXPECT_NEAR(reference_N_per_m(recording), 3.0 * slack_N_per_m, 1e-9 * slack_N_per_m);
+}
+
 TEST(CandidateCauses, AreSeenWhereAChannelsValuesLieOnALattice) {
     Recording recording = driven_session();
     const auto load_torque = static_cast<std::size_t>(*recording.channel("load_torque"));
