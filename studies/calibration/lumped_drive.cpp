@@ -63,19 +63,25 @@ LoopWork loop_work(const Recording& recording) {
     return loop;
 }
 
-// Sum over runs of mean load torque times mean motor torque, both from their means over the runs.
+// Of load torque and motor torque over all samples, from their means over all of them. What holds the load
+// may change within a run, as a spring, or from run to run, as a weight; the means of runs alone follow other
+// differences between them, as a conduit that is bent more and more.
 double load_covariation(const Recording& recording) {
     std::vector<double> motor;
     std::vector<double> load;
     for (const RecordedRun& run : recording.runs) {
-        motor.push_back(mean_of(samples_of(recording, run, channel::motor_torque)));
-        load.push_back(mean_of(samples_of(recording, run, channel::load_torque)));
+        const std::vector<double>& motor_Nm = samples_of(recording, run, channel::motor_torque);
+        const std::vector<double>& load_Nm = samples_of(recording, run, channel::load_torque);
+        motor.insert(motor.end(), motor_Nm.begin(), motor_Nm.end());
+        load.insert(load.end(), load_Nm.begin(), load_Nm.end());
     }
+    const double mean_motor_Nm = mean_of(motor);
+    const double mean_load_Nm = mean_of(load);
     double sum = 0.0;
-    for (std::size_t run = 0; run < motor.size(); ++run)
-        sum += (motor[run] - mean_of(motor)) * (load[run] - mean_of(load));
-    // With one run, or one load, the signs of the mean torques must agree.
-    return sum != 0.0 ? sum : mean_of(motor) * mean_of(load);
+    for (std::size_t sample = 0; sample < motor.size(); ++sample)
+        sum += (motor[sample] - mean_motor_Nm) * (load[sample] - mean_load_Nm);
+    // Under one load that never changes, the signs of the mean torques must agree.
+    return sum != 0.0 ? sum : mean_motor_Nm * mean_load_Nm;
 }
 
 const Recording& with_all_channels(const Recording& recording) {

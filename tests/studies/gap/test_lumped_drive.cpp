@@ -25,6 +25,19 @@ TEST(DriveOrientation, ALoadThatTheMotorCarriesAddsToItsTorque) {
     EXPECT_EQ(drive_orientation(lumped_session({.motor_torque_sign = -1.0})).load_torque_sign, 1.0);
 }
 
+// More friction from run to run raises the mean torque of the motor and lowers that of the spring.
+TEST(DriveOrientation, ASpringAtTheLoadAddsToTheTorqueOfTheMotorWhateverTheRunsDifferIn) {
+    Recording drive = lumped_session({.friction_exponent = 0.2, .load_spring_Nm_per_rad = 3.0});
+    const Recording bent = lumped_session({.friction_exponent = 0.6, .load_spring_Nm_per_rad = 3.0});
+    drive.runs.back() = bent.runs.back();
+    for (double& torque_Nm : drive.runs.front().values[3]) torque_Nm += 0.02;
+    for (double& torque_Nm : drive.runs.back().values[0]) torque_Nm += 0.02;
+    EXPECT_EQ(drive_orientation(drive).load_torque_sign, 1.0);
+    for (RecordedRun& run : drive.runs)
+        for (double& torque_Nm : run.values[3]) torque_Nm *= -1.0;
+    EXPECT_EQ(drive_orientation(drive).load_torque_sign, -1.0);
+}
+
 TEST(DriveOrientation, RejectsADriveThatDoesNotMove) {
     Recording still = lumped_session({});
     for (RecordedRun& run : still.runs) run.values[1].assign(run.time_s.size(), 0.0);
