@@ -24,7 +24,7 @@ constexpr std::size_t fits_at_once = 4;
 // cable. But both are moved by recorded channels: what is left of their noise moves them to and fro, and
 // friction remembers it, so samples are skipped only of what was recorded faster than a hand moves.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
-    constexpr double enough_Hz = 100.0;
+    constexpr double enough_Hz = 50.0;
     constexpr int segments = 24;
     constexpr int segments_of_a_drive = 9;
     if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 2 * stride};
