@@ -44,8 +44,9 @@ constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty + u
 // cause that is fainter than that only corrects the law of the clearest one.
 constexpr double faint = law_error;
 constexpr double faint_penalty = 60.0;
-// The list of hypotheses is never complete: this probability is shared equally by all effects.
-constexpr double anything_fraction = 0.02;
+// The list of hypotheses is never complete: of verdicts on trials that the evidence had no doubt of, six in a
+// hundred were wrong. This probability is shared equally by all effects.
+constexpr double anything_fraction = 0.05;
 
 // A number of the bench that is far from what was stated is named, but after the causes. That nothing else
 // acts beside such numbers comes after them, and before every cause that would.
