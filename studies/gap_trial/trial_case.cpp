@@ -10,7 +10,7 @@ namespace capstan::gap_trial {
 
 namespace {
 
-constexpr int max_attempts = 40;
+constexpr int max_attempts = 200;
 
 // A bench and its session before any effect.
 struct Setup {
