@@ -26,18 +26,19 @@ struct EccentricPulley {
     }
 
     static std::vector<EffectRow<EccentricPulley>> rows() {
-        return {{.about = {.name = "eccentric_pulley",
-                           .title = "eccentric motor pulley",
-                           .family = "actuator",
-                           .component = "motor",
-                           .end = "motor",
-                           .equation = "E59",
-                           .meaning = "a motor pulley whose radius changes with its angle",
-                           .confusable_with = {"position_torque"}},
-                 .parameters = {
-                     {{.name = "sine", .low = -1.0, .high = 1.0, .typical = 0.02}, &EccentricPulley::sine},
-                     {{.name = "cosine", .low = -1.0, .high = 1.0, .typical = 0.02},
-                      &EccentricPulley::cosine}}}};
+        return {
+            {.about = {.name = "eccentric_pulley",
+                       .title = "eccentric motor pulley",
+                       .family = "actuator",
+                       .component = "motor",
+                       .end = "motor",
+                       .equation = "E59",
+                       .meaning = "a motor pulley whose radius changes with its angle",
+                       .is_rare = true,
+                       .confusable_with = {"position_torque"}},
+             .parameters = {
+                 {{.name = "sine", .low = -1.0, .high = 1.0, .typical = 0.02}, &EccentricPulley::sine},
+                 {{.name = "cosine", .low = -1.0, .high = 1.0, .typical = 0.02}, &EccentricPulley::cosine}}}};
     }
 };
 

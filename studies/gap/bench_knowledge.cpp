@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/platform/statistics.h"
 #include "capstan/recording/channel_range.h"
 #include "capstan/rig/channel_names.h"
 
@@ -145,6 +146,29 @@ void add_bends(BenchKnowledge& bench) {
     bench.numbers.push_back(number("bends near the load", &BenchNumbers::bend_at_load_ratio));
 }
 
+// Whether the torque on the load follows its angle, so that most of its variance is told by it.
+bool is_held_by_a_spring(const Recording& recording) {
+    constexpr double most = 0.8;
+    const auto angle = recording.channel(channel::load_angle);
+    const auto torque = recording.channel(channel::load_torque);
+    if (!angle || !torque) return false;
+    double angle_squares = 0.0;
+    double torque_squares = 0.0;
+    double products = 0.0;
+    for (const RecordedRun& run : recording.runs) {
+        const std::vector<double>& angle_rad = run.values[static_cast<std::size_t>(*angle)];
+        const std::vector<double>& torque_Nm = run.values[static_cast<std::size_t>(*torque)];
+        const double mean_rad = mean_of(angle_rad);
+        const double mean_Nm = mean_of(torque_Nm);
+        for (std::size_t sample = 0; sample < angle_rad.size(); ++sample) {
+            angle_squares += std::pow(angle_rad[sample] - mean_rad, 2);
+            torque_squares += std::pow(torque_Nm[sample] - mean_Nm, 2);
+            products += (angle_rad[sample] - mean_rad) * (torque_Nm[sample] - mean_Nm);
+        }
+    }
+    return products * products > most * angle_squares * torque_squares;
+}
+
 // Where the load is a spring, cables that stretch and a larger load pulley turn the load alike; only the
 // torques tell the two apart. What was read off the motion is a start.
 FloatingNumber radius_of_load_pulley() {
@@ -232,7 +256,7 @@ BenchKnowledge undescribed_bench(const Recording& recording) {
     bench.numbers.push_back(presliding_of_bearings());
     if (recording.mode == BenchMode::pull_pull) {
         add_bends(bench);
-        bench.numbers.push_back(radius_of_load_pulley());
+        if (is_held_by_a_spring(recording)) bench.numbers.push_back(radius_of_load_pulley());
     }
     add_undescribed_parts(*recording.nominal, by_factors, bench);
     return bench;

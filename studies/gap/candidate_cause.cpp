@@ -106,6 +106,7 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
     CandidateCause cause = plain(effect.name, effect.component);
     cause.variant = effect.variant;
     cause.end = effect.end;
+    cause.is_rare = effect.is_rare;
     std::vector<double> values = effect.absent;
     std::vector<std::size_t> open;  // parameters
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {

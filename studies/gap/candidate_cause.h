@@ -67,6 +67,8 @@ struct CandidateCause {
     bool is_exact = false;
     /// The values themselves show it, as those of a coarse channel lie on a lattice. It is not inferred.
     bool is_seen = false;
+    /// Parts are made to be without it (EffectDescription).
+    bool is_rare = false;
     std::string varies;  ///< the condition of the runs that the numbers follow; empty: none
     /// How far friction, stiffness and pretension may be from their nominal values (logarithms, standard
     /// deviation): one of them far, if that is the cause.

@@ -24,14 +24,13 @@ constexpr std::size_t fits_at_once = 4;
 // cable. But both are moved by recorded channels: what is left of their noise moves them to and fro, and
 // friction remembers it, so samples are skipped only of what was recorded faster than a hand moves.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
+    constexpr double enough_Hz = 100.0;
     constexpr int segments = 24;
     constexpr int segments_of_a_drive = 9;
     if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 2 * stride};
-    const bool of_drive = recording.mode == BenchMode::pull_pull;
-    // At 50 Hz what happens where a band turns back is lost, and its other runs are predicted badly.
-    const double enough_Hz = of_drive ? 50.0 : 100.0;
     const int skipped = std::max(1, static_cast<int>(recording.sample_rate_Hz / enough_Hz));
-    return {.segments = of_drive ? segments_of_a_drive : segments, .stride = skipped * stride};
+    return {.segments = recording.mode == BenchMode::pull_pull ? segments_of_a_drive : segments,
+            .stride = skipped * stride};
 }
 
 // Fits that a search usually makes; progress is stated in parts of it.

@@ -27,6 +27,8 @@ constexpr double further_cause_penalty = 3.9;
 constexpr double cause_beside_floating_numbers_penalty = 3.9;
 // Values of a channel lie on an unstated lattice by chance with no probability to speak of: e^-10.
 constexpr double seen_gain = 10.0;
+// Pulleys are turned: the radius of one in a thousand changes by more than their tolerance, as a cam's does.
+constexpr double rare_cause_penalty = 6.9;
 // A cause outside the list is rarer than the causes in it.
 constexpr double unknown_penalty = 4.0;
 // A model's floor is known to about a quarter, and a cause's law to law_error of what the cause does. A
@@ -208,6 +210,7 @@ double Evidence::priors(const ScoredFit& fit) const {
         inferred += 1.0;
         evidence -= invisible(fit.visibility[k]);
         if (cause.family == "sensor") evidence -= sensor_fault_penalty;
+        if (cause.is_rare) evidence -= rare_cause_penalty;
         const double law = clearest_law(fit, k);
         if (law > 0.0) faintest = std::min(faintest, fit.visibility[k] / law);
     }
