@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "capstan/cable/invalid_input.h"
 #include "capstan/gap/bench_channels.h"
 #include "capstan/gap/cause_fit.h"
@@ -60,6 +62,22 @@ TEST(EquivalentBench, TheRadiusOfItsLoadPulleyFloats) {
     const CauseFitter fitter(bench, {.segments = 24, .stride = 1}, 0);
     const CauseFit fit = fitter.fit(nominal_hypothesis(undescribed), {});
     EXPECT_NEAR(bench_numbers(fit.hypothesis()).load_radius_ratio * misread, 1.0, 0.01);
+}
+
+// Under a constant load the motion tells the ratio.
+TEST(EquivalentBench, TheRadiusOfItsLoadPulleyIsReadOffTheMotionWhereNoSpringHoldsTheLoad) {
+    const auto floats = [](const LumpedTruth& truth) {
+        const Recording bench = as_bench(
+            lumped_session(truth),
+            {.bench = equivalent_pair(truth.friction_exponent, truth.stiffness_Nm_per_rad, truth.speed_ratio),
+             .pretension_N = truth.pretension_Nm / equivalent_motor_radius_m});
+        const std::vector<FloatingNumber> numbers = undescribed_bench(bench).numbers;
+        return std::any_of(numbers.begin(), numbers.end(), [](const FloatingNumber& number) {
+            return number.name == "radius of the load pulley";
+        });
+    };
+    EXPECT_TRUE(floats({.load_spring_Nm_per_rad = 3.0}));
+    EXPECT_FALSE(floats({}));
 }
 
 TEST(BenchEquivalence, DescribesRunsThatItWasNotFittedTo) {
