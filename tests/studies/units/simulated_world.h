@@ -54,10 +54,10 @@ class World;
 
 // A worker: the real code, in a context of its own.
 struct Process {
-    Process(World& world, int id, std::optional<int> own, double its_speed)
-        : world(world),
+    Process(World& its_world, int id, std::optional<int> its_own, double its_speed)
+        : world(its_world),
           name("node" + std::to_string(id % 4) + "-" + std::to_string(id)),
-          own(own),
+          own(its_own),
           speed(its_speed) {}
     World& world;
     std::string name;
