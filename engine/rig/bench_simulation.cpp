@@ -78,6 +78,9 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
             pulleys_.back().rest(radii_[bench].motor_radius_m * pretension_N_.back(),
                                  radii_[bench].load_radius_m * pretension_N_.back());
         motor_rest_m_.push_back(motor_rest_m(static_cast<int>(bench), 0.0));
+        reels_.push_back(
+            {0.0, 0.0,
+             radii_[bench].motor_radius_m * effects_[bench].of<EccentricPulley>().radius_ratio(0.0)});
     }
 }
 
@@ -100,8 +103,14 @@ double BenchSimulations::motor_rest_m(int bench, double session_time_s) const {
 }
 
 // Where the cables leave the motor pulley (E59).
-double BenchSimulations::motor_radius_m(std::size_t bench, double angle_rad) const {
-    return radii_[bench].motor_radius_m * effects_[bench].of<EccentricPulley>().radius_ratio(angle_rad);
+const BenchSimulations::Reel& BenchSimulations::reel(std::size_t bench, double motor_rad) {
+    Reel& last = reels_[bench];
+    if (last.angle_rad != motor_rad) {
+        const EccentricPulley& shape = effects_[bench].of<EccentricPulley>();
+        const double r_m = radii_[bench].motor_radius_m;
+        last = {motor_rad, r_m * shape.reeled_rad(motor_rad), r_m * shape.radius_ratio(motor_rad)};
+    }
+    return last;
 }
 
 // Positive angles: the motor pulley reels cable A in and lets B out, the load pulley goes where A pulls
@@ -112,15 +121,12 @@ BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, cons
     for (int lane = 0; lane < bench_lanes; ++lane) {
         const auto bench = static_cast<std::size_t>(lane < count_ ? lane : 0);
         const ConduitCompliance& conduit = effects_[bench].of<ConduitCompliance>();
-        const double motor_rad = angles[bench].motor_rad;
-        const double reeled_m =
-            radii_[bench].motor_radius_m * effects_[bench].of<EccentricPulley>().reeled_rad(motor_rad);
-        const double radius_m = motor_radius_m(bench, motor_rad);
+        const Reel& motor_reel = reel(bench, angles[bench].motor_rad);
         double way = -1.0;
         for (int cable = 0; cable < cables_.count(); ++cable, way = 1.0) {
             const double load_m_per_rad = way * radii_[bench].load_radius_m;
-            motor[cable].at_m.of[lane] = motor_rest_m_[bench] + way * reeled_m;
-            motor[cable].per_rad.of[lane] = way * radius_m;
+            motor[cable].at_m.of[lane] = motor_rest_m_[bench] + way * motor_reel.reeled_m;
+            motor[cable].per_rad.of[lane] = way * motor_reel.radius_m;
             motor[cable].compliance_m_per_N.of[lane] = conduit.motor_m_per_N;
             load[cable].at_m.of[lane] = load_m_per_rad * angles[bench].load_rad;
             load[cable].per_rad.of[lane] = load_m_per_rad;
@@ -156,25 +162,34 @@ void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags ac
             if (!active.of[lane]) continue;
             const auto bench = static_cast<std::size_t>(lane);
             const double r_l = radii_[bench].load_radius_m;
-            const double r_m = motor_radius_m(bench, angles[bench].motor_rad);
-            const double r_m_per_rad =
-                radii_[bench].motor_radius_m *
-                effects_[bench].of<EccentricPulley>().radius_ratio_per_rad(angles[bench].motor_rad);
             ++reports[bench].iterations;
             double fraction = step_fractions[(iteration - 1) / iterations_with_each];
-            const Torque motor = pulleys_[bench].motor_balance(inputs[bench], angles[bench].motor_rad);
-            const Torque load = pulleys_[bench].load_balance(inputs[bench], angles[bench].load_rad);
+            // A pulley that is not free does not turn further.
             const bool motor_turns = free.motor.of[lane];
             const bool load_turns = free.load.of[lane];
-            // A pulley that is not free does not turn further.
-            const double motor_error = motor_turns ? r_m * pull.motor.value_N.of[lane] + motor.value_Nm : 0.0;
-            const double load_error = load_turns ? r_l * pull.load.value_N.of[lane] + load.value_Nm : 0.0;
-            const double mm = motor_turns ? r_m * pull.motor.per_motor_rad.of[lane] +
-                                                r_m_per_rad * pull.motor.value_N.of[lane] + motor.per_rad
-                                          : 1.0;
-            const double ml = motor_turns && load_turns ? r_m * pull.motor.per_load_rad.of[lane] : 0.0;
-            const double lm = motor_turns && load_turns ? r_l * pull.load.per_motor_rad.of[lane] : 0.0;
-            const double ll = load_turns ? r_l * pull.load.per_load_rad.of[lane] + load.per_rad : 1.0;
+            double motor_error = 0.0;
+            double load_error = 0.0;
+            double mm = 1.0;
+            double ml = 0.0;
+            double lm = 0.0;
+            double ll = 1.0;
+            if (motor_turns) {
+                const double at_rad = angles[bench].motor_rad;
+                const double r_m = reel(bench, at_rad).radius_m;
+                const double r_m_per_rad = radii_[bench].motor_radius_m *
+                                           effects_[bench].of<EccentricPulley>().radius_ratio_per_rad(at_rad);
+                const Torque motor = pulleys_[bench].motor_balance(inputs[bench], at_rad);
+                motor_error = r_m * pull.motor.value_N.of[lane] + motor.value_Nm;
+                mm = r_m * pull.motor.per_motor_rad.of[lane] + r_m_per_rad * pull.motor.value_N.of[lane] +
+                     motor.per_rad;
+                if (load_turns) ml = r_m * pull.motor.per_load_rad.of[lane];
+            }
+            if (load_turns) {
+                const Torque load = pulleys_[bench].load_balance(inputs[bench], angles[bench].load_rad);
+                load_error = r_l * pull.load.value_N.of[lane] + load.value_Nm;
+                ll = r_l * pull.load.per_load_rad.of[lane] + load.per_rad;
+                if (motor_turns) lm = r_l * pull.load.per_motor_rad.of[lane];
+            }
             const double determinant = mm * ll - ml * lm;
             motor_turn.of[lane] = -(motor_error * ll - load_error * ml) / determinant;
             load_turn.of[lane] = -(load_error * mm - motor_error * lm) / determinant;
@@ -234,7 +249,7 @@ void BenchSimulations::bracket(EachInputs inputs, const Free& free, int lane, Pu
         const Pull pull = linearise(only, angles);
         const double left_Nm = of_load ? radii_[bench].load_radius_m * pull.load.value_N.of[lane] +
                                              pulleys_[bench].load_balance(inputs[bench], angle_rad).value_Nm
-                                       : -motor_radius_m(bench, angle_rad) * pull.motor.value_N.of[lane] -
+                                       : -reel(bench, angle_rad).radius_m * pull.motor.value_N.of[lane] -
                                              pulleys_[bench].motor_balance(inputs[bench], angle_rad).value_Nm;
         if (std::abs(left_Nm) < min_left_Nm) {
             min_left_Nm = std::abs(left_Nm);
@@ -246,7 +261,7 @@ void BenchSimulations::bracket(EachInputs inputs, const Free& free, int lane, Pu
         const Pull pull = linearise(only, angles);
         return std::abs(of_load ? radii_[bench].load_radius_m * pull.load.per_load_rad.of[lane] +
                                       pulleys_[bench].load_balance(inputs[bench], angle_rad).per_rad
-                                : motor_radius_m(bench, angle_rad) * pull.motor.per_motor_rad.of[lane] +
+                                : reel(bench, angle_rad).radius_m * pull.motor.per_motor_rad.of[lane] +
                                       pulleys_[bench].motor_balance(inputs[bench], angle_rad).per_rad);
     };
     const auto give_up = [&] {

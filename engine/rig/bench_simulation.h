@@ -71,7 +71,13 @@ class BenchSimulations {
 
     void begin(EachInputs inputs, const LaneFlags& active);
     double motor_rest_m(int bench, double session_time_s) const;
-    double motor_radius_m(std::size_t bench, double angle_rad) const;
+    /// What the motor pulley of a bench has reeled in, and its radius, which follow from its angle.
+    struct Reel {
+        double angle_rad = 0.0;
+        double reeled_m = 0.0;
+        double radius_m = 0.0;
+    };
+    const Reel& reel(std::size_t bench, double motor_rad);
     Pull linearise(const LaneFlags& active, const EachAngles& angles);
     void iterate(EachInputs inputs, const Free& free, LaneFlags active, EachAngles& angles,
                  EachReport& reports);
@@ -86,6 +92,7 @@ class BenchSimulations {
     std::vector<BenchEffects> effects_;
     std::vector<double> pretension_N_;
     std::vector<double> motor_rest_m_;
+    std::vector<Reel> reels_;  // at the last angle: one that is given stays through a step
     BenchCables cables_;
     std::vector<BenchPulleys> pulleys_;
 };

@@ -128,17 +128,27 @@ struct LaneLaws;
 template <template <class> class... Law>
 struct LaneLaws<LawList<Law...>> : Law<Lanes>... {
     HWY_INLINE LaneLaws(const CableLawParameters& parameters, int lane)
-        : Law<Lanes>(law_at<Law>(parameters, lane, std::make_index_sequence<law_parameters<Law>>()))... {}
+        : Law<Lanes>(law_at<Law>(parameters, lane, std::make_index_sequence<law_parameters<Law>>()))...,
+          parameters(parameters) {}
 
-    // The sum, or the product, of what each law contributes.
+    // The sum, or the product, of what each law contributes. One that no bench has contributes nothing.
     template <class Contribution>
     HWY_INLINE Lanes sum(const Contribution& contribution) const {
-        return (lanes_of(0.0) + ... + contribution(static_cast<const Law<Lanes>&>(*this)));
+        return (lanes_of(0.0) + ... + of_law<Law>(contribution, 0.0));
     }
     template <class Contribution>
     HWY_INLINE Lanes product(const Contribution& contribution) const {
-        return (lanes_of(1.0) * ... * contribution(static_cast<const Law<Lanes>&>(*this)));
+        return (lanes_of(1.0) * ... * of_law<Law>(contribution, 1.0));
     }
+
+  private:
+    template <template <class> class One, class Contribution>
+    HWY_INLINE Lanes of_law(const Contribution& contribution, double nothing) const {
+        return parameters.template is_active<One>() ? contribution(static_cast<const One<Lanes>&>(*this))
+                                                    : lanes_of(nothing);
+    }
+
+    const CableLawParameters& parameters;
 };
 
 // What a law contributes to the cable's friction. A law takes part in as many ways as it has functions of
