@@ -50,6 +50,7 @@ struct EffectParameter {
     /// The effect is an oscillation whose frequency it sets: only close to its value does it explain
     /// anything.
     bool resonates = false;
+    bool is_detail = false;  ///< a further size: a search begins without it
     std::optional<double> absent{};  ///< value without the effect; none: the default of the effect's struct
 };
 

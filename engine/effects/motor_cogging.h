@@ -7,19 +7,26 @@
 
 namespace capstan {
 
-/// Torque ripple of the motor, periodic in its angle (E28); adds to the torque that the motor must give.
+/// Torque ripple of the motor, periodic in its angle (E28); adds to the torque that the motor must give. Its
+/// second harmonic makes it uneven, as magnets and slots with edges do.
 struct MotorCogging {
     double sine_Nm = 0.0;
     double cosine_Nm = 0.0;
     double periods_per_turn = 7.0;
+    double second_sine_Nm = 0.0;
+    double second_cosine_Nm = 0.0;
 
     Torque torque(double angle_rad) const {
-        if (sine_Nm == 0.0 && cosine_Nm == 0.0) return {};
+        if (sine_Nm == 0.0 && cosine_Nm == 0.0 && second_sine_Nm == 0.0 && second_cosine_Nm == 0.0) return {};
         const double phase = periods_per_turn * angle_rad;
         const double sine = std::sin(phase);
         const double cosine = std::cos(phase);
-        return {sine_Nm * sine + cosine_Nm * cosine,
-                periods_per_turn * (sine_Nm * cosine - cosine_Nm * sine)};
+        const double second_sine = 2.0 * sine * cosine;
+        const double second_cosine = cosine * cosine - sine * sine;
+        return {sine_Nm * sine + cosine_Nm * cosine + second_sine_Nm * second_sine +
+                    second_cosine_Nm * second_cosine,
+                periods_per_turn * (sine_Nm * cosine - cosine_Nm * sine +
+                                    2.0 * (second_sine_Nm * second_cosine - second_cosine_Nm * second_sine))};
     }
 
     static std::vector<EffectRow<MotorCogging>> rows() {
@@ -40,7 +47,21 @@ struct MotorCogging {
                               .high = 200.0,
                               .typical = 7.0,
                               .role = ParameterRole::periods},
-                             &MotorCogging::periods_per_turn}}}};
+                             &MotorCogging::periods_per_turn},
+                            {{.name = "second_sine",
+                              .unit = "N m",
+                              .low = -10.0,
+                              .high = 10.0,
+                              .typical = 0.002,
+                              .is_detail = true},
+                             &MotorCogging::second_sine_Nm},
+                            {{.name = "second_cosine",
+                              .unit = "N m",
+                              .low = -10.0,
+                              .high = 10.0,
+                              .typical = 0.002,
+                              .is_detail = true},
+                             &MotorCogging::second_cosine_Nm}}}};
     }
 };
 

@@ -118,9 +118,9 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
             cause.given.push_back({parameter.name, parameter.unit, values[k]});
             continue;
         }
-        OpenNumber number{parameter.name,    parameter.unit,     kind_of(parameter, effect.absent[k]),
-                          parameter.typical, effect.absent[k],   parameter.low,
-                          parameter.high,    parameter.resonates};
+        OpenNumber number{parameter.name,    parameter.unit,      kind_of(parameter, effect.absent[k]),
+                          parameter.typical, effect.absent[k],    parameter.low,
+                          parameter.high,    parameter.resonates, parameter.is_detail};
         if (number.kind == OpenNumber::Kind::place) number.typical = length_m;
         // A ripple of which less than half a period was seen is any function of the position.
         if (number.kind == OpenNumber::Kind::periods && turned > 0.0)

@@ -30,6 +30,7 @@ struct OpenNumber {
     double high = 0.0;
     /// Of a size: it sets the frequency of an oscillation, and explains something only close to its value.
     bool resonates = false;
+    bool is_detail = false;  ///< of a size: the screening leaves it out, and a search begins without it
 
     double value(double coordinate) const;
     /// Of a size; the inverse of value() within its range.

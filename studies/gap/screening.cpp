@@ -64,7 +64,7 @@ std::vector<Eigen::VectorXd> shapes_of(const CandidateCause& cause) {
 void add_probes(const CandidateCause& cause, std::vector<Probe>& probes) {
     std::vector<std::size_t> sizes;
     for (std::size_t k = 0; k < cause.numbers.size(); ++k) {
-        if (cause.numbers[k].is_size()) sizes.push_back(k);
+        if (cause.numbers[k].is_size() && !cause.numbers[k].is_detail) sizes.push_back(k);
     }
     for (const Eigen::VectorXd& shape : shapes_of(cause)) {
         if (sizes.size() == 1) {

@@ -60,12 +60,21 @@ TEST(NonlinearStiffness, ComplianceIsTheStrainsDerivative) {
 }
 
 TEST(Cogging, SlopeIsTheDerivative) {
-    const MotorCogging cogging{0.3, -0.2, 11.0};
-    for (const double angle_rad : {-1.0, 0.05, 2.0}) {
-        EXPECT_NEAR(cogging.torque(angle_rad).per_rad,
-                    by_differences([&](double a) { return cogging.torque(a).value_Nm; }, angle_rad, 1e-6),
-                    1e-7);
+    for (const MotorCogging& cogging :
+         {MotorCogging{0.3, -0.2, 11.0}, MotorCogging{0.3, -0.2, 11.0, 0.1, -0.15}}) {
+        for (const double angle_rad : {-1.0, 0.05, 2.0}) {
+            EXPECT_NEAR(cogging.torque(angle_rad).per_rad,
+                        by_differences([&](double a) { return cogging.torque(a).value_Nm; }, angle_rad, 1e-6),
+                        1e-7);
+        }
     }
+}
+
+TEST(Cogging, ItsSecondHarmonicIsARippleOfTwiceThePeriods) {
+    const MotorCogging second{0.0, 0.0, 5.0, 0.1, -0.15};
+    const MotorCogging twice{0.1, -0.15, 10.0};
+    for (const double angle_rad : {-1.0, 0.05, 2.0})
+        EXPECT_NEAR(second.torque(angle_rad).value_Nm, twice.torque(angle_rad).value_Nm, 1e-12);
 }
 
 TEST(PositionTorque, SlopeIsTheDerivative) {
@@ -78,8 +87,8 @@ TEST(PositionTorque, SlopeIsTheDerivative) {
 }
 
 TEST(EccentricPulley, ReelsInWhatItsRadiusSweeps) {
-    const EccentricPulley pulley{0.2, -0.1};
-    EXPECT_EQ(pulley.radius_ratio(0.0), 1.0);
+    const EccentricPulley pulley{0.2, -0.1, 0.05};
+    EXPECT_EQ(pulley.radius_ratio(0.0), 1.05);
     EXPECT_EQ(pulley.reeled_rad(0.0), 0.0);
     for (const double angle_rad : {-1.0, 0.05, 2.0}) {
         EXPECT_NEAR(pulley.radius_ratio(angle_rad),

@@ -223,7 +223,7 @@ TEST(TurnedMotor, OnABearingWithPreslidingIsHeldAtRestToo) {
 // of the round one times the ratio of the radii.
 TEST(EccentricPulley, PullsLikeARoundOneThatReelsInAsMuch) {
     BenchEffects effects;
-    effects.of<EccentricPulley>() = {0.2, -0.1};
+    effects.of<EccentricPulley>() = {0.2, -0.1, 0.05};
     BenchSimulation eccentric = pair_with(effects);
     BenchSimulation round = pair_with({});
     for (int step = 1; step <= 400; ++step) {
@@ -241,7 +241,7 @@ TEST(EccentricPulley, PullsLikeARoundOneThatReelsInAsMuch) {
 // A motor that its torque turns finds the angle at which that torque would have been measured.
 TEST(EccentricPulley, TurnsToWhereItsTorqueIsThatOfTheAngle) {
     BenchEffects effects;
-    effects.of<EccentricPulley>() = {0.2, -0.1};
+    effects.of<EccentricPulley>() = {0.2, -0.1, 0.05};
     BenchSimulation turned = pair_with(effects);
     BenchSimulation pulled = pair_with(effects);
     for (int step = 1; step <= 400; ++step) {
