@@ -66,14 +66,17 @@ struct TrueCogging {
     double amplitude_Nm = 0.0;
     double periods_per_turn = 7.0;
     double phase_rad = 0.0;
-    double second_harmonic = 0.0;  ///< as a fraction of the first
+    double second_harmonic = 0.0;  ///< as a fraction of the first; a third comes with it
 
     double torque_Nm(double angle_rad) const {
+        constexpr double third_of_second = 0.4;
         const double phase = periods_per_turn * angle_rad + phase_rad;
         const double first_Nm = amplitude_Nm * std::sin(phase);
         return second_harmonic == 0.0
                    ? first_Nm
-                   : first_Nm + second_harmonic * amplitude_Nm * std::sin(2.0 * phase + 1.0);
+                   : first_Nm + second_harmonic * amplitude_Nm *
+                                    (std::sin(2.0 * phase + 1.0) +
+                                     third_of_second * std::sin(3.0 * phase + 2.0));
     }
 };
 
