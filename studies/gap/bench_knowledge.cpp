@@ -169,12 +169,14 @@ bool is_held_by_a_spring(const Recording& recording) {
     return products * products > most * angle_squares * torque_squares;
 }
 
-// Where the load is a spring, cables that stretch and a larger load pulley turn the load alike; only the
-// torques tell the two apart. What was read off the motion is a start.
-FloatingNumber radius_of_load_pulley() {
+// The ratio of a drive's pulleys was read off its motion, which cables that stretch shorten by some percent.
+// Where the load is a spring, they stretch most where the load turns most, so that only the torques tell a
+// stiff cable and a larger pulley from a soft cable and a smaller one.
+FloatingNumber radius_of_load_pulley(bool held_by_a_spring) {
     constexpr double by_a_tenth = 0.1;
+    constexpr double by_some_percent = 0.02;
     return {.name = "radius of the load pulley",
-            .prior_std = by_a_tenth,
+            .prior_std = held_by_a_spring ? by_a_tenth : by_some_percent,
             .apply = [](BenchNumbers& numbers, double value) { numbers.load_radius_ratio = value; }};
 }
 
@@ -256,7 +258,7 @@ BenchKnowledge undescribed_bench(const Recording& recording) {
     bench.numbers.push_back(presliding_of_bearings());
     if (recording.mode == BenchMode::pull_pull) {
         add_bends(bench);
-        if (is_held_by_a_spring(recording)) bench.numbers.push_back(radius_of_load_pulley());
+        bench.numbers.push_back(radius_of_load_pulley(is_held_by_a_spring(recording)));
     }
     add_undescribed_parts(*recording.nominal, by_factors, bench);
     return bench;

@@ -19,18 +19,35 @@ namespace {
 constexpr std::size_t max_fitted = 8;
 // Fits of single causes that are made side by side. What they are pruned at does not depend on the threads.
 constexpr std::size_t fits_at_once = 4;
+constexpr int segments_of_a_drive = 9;
+
+int samples_skipped(const Recording& recording, double enough_Hz) {
+    return std::max(1, static_cast<int>(recording.sample_rate_Hz / enough_Hz));
+}
+
 // The screening uses fewer segments and samples. A drive of unknown geometry has no bend at a place, so few
 // segments are enough; a band, whose tension falls by a factor round its drum, needs as many as a described
 // cable. But both are moved by recorded channels: what is left of their noise moves them to and fro, and
-// friction remembers it, so samples are skipped only of what was recorded faster than a hand moves.
+// friction remembers it, so samples are skipped only of what was recorded faster than a hand moves, or for
+// long.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
     constexpr double enough_Hz = 100.0;
+    constexpr double enough_of_a_long_recording_Hz = 50.0;
+    constexpr double long_s = 80.0;
     constexpr int segments = 24;
-    constexpr int segments_of_a_drive = 9;
     if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 2 * stride};
-    const int skipped = std::max(1, static_cast<int>(recording.sample_rate_Hz / enough_Hz));
-    return {.segments = recording.mode == BenchMode::pull_pull ? segments_of_a_drive : segments,
-            .stride = skipped * stride};
+    const bool is_drive = recording.mode == BenchMode::pull_pull;
+    const bool is_long = is_drive && recording.samples() > long_s * recording.sample_rate_Hz;
+    return {
+        .segments = is_drive ? segments_of_a_drive : segments,
+        .stride = stride * samples_skipped(recording, is_long ? enough_of_a_long_recording_Hz : enough_Hz)};
+}
+
+// Where much more than noise is left, what noise does to friction does not matter, and a hand's motion is
+// known from few samples.
+EffectsTwinOptions draft_options(const Recording& recording, int stride) {
+    constexpr double enough_Hz = 25.0;
+    return {.segments = segments_of_a_drive, .stride = samples_skipped(recording, enough_Hz) * stride};
 }
 
 // Fits that a search usually makes; progress is stated in parts of it.
@@ -92,8 +109,8 @@ CauseSearch::Model::Model(const Recording& recording, const EffectsTwinOptions& 
       discrepancy(recording, fitter.series(), options.stride, fitter.independent_samples()) {}
 
 CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& options)
-    : options_(options),
-      run_count_(recording.runs.size()),
+    : recording_(recording),
+      options_(options),
       fine_(recording, {options.segments, options.stride}, options.threads),
       coarse_(recording, coarse_options(recording, options.stride), options.threads),
       evidence_(fine_.fitter.independent_samples()),
@@ -181,9 +198,23 @@ bool CauseSearch::should_be_taken_as_built(const ScoredFit& best) {
     return fit.evidence > best.evidence + clearly;
 }
 
+// A band, whose tension falls by a factor round its drum, is not searched so coarsely.
+void CauseSearch::begin_draft(const Level& level, Fits& fits) {
+    const EffectsTwinOptions options = draft_options(recording_, options_.stride);
+    if (recording_.mode != BenchMode::pull_pull || options.stride <= coarse_.fitter.twin().stride()) return;
+    draft_.emplace(recording_, options, options_.threads);
+    fits = fitted_again(level, fits);
+}
+
+void CauseSearch::end_draft(const Level& level, Fits& fits) {
+    draft_.reset();
+    fits = fitted_again(level, fits);
+}
+
 CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const Hypothesis start = nominal_hypothesis(level.bench);
     Fits singles = {without_cause(level)};
+    if (is_undescribed(level.bench) && singles.front().misfit > leads_nowhere) begin_draft(level, singles);
     // Numbers that float widely move first, for every cause is screened beside them.
     const Hypothesis nothing = level.bench.is_measured() && !level.bench.has_unknown_number()
                                    ? start
@@ -192,7 +223,6 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const std::vector<Further> all = screened(level, nothing, singles.front().fit.weights, true);
     // Where the numbers of an undescribed bench lead nowhere without the right cause, the screening beside
     // them says nothing, and every cause is fitted.
-    constexpr double leads_nowhere = 10.0;
     const bool is_told = !is_undescribed(level.bench) || singles.front().misfit < leads_nowhere;
     const std::size_t max_count = is_told ? max_fitted : all.size();
     // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
@@ -215,14 +245,18 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     }
     if (is_undescribed(level.bench) && !is_out_of_time()) {
         // A few rough steps do not show which start leads to the best fit: promising causes, by the screening
-        // or by their fit, are fitted from all starts.
+        // or by their fit, are fitted from all starts; where one closes much, not those that close nothing.
         constexpr double promising_factor = 2.5;
+        constexpr double closes_much = 0.5;
+        constexpr double closes_something = 0.95;
         const auto misfit = [](const ScoredFit& a, const ScoredFit& b) { return a.misfit < b.misfit; };
         const double least = std::min_element(singles.begin(), singles.end(), misfit)->misfit;
+        const double without = singles.front().misfit;
+        double promises = promising_factor * least;
+        if (least < closes_much * without) promises = std::min(promises, closes_something * without);
         std::vector<Further> promising;
         for (std::size_t k = 0; k < chosen.size(); ++k) {
-            if (k < max_fitted || singles[k + 1].misfit < promising_factor * least)
-                promising.push_back(chosen[k]);
+            if (k < max_fitted || singles[k + 1].misfit < promises) promising.push_back(chosen[k]);
         }
         add_from_elsewhere(level, promising, weights, singles);
     }
@@ -328,7 +362,7 @@ ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start,
 }
 
 CauseFit CauseSearch::roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights) {
-    CauseFit rough = coarse_.fitter.rough_fit(starts, weights);
+    CauseFit rough = rough_model().fitter.rough_fit(starts, weights);
     evaluations_ += rough.evaluations;
     return rough;
 }
@@ -378,13 +412,14 @@ ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {
     return scored;
 }
 
-// Fits that do not depend on one another. Out of time only the first one is made.
+// Fits that do not depend on one another. Out of time only the first ones are made.
 CauseSearch::Fits CauseSearch::made_side_by_side(Model& model, std::size_t count,
-                                                 const std::function<CauseFit(std::size_t)>& fit) {
+                                                 const std::function<CauseFit(std::size_t)>& fit,
+                                                 std::size_t at_least) {
     std::vector<std::optional<ScoredFit>> made(count);
     parallel_for_each_index(static_cast<int>(count), options_.threads, [&](int index) {
         const auto k = static_cast<std::size_t>(index);
-        if (k == 0 || !is_out_of_time()) made[k] = measured(model, fit(k));
+        if (k < at_least || !is_out_of_time()) made[k] = measured(model, fit(k));
     });
     Fits fits;
     for (std::optional<ScoredFit>& each : made) {

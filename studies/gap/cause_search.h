@@ -58,6 +58,10 @@ class CauseSearch {
   private:
     static constexpr std::size_t max_fitted_further = 3;  // causes that get a full fit beside others
     static constexpr std::size_t max_causes = 5;          // of a set
+    // Where the numbers of an undescribed bench leave more than this, they lead nowhere without its causes.
+    static constexpr double leads_nowhere = 10.0;
+    // A refinement that gains less evidence than this ends.
+    static constexpr double clear_gain = 1.0;
     // What is known of the bench, and what could be wrong with it.
     struct Level {
         BenchKnowledge bench;
@@ -85,19 +89,24 @@ class CauseSearch {
 
     void report(const std::string& activity);
     bool is_out_of_time();
-    Model& model_of(const Level& level) { return level.bench.is_measured() ? fine_ : coarse_; }
+    Model& model_of(const Level& level) { return level.bench.is_measured() ? fine_ : rough_model(); }
+    Model& rough_model() { return draft_ ? *draft_ : coarse_; }
+    void begin_draft(const Level& level, Fits& fits);
+    void end_draft(const Level& level, Fits& fits);
     CauseFit fit_on(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
     CauseFit roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights);
     ScoredFit measured(const Model& model, CauseFit fit) const;
     void weigh(Model& model, ScoredFit& fit);
-    Fits made_side_by_side(Model& model, std::size_t count, const std::function<CauseFit(std::size_t)>& fit);
+    Fits made_side_by_side(Model& model, std::size_t count, const std::function<CauseFit(std::size_t)>& fit,
+                           std::size_t at_least = 1);
     ScoredFit scored(Model& model, CauseFit fit);
     static void remove_unstated_numbers(Level& level);
     bool is_undescribed(const BenchKnowledge& bench) const;
     std::vector<Eigen::VectorXd> further_starts(const BenchKnowledge& bench) const;
     Hypothesis roughly_sought(const BenchKnowledge& bench) const;
     ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);
-    Fits finely_fitted(Fits coarse);
+    Fits fitted_again(const Level& level, const Fits& fits);
+    Fits finely_fitted(const Fits& coarse);
     double held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
                                const std::vector<LeftOut>& parts);
     void drop_unearned_causes(Fits& fits);
@@ -105,8 +114,11 @@ class CauseSearch {
     ScoredFit without_cause(const Level& level);
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);
-    void try_fewer(const Level& level, Fits& all);
+    bool try_fewer(const Level& level, Fits& all);
+    bool try_more(const Level& level, Fits& all);
+    bool replace_the_weakest(const Level& level, Fits& all);
     void refine(const Level& level, Fits& all);
+    void try_ripple_instead(const Level& level, Fits& all);
     void try_periods(const Level& level, Fits& sets);
     void try_usual_numbers(const Level& level, Fits& all);
     void try_swapping(const Level& level, Hypothesis& swapped, Fits& all);
@@ -127,10 +139,11 @@ class CauseSearch {
     void add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
                   std::size_t max_further, Fits& sets);
 
+    const Recording& recording_;
     CauseSearchOptions options_;
-    std::size_t run_count_;
     Model fine_;
     Model coarse_;
+    std::optional<Model> draft_;  // coarser still, while a drive's numbers lead nowhere without its causes
     Evidence evidence_;
     Level described_;  // as the recording describes the bench
     Level built_;

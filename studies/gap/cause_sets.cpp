@@ -35,11 +35,34 @@ bool is_slowness_of_one_sensor(const CandidateCause& cause, const CandidateCause
     return is_slowness(cause) && is_slowness(other) && cause.variant == other.variant;
 }
 
+// Those without a cause, whose misfit limits how visible one can be, and the best others: of several starts
+// with the same causes the best.
+std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_sets) {
+    std::stable_partition(fits.begin(), fits.end(),
+                          [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
+    std::vector<Hypothesis> best;
+    for (auto each = fits.begin(); each != fits.end() && best.size() < max_sets; ++each) {
+        const auto has_same_causes = [&](const ScoredFit& other) {
+            return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
+                                       each->fit.causes.begin(), each->fit.causes.end());
+        };
+        if (std::none_of(fits.begin(), each, has_same_causes)) best.push_back(each->fit.hypothesis());
+    }
+    return best;
+}
+
 }  // namespace
 
 void CauseSearch::search_several(const Level& level, Fits& all) {
     Fits sets = all;
     for (std::size_t causes = 2; causes <= max_causes; ++causes) {
+        if (draft_ && all.front().misfit < leads_nowhere) {
+            end_draft(level, all);
+            sets = all;
+            if (causes > 2)
+                std::erase_if(sets,
+                              [&](const ScoredFit& fit) { return fit.fit.causes.size() + 1 != causes; });
+        }
         sets = larger_sets(level, sets);
         if (sets.empty()) break;
         if (is_undescribed(level.bench)) try_periods(level, sets);
@@ -48,33 +71,40 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         sort_by_evidence(all);
         if (!better) break;
     }
+    if (draft_) end_draft(level, all);
     if (is_undescribed(level.bench)) refine(level, all);
-    try_fewer(level, all);
+    for (bool changes = true; changes;) {
+        const bool is_smaller = try_fewer(level, all);
+        changes = is_undescribed(level.bench) &&
+                  ((is_smaller && try_more(level, all)) || replace_the_weakest(level, all));
+    }
     if (!level.bench.is_measured()) try_others(level, all);
 }
 
-CauseSearch::Fits CauseSearch::finely_fitted(Fits coarse) {
+CauseSearch::Fits CauseSearch::finely_fitted(const Fits& coarse) {
     constexpr std::size_t max_fits = 5;
-    // What is left without a cause limits how visible one can be.
-    std::stable_partition(coarse.begin(), coarse.end(),
-                          [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
-    std::vector<Hypothesis> best;
-    for (auto each = coarse.begin(); each != coarse.end() && best.size() < max_fits; ++each) {
-        // The best of several starts with the same causes is enough.
-        const auto has_same_causes = [&](const ScoredFit& other) {
-            return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
-                                       each->fit.causes.begin(), each->fit.causes.end());
-        };
-        if (std::none_of(coarse.begin(), each, has_same_causes)) best.push_back(each->fit.hypothesis());
-    }
+    const std::vector<Hypothesis> best = best_sets(coarse, max_fits);
     report("fitting the best explanations finely");
     CauseFitter::FitOptions options;
     options.any_size = false;
     options.balanced = true;
-    Fits fine = made_side_by_side(fine_, best.size(),
-                                  [&](std::size_t k) { return fine_.fitter.fit(best[k], options); });
+    Fits fine = made_side_by_side(
+        fine_, best.size(), [&](std::size_t k) { return fine_.fitter.fit(best[k], options); }, 2);
     sort_by_evidence(fine);
     return fine;
+}
+
+// The best sets, from where another model led them.
+CauseSearch::Fits CauseSearch::fitted_again(const Level& level, const Fits& fits) {
+    constexpr std::size_t max_fits = 9;
+    const std::vector<Hypothesis> best = best_sets(fits, max_fits);
+    report("fitting the best explanations again");
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    Fits again = made_side_by_side(
+        model_of(level), best.size(), [&](std::size_t k) { return fit_on(level, best[k], options); }, 2);
+    sort_by_evidence(again);
+    return again;
 }
 
 // Others in the place of a single cause, from where it led the bench's own numbers: where these float widely,
@@ -90,13 +120,14 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
 }
 
 // The best set without each of its causes in turn, from where the set led: a smaller set may have been left
-// in a local minimum.
-void CauseSearch::try_fewer(const Level& level, Fits& all) {
+// in a local minimum. Whether one is better.
+bool CauseSearch::try_fewer(const Level& level, Fits& all) {
     const auto is_nothing = [](const Hypothesis& hypothesis) {
         return hypothesis.causes.front()->effect == "none";
     };
+    bool is_better = false;
     for (Hypothesis best = all.front().fit.hypothesis(); !is_nothing(best) && !is_out_of_time();) {
-        if (best.causes.size() == 1 && level.bench.is_measured()) return;
+        if (best.causes.size() == 1 && level.bench.is_measured()) break;
         const double before = all.front().evidence;
         report("trying fewer causes");
         std::vector<Hypothesis> fewer = without_each(best);
@@ -104,9 +135,39 @@ void CauseSearch::try_fewer(const Level& level, Fits& all) {
             fewer.front() = with_cause(fewer.front(), &level.causes.front(), {});
         add_fits(level, fewer, false, all);
         sort_by_evidence(all);
-        if (all.front().evidence == before) return;
+        if (all.front().evidence == before) break;
+        is_better = true;
         best = all.front().fit.hypothesis();
     }
+    return is_better;
+}
+
+// Further causes beside a set that is better without one: what that cause stood for. Whether one is better.
+bool CauseSearch::try_more(const Level& level, Fits& all) {
+    if (is_out_of_time()) return false;
+    const double before = all.front().evidence;
+    Fits sets = larger_sets(level, {all.front()});
+    std::move(sets.begin(), sets.end(), std::back_inserter(all));
+    sort_by_evidence(all);
+    return all.front().evidence > before + clear_gain;
+}
+
+// Others in the place of the cause without which the best set loses least. Whether one is better.
+bool CauseSearch::replace_the_weakest(const Level& level, Fits& all) {
+    const ScoredFit best = all.front();
+    const auto is_of_best = [&](const CandidateCause* cause) {
+        return std::find(best.fit.causes.begin(), best.fit.causes.end(), cause) != best.fit.causes.end();
+    };
+    const auto fewer = std::find_if(all.begin(), all.end(), [&](const ScoredFit& each) {
+        return each.fit.causes.size() + 1 == best.fit.causes.size() &&
+               std::all_of(each.fit.causes.begin(), each.fit.causes.end(), is_of_best);
+    });
+    if (best.fit.causes.size() < 3 || fewer == all.end() || is_out_of_time()) return false;
+    Fits sets;
+    add_sets(level, fewer->fit.hypothesis(), fewer->fit.weights, max_fitted_beside_the_best, sets);
+    std::move(sets.begin(), sets.end(), std::back_inserter(all));
+    sort_by_evidence(all);
+    return all.front().evidence > best.evidence + clear_gain;
 }
 
 const CandidateCause* CauseSearch::Level::same_cause(const std::string& effect,
@@ -179,15 +240,16 @@ void CauseSearch::add_measured_sets(const ScoredFit& built, Fits& all) {
 CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& smaller) {
     Fits sets;
     if (!worth_a_further_cause(smaller.front())) return sets;
-    std::vector<std::string> firsts;
+    std::vector<std::string> extended;  // by the cause that was added last
     for (const ScoredFit& each : smaller) {
-        const std::string& first = each.fit.causes.front()->effect;
-        if (first == "none" || firsts.size() == max_extended ||
-            (each.fit.causes.size() == 1 && std::find(firsts.begin(), firsts.end(), first) != firsts.end()))
+        const bool is_single = each.fit.causes.size() == 1;
+        const std::string added = each.fit.causes.back()->effect;
+        if (added == "none" || extended.size() == max_extended ||
+            std::find(extended.begin(), extended.end(), added) != extended.end())
             continue;
-        if (each.fit.causes.size() > 1 && !firsts.empty()) break;
-        firsts.push_back(first);
-        const bool is_wide = firsts.size() == 1 && !level.bench.is_measured();
+        if (!is_single && !extended.empty() && !is_undescribed(level.bench)) break;
+        extended.push_back(added);
+        const bool is_wide = extended.size() == 1 && !level.bench.is_measured();
         if (worth_a_further_cause(each))
             add_sets(level, each.fit.hypothesis(), each.fit.weights,
                      is_wide ? max_fitted_beside_the_best : max_fitted_further, sets);
@@ -218,7 +280,7 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, cons
                                                         const SeriesWeights& weights, bool begins_elsewhere) {
     constexpr std::size_t most_promising = 12;
     std::vector<Further> all;
-    for (const Screened& each : screen(coarse_.fitter, level.causes, present, weights)) {
+    for (const Screened& each : screen(rough_model().fitter, level.causes, present, weights)) {
         if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
         all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
     }

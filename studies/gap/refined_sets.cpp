@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "capstan/effects/known_causes.h"
 #include "capstan/gap/cause_search.h"
 #include "capstan/platform/parallel_for.h"
 
@@ -14,8 +15,32 @@ namespace capstan::gap {
 
 namespace {
 
-// A refinement that gains less evidence than this ends.
-constexpr double clear_gain = 1.0;
+// A cause that has a number of periods in a set.
+struct Ripple {
+    const CandidateCause* cause = nullptr;
+    Eigen::Index first = 0;  // of its numbers among the coordinates
+    Eigen::Index periods = 0;
+};
+
+Ripple ripple_of(const Hypothesis& set) {
+    Eigen::Index first = set.bench->size();
+    for (const CandidateCause* cause : set.causes) {
+        for (std::size_t k = 0; k < cause->numbers.size(); ++k) {
+            if (cause->numbers[k].kind == OpenNumber::Kind::periods)
+                return {cause, first, first + static_cast<Eigen::Index>(k)};
+        }
+        first += static_cast<Eigen::Index>(cause->numbers.size());
+    }
+    return {};
+}
+
+// Of so few periods that it is no ripple, but any function of the position.
+bool has_too_slow_a_ripple(const Hypothesis& set) {
+    const Ripple ripple = ripple_of(set);
+    if (ripple.cause == nullptr) return false;
+    const OpenNumber& number = ripple.cause->numbers[static_cast<std::size_t>(ripple.periods - ripple.first)];
+    return number.value(set.coordinates[ripple.periods]) <= number.low;
+}
 
 // Those of the bench's own numbers beyond the first three that are far from usual are as usual again: they
 // may have stood for a cause that is still to be found.
@@ -34,12 +59,42 @@ Hypothesis with_usual_numbers(Hypothesis hypothesis) {
 void CauseSearch::refine(const Level& level, Fits& all) {
     constexpr int max_rounds = 2;
     Hypothesis swapped;
+    try_ripple_instead(level, all);
     for (int round = 0; round < max_rounds && !is_out_of_time(); ++round) {
         const double before = all.front().evidence;
         try_usual_numbers(level, all);
         try_swapping(level, swapped, all);
         if (all.front().evidence < before + clear_gain) return;
     }
+}
+
+// A smooth torque over the position may stand for a part of a ripple, beside another one of the wrong period
+// or alone. The ripple is tried in its place.
+void CauseSearch::try_ripple_instead(const Level& level, Fits& all) {
+    const CauseFit best = all.front().fit;
+    const auto ripple =
+        std::find_if(level.causes.begin(), level.causes.end(), [](const CandidateCause& cause) {
+            return std::any_of(cause.numbers.begin(), cause.numbers.end(), [](const OpenNumber& number) {
+                return number.kind == OpenNumber::Kind::periods;
+            });
+        });
+    if (ripple == level.causes.end()) return;
+    const std::vector<std::string> confused = confusable_causes(ripple->effect);
+    Hypothesis instead = only_causes(best.hypothesis(), [&](const CandidateCause& cause) {
+        return std::find(confused.begin(), confused.end(), cause.effect) == confused.end();
+    });
+    if (instead.causes.size() == best.causes.size() || is_out_of_time()) return;
+    if (std::find(instead.causes.begin(), instead.causes.end(), &*ripple) == instead.causes.end())
+        instead =
+            with_cause(instead, &*ripple,
+                       screen_each_start(rough_model().fitter, *ripple, instead, best.weights).front().start);
+    report("fitting " + in_words(instead.causes));
+    Fits sets;
+    add_fits(level, {instead}, false, sets);
+    try_periods(level, sets);
+    std::erase_if(sets, [](const ScoredFit& each) { return has_too_slow_a_ripple(each.fit.hypothesis()); });
+    std::move(sets.begin(), sets.end(), std::back_inserter(all));
+    sort_by_evidence(all);
 }
 
 // Further causes beside the best set, beside usual numbers of the bench.
@@ -83,24 +138,10 @@ void CauseSearch::try_swapping(const Level& level, Hypothesis& swapped, Fits& al
 void CauseSearch::try_periods(const Level& level, Fits& sets) {
     constexpr std::size_t max_rough = 8;
     constexpr std::size_t max_fitted_periods = 3;
-    struct Ripple {
-        const CandidateCause* cause = nullptr;
-        Eigen::Index first = 0;  // of its numbers among the coordinates
-        Eigen::Index periods = 0;
-    };
-    const auto ripple_of = [](const Hypothesis& set) {
-        Eigen::Index first = set.bench->size();
-        for (const CandidateCause* cause : set.causes) {
-            for (std::size_t k = 0; k < cause->numbers.size(); ++k) {
-                if (cause->numbers[k].kind == OpenNumber::Kind::periods)
-                    return Ripple{cause, first, first + static_cast<Eigen::Index>(k)};
-            }
-            first += static_cast<Eigen::Index>(cause->numbers.size());
-        }
-        return Ripple{};
-    };
+    constexpr double max_gain = 30.0;  // by another number of periods
     const auto found = std::find_if(sets.begin(), sets.end(), [&](const ScoredFit& each) {
-        return ripple_of(each.fit.hypothesis()).cause != nullptr;
+        return each.evidence > sets.front().evidence - max_gain &&
+               ripple_of(each.fit.hypothesis()).cause != nullptr;
     });
     if (found == sets.end()) return;
     report("trying other numbers of periods");
@@ -117,7 +158,8 @@ void CauseSearch::try_periods(const Level& level, Fits& sets) {
     std::vector<Further> promising;
     const Hypothesis without =
         only_causes(set, [&](const CandidateCause& cause) { return &cause != ripple.cause; });
-    for (const Screened& each : screen_each_start(coarse_.fitter, *ripple.cause, without, best.fit.weights)) {
+    for (const Screened& each :
+         screen_each_start(rough_model().fitter, *ripple.cause, without, best.fit.weights)) {
         if (promising.size() == max_rough) break;
         Hypothesis other = set;
         other.coordinates.segment(ripple.first, count) = each.start;
@@ -189,13 +231,13 @@ double CauseSearch::held_out_log_misfit(const Hypothesis& hypothesis, const Seri
 void CauseSearch::drop_unearned_causes(Fits& fits) {
     constexpr std::size_t enough_runs = 3;
     constexpr double unearned_penalty = 4.0;
-    if (run_count_ < enough_runs) return;
+    if (recording_.runs.size() < enough_runs) return;
     const double samples = fine_.fitter.independent_samples();
     while (fits.front().fit.causes.size() > 1 && !is_out_of_time()) {
         report("predicting each run from the others");
         const ScoredFit best = fits.front();
         const Hypothesis all = best.fit.hypothesis();
-        const std::vector<LeftOut> parts = left_out_in_turn(run_count_, all.causes);
+        const std::vector<LeftOut> parts = left_out_in_turn(recording_.runs.size(), all.causes);
         const double with_all = held_out_log_misfit(all, best.fit.weights, parts);
         const std::vector<Hypothesis> fewer = without_each(all);
         std::vector<double> lost(fewer.size());  // log likelihood, as the evidence is

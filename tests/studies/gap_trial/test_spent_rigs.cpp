@@ -69,5 +69,19 @@ TEST(SpentRigs, ALagOfAnAngleIsNamedBesideACauseThatIsFaintBesideTheNumbersOfThe
         EXPECT_GT(present(diagnosis, effect), 0.5) << effect;
 }
 
+// A ripple of seven periods and a torque over the position fit almost as well.
+TEST(SpentRigs, ARippleOfFivePeriodsIsNoTorqueOverThePosition) {
+    const gap::Diagnosis diagnosis = diagnosed(441209, 1);
+    EXPECT_GT(present(diagnosis, "motor_cogging"), 0.9);
+    EXPECT_LT(present(diagnosis, "position_torque"), 0.3);
+}
+
+// Where the ratio of the pulleys does not float, a pulley that is not round corrects it.
+TEST(SpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
+    const gap::Diagnosis diagnosis = diagnosed(118903, 5);
+    EXPECT_GT(present(diagnosis, "creep"), 0.9);
+    EXPECT_LT(present(diagnosis, "eccentric_pulley"), 0.3);
+}
+
 }  // namespace
 }  // namespace capstan::gap_trial
