@@ -75,10 +75,15 @@ TEST_F(DriveWithAnErrorInItsTorque, IsARippleOfAsManyPeriodsAsASearchBeginsWith)
     options.balanced = true;
     std::map<double, double> misfits;
     for (const double periods : {5.0, 6.0, 40.0}) {
-        const CauseFit fit = fitter.fit(
-            with_cause(nominal_hypothesis(knowledge_), &*ripple, Eigen::Vector3d(1.0, 1.0, periods)),
-            options);
-        EXPECT_EQ(fit.coordinates[fit.coordinates.size() - 1], periods);
+        Eigen::VectorXd numbers(ripple->numbers.size());
+        std::transform(ripple->numbers.begin(), ripple->numbers.end(), numbers.begin(),
+                       [&](const OpenNumber& number) {
+                           if (number.kind == OpenNumber::Kind::periods) return periods;
+                           return number.is_detail ? 0.0 : 1.0;
+                       });
+        const CauseFit fit =
+            fitter.fit(with_cause(nominal_hypothesis(knowledge_), &*ripple, numbers), options);
+        EXPECT_EQ(fit.coordinates[knowledge_.size() + 2], periods);
         misfits[periods] = fitter.misfit(fit);
     }
     EXPECT_LT(misfits[6.0], 0.1 * misfits[5.0]);
