@@ -15,7 +15,15 @@ namespace capstan::gap {
 
 namespace {
 
-// A cause that has a number of periods in a set.
+// Which of a ripple's numbers is that of its periods; none of another cause.
+std::optional<Eigen::Index> periods_of(const CandidateCause& cause) {
+    for (std::size_t k = 0; k < cause.numbers.size(); ++k) {
+        if (cause.numbers[k].kind == OpenNumber::Kind::periods) return static_cast<Eigen::Index>(k);
+    }
+    return std::nullopt;
+}
+
+// The first ripple in a set.
 struct Ripple {
     const CandidateCause* cause = nullptr;
     Eigen::Index first = 0;  // of its numbers among the coordinates
@@ -25,10 +33,7 @@ struct Ripple {
 Ripple ripple_of(const Hypothesis& set) {
     Eigen::Index first = set.bench->size();
     for (const CandidateCause* cause : set.causes) {
-        for (std::size_t k = 0; k < cause->numbers.size(); ++k) {
-            if (cause->numbers[k].kind == OpenNumber::Kind::periods)
-                return {cause, first, first + static_cast<Eigen::Index>(k)};
-        }
+        if (const auto periods = periods_of(*cause)) return {cause, first, first + *periods};
         first += static_cast<Eigen::Index>(cause->numbers.size());
     }
     return {};
@@ -73,11 +78,8 @@ void CauseSearch::refine(const Level& level, Fits& all) {
 void CauseSearch::try_ripple_instead(const Level& level, Fits& all) {
     const CauseFit best = all.front().fit;
     const auto ripple =
-        std::find_if(level.causes.begin(), level.causes.end(), [](const CandidateCause& cause) {
-            return std::any_of(cause.numbers.begin(), cause.numbers.end(), [](const OpenNumber& number) {
-                return number.kind == OpenNumber::Kind::periods;
-            });
-        });
+        std::find_if(level.causes.begin(), level.causes.end(),
+                     [](const CandidateCause& cause) { return periods_of(cause).has_value(); });
     if (ripple == level.causes.end()) return;
     const std::vector<std::string> confused = confusable_causes(ripple->effect);
     Hypothesis instead = only_causes(best.hypothesis(), [&](const CandidateCause& cause) {
