@@ -198,10 +198,9 @@ bool CauseSearch::should_be_taken_as_built(const ScoredFit& best) {
     return fit.evidence > best.evidence + clearly;
 }
 
-// A band, whose tension falls by a factor round its drum, is not searched so coarsely.
 void CauseSearch::begin_draft(const Level& level, Fits& fits) {
     const EffectsTwinOptions options = draft_options(recording_, options_.stride);
-    if (recording_.mode != BenchMode::pull_pull || options.stride <= coarse_.fitter.twin().stride()) return;
+    if (options.stride <= coarse_.fitter.twin().stride()) return;
     draft_.emplace(recording_, options, options_.threads);
     fits = fitted_again(level, fits);
 }
@@ -214,7 +213,8 @@ void CauseSearch::end_draft(const Level& level, Fits& fits) {
 CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const Hypothesis start = nominal_hypothesis(level.bench);
     Fits singles = {without_cause(level)};
-    if (is_undescribed(level.bench) && singles.front().misfit > leads_nowhere) begin_draft(level, singles);
+    if (is_undescribed_drive(level.bench) && singles.front().misfit > leads_nowhere)
+        begin_draft(level, singles);
     // Numbers that float widely move first, for every cause is screened beside them.
     const Hypothesis nothing = level.bench.is_measured() && !level.bench.has_unknown_number()
                                    ? start
@@ -301,6 +301,12 @@ Hypothesis CauseSearch::roughly_sought(const BenchKnowledge& bench) const {
 
 bool CauseSearch::is_undescribed(const BenchKnowledge& bench) const {
     return &bench == &described_.bench && !bench.is_measured();
+}
+
+// Not a band, whose tension falls by a factor round its drum, and of which a recording often has one run: a
+// wider search finds causes there that other runs do not confirm.
+bool CauseSearch::is_undescribed_drive(const BenchKnowledge& bench) const {
+    return is_undescribed(bench) && recording_.mode == BenchMode::pull_pull;
 }
 
 ScoredFit CauseSearch::without_cause(const Level& level) {

@@ -75,7 +75,7 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     if (is_undescribed(level.bench)) refine(level, all);
     for (bool changes = true; changes;) {
         const bool is_smaller = try_fewer(level, all);
-        changes = is_undescribed(level.bench) &&
+        changes = is_undescribed_drive(level.bench) &&
                   ((is_smaller && try_more(level, all)) || replace_the_weakest(level, all));
     }
     if (!level.bench.is_measured()) try_others(level, all);
@@ -247,7 +247,7 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
         if (added == "none" || extended.size() == max_extended ||
             std::find(extended.begin(), extended.end(), added) != extended.end())
             continue;
-        if (!is_single && !extended.empty() && !is_undescribed(level.bench)) break;
+        if (!is_single && !extended.empty() && !is_undescribed_drive(level.bench)) break;
         extended.push_back(added);
         const bool is_wide = extended.size() == 1 && !level.bench.is_measured();
         if (worth_a_further_cause(each))
