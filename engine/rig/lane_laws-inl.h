@@ -129,7 +129,7 @@ template <template <class> class... Law>
 struct LaneLaws<LawList<Law...>> : Law<Lanes>... {
     HWY_INLINE LaneLaws(const CableLawParameters& parameters, int lane)
         : Law<Lanes>(law_at<Law>(parameters, lane, std::make_index_sequence<law_parameters<Law>>()))...,
-          parameters(parameters) {}
+          parameters_(parameters) {}
 
     // The sum, or the product, of what each law contributes. One that no bench has contributes nothing.
     template <class Contribution>
@@ -144,11 +144,11 @@ struct LaneLaws<LawList<Law...>> : Law<Lanes>... {
   private:
     template <template <class> class One, class Contribution>
     HWY_INLINE Lanes of_law(const Contribution& contribution, double nothing) const {
-        return parameters.template is_active<One>() ? contribution(static_cast<const One<Lanes>&>(*this))
-                                                    : lanes_of(nothing);
+        return parameters_.template is_active<One>() ? contribution(static_cast<const One<Lanes>&>(*this))
+                                                     : lanes_of(nothing);
     }
 
-    const CableLawParameters& parameters;
+    const CableLawParameters& parameters_;
 };
 
 // What a law contributes to the cable's friction. A law takes part in as many ways as it has functions of

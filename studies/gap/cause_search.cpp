@@ -155,13 +155,13 @@ FoundCauses CauseSearch::run() & {
     if (built) {
         Fits rougher = search_one(built_);
         search_several(built_, rougher);
-        rougher = finely_fitted(rougher);
+        rougher = fitted_again(fine_, rougher, max_fitted_finely);
         const ScoredFit best = rougher.front();
         std::move(rougher.begin(), rougher.end(), std::back_inserter(found.fits));
         sort_by_evidence(found.fits);
         add_measured_sets(best, found.fits);
     } else if (!is_measured) {
-        found.fits = finely_fitted(found.fits);
+        found.fits = fitted_again(fine_, found.fits, max_fitted_finely);
     }
     drop_unearned_causes(found.fits);
     found.nominal_misfit = nominal_misfit_;
@@ -198,23 +198,22 @@ bool CauseSearch::should_be_taken_as_built(const ScoredFit& best) {
     return fit.evidence > best.evidence + clearly;
 }
 
-void CauseSearch::begin_draft(const Level& level, Fits& fits) {
+void CauseSearch::begin_draft(Fits& fits) {
     const EffectsTwinOptions options = draft_options(recording_, options_.stride);
     if (options.stride <= coarse_.fitter.twin().stride()) return;
     draft_.emplace(recording_, options, options_.threads);
-    fits = fitted_again(level, fits);
+    fits = fitted_again(*draft_, fits, max_after_draft);
 }
 
-void CauseSearch::end_draft(const Level& level, Fits& fits) {
+void CauseSearch::end_draft(Fits& fits) {
     draft_.reset();
-    fits = fitted_again(level, fits);
+    fits = fitted_again(coarse_, fits, max_after_draft);
 }
 
 CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const Hypothesis start = nominal_hypothesis(level.bench);
     Fits singles = {without_cause(level)};
-    if (is_undescribed_drive(level.bench) && singles.front().misfit > leads_nowhere)
-        begin_draft(level, singles);
+    if (is_undescribed_drive(level.bench) && singles.front().misfit > leads_nowhere) begin_draft(singles);
     // Numbers that float widely move first, for every cause is screened beside them.
     const Hypothesis nothing = level.bench.is_measured() && !level.bench.has_unknown_number()
                                    ? start

@@ -58,6 +58,8 @@ class CauseSearch {
   private:
     static constexpr std::size_t max_fitted_further = 3;  // causes that get a full fit beside others
     static constexpr std::size_t max_causes = 5;          // of a set
+    static constexpr std::size_t max_fitted_finely = 5;   // sets
+    static constexpr std::size_t max_after_draft = 9;     // sets that are fitted again
     // Where the numbers of an undescribed bench leave more than this, they lead nowhere without its causes.
     static constexpr double leads_nowhere = 10.0;
     // A refinement that gains less evidence than this ends.
@@ -91,8 +93,8 @@ class CauseSearch {
     bool is_out_of_time();
     Model& model_of(const Level& level) { return level.bench.is_measured() ? fine_ : rough_model(); }
     Model& rough_model() { return draft_ ? *draft_ : coarse_; }
-    void begin_draft(const Level& level, Fits& fits);
-    void end_draft(const Level& level, Fits& fits);
+    void begin_draft(Fits& fits);
+    void end_draft(Fits& fits);
     CauseFit fit_on(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
     CauseFit roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights);
     ScoredFit measured(const Model& model, CauseFit fit) const;
@@ -106,8 +108,7 @@ class CauseSearch {
     std::vector<Eigen::VectorXd> further_starts(const BenchKnowledge& bench) const;
     Hypothesis roughly_sought(const BenchKnowledge& bench) const;
     ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);
-    Fits fitted_again(const Level& level, const Fits& fits);
-    Fits finely_fitted(const Fits& coarse);
+    Fits fitted_again(Model& model, const Fits& fits, std::size_t max_sets);
     double held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
                                const std::vector<LeftOut>& parts);
     void drop_unearned_causes(Fits& fits);

@@ -57,7 +57,7 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     Fits sets = all;
     for (std::size_t causes = 2; causes <= max_causes; ++causes) {
         if (draft_ && all.front().misfit < leads_nowhere) {
-            end_draft(level, all);
+            end_draft(all);
             sets = all;
             if (causes > 2)
                 std::erase_if(sets,
@@ -71,7 +71,7 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         sort_by_evidence(all);
         if (!better) break;
     }
-    if (draft_) end_draft(level, all);
+    if (draft_) end_draft(all);
     if (is_undescribed(level.bench)) refine(level, all);
     for (bool changes = true; changes;) {
         const bool is_smaller = try_fewer(level, all);
@@ -81,28 +81,16 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     if (!level.bench.is_measured()) try_others(level, all);
 }
 
-CauseSearch::Fits CauseSearch::finely_fitted(const Fits& coarse) {
-    constexpr std::size_t max_fits = 5;
-    const std::vector<Hypothesis> best = best_sets(coarse, max_fits);
-    report("fitting the best explanations finely");
-    CauseFitter::FitOptions options;
-    options.any_size = false;
-    options.balanced = true;
-    Fits fine = made_side_by_side(
-        fine_, best.size(), [&](std::size_t k) { return fine_.fitter.fit(best[k], options); }, 2);
-    sort_by_evidence(fine);
-    return fine;
-}
-
-// The best sets, from where another model led them.
-CauseSearch::Fits CauseSearch::fitted_again(const Level& level, const Fits& fits) {
-    constexpr std::size_t max_fits = 9;
-    const std::vector<Hypothesis> best = best_sets(fits, max_fits);
+// The best sets, from where another model led them. Out of time the best one is still fitted.
+CauseSearch::Fits CauseSearch::fitted_again(Model& model, const Fits& fits, std::size_t max_sets) {
+    constexpr std::size_t at_least = 2;  // without a cause, and the best
+    const std::vector<Hypothesis> best = best_sets(fits, max_sets);
     report("fitting the best explanations again");
     CauseFitter::FitOptions options;
     options.any_size = false;
+    options.balanced = true;
     Fits again = made_side_by_side(
-        model_of(level), best.size(), [&](std::size_t k) { return fit_on(level, best[k], options); }, 2);
+        model, best.size(), [&](std::size_t k) { return model.fitter.fit(best[k], options); }, at_least);
     sort_by_evidence(again);
     return again;
 }
