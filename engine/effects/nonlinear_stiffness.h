@@ -39,7 +39,7 @@ using NonlinearStiffness = NonlinearStiffnessLaw<double>;
 template <class Number>
 struct ToeStrain {
     Number strain;
-    Number strain_per_N;
+    Number slope;
 };
 
 }  // namespace capstan
@@ -49,11 +49,11 @@ struct ToeStrain {
 #define CAPSTAN_EFFECTS_NONLINEAR_STIFFNESS_H
 CAPSTAN_LAWS_BEGIN
 
-/// The strain beyond T / EA. With a toe strain in metres the result is an elongation.
+/// The strain beyond T / EA at a tension in units of the toe's, and its slope over that ratio. With a toe
+/// strain in metres both are elongations.
 template <class Number>
-CAPSTAN_LAW ToeStrain<Number> toe_strain(const NonlinearStiffnessLaw<Number>& law, Number tension_N) {
-    const Number ratio = tension_N / law.toe_tension_N;
-    return {law.toe_strain * saturation(ratio), law.toe_strain / law.toe_tension_N * exp(negative(ratio))};
+CAPSTAN_LAW ToeStrain<Number> toe_strain(const NonlinearStiffnessLaw<Number>& law, Number ratio) {
+    return {law.toe_strain * saturation(ratio), law.toe_strain * exp(negative(ratio))};
 }
 
 CAPSTAN_LAWS_END

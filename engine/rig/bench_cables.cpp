@@ -146,7 +146,8 @@ double BenchCables::crept_m(const Rest& rest, double tension_N) const {
 }
 
 double BenchCables::stretched_m(const Rest& rest, double tension_N) const {
-    const double strain = tension_N / rest.axial_stiffness_N + laws::toe_strain(rest.toe, tension_N).strain;
+    const double strain = tension_N / rest.axial_stiffness_N +
+                          laws::toe_strain(rest.toe, tension_N / rest.toe.toe_tension_N).strain;
     return crept_m(rest, tension_N) + group_.segment_m * strain;
 }
 

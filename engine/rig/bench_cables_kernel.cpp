@@ -20,10 +20,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 struct NodeGuess {
     Lanes friction, bend, bend_per_m, slid_m;
 };
-struct SegmentGuess {
-    Lanes tension_N, per_m;
-};
-
 HWY_INLINE NodeGuess node_guess(const CableLanes& cable, const LaneCable& mechanics, int node, int lane) {
     const Lanes slid_m = load(cable.displacement_m[node], lane) - load(cable.before_m[node], lane);
     const PreslidingLaw<Lanes>& presliding = mechanics;
@@ -33,16 +29,21 @@ HWY_INLINE NodeGuess node_guess(const CableLanes& cable, const LaneCable& mechan
     return {load(cable.friction[node], lane), bristle.bend, bristle.bend_per_m, slid_m};
 }
 
-HWY_INLINE SegmentGuess segment_guess(const CableLanes& cable, const LaneCable& mechanics, Which active,
-                                      int segment, int lane) {
-    const Lanes stretch_m =
-        load(cable.displacement_m[segment + 1], lane) - load(cable.displacement_m[segment], lane);
-    const Lanes last_N = load(cable.tension_N[segment], lane);
-    const Lanes crept_m =
-        mechanics.creeps ? load(cable.crept_m[segment], lane) * mechanics.creep_stays : lanes_of(0.0);
-    const LaneTension tension = tension_of(mechanics, stretch_m - crept_m, last_N);
-    store(hn::IfThenElse(active, tension.value_N, last_N), cable.tension_N[segment], lane);
-    return {tension.value_N, tension.per_m};
+template <int cables>
+HWY_INLINE void guess_segments(const CablesGroup& group, const LaneCable& mechanics, Which active,
+                               int segment, int lane, LaneTension (&guess)[cables]) {
+    Lanes stretch_m[cables], last_N[cables];
+    for (int c = 0; c < cables; ++c) {
+        const CableLanes& cable = group.cable[c];
+        const Lanes crept_m =
+            mechanics.creeps ? load(cable.crept_m[segment], lane) * mechanics.creep_stays : lanes_of(0.0);
+        stretch_m[c] = load(cable.displacement_m[segment + 1], lane) -
+                       load(cable.displacement_m[segment], lane) - crept_m;
+        last_N[c] = load(cable.tension_N[segment], lane);
+    }
+    find_tensions(mechanics, stretch_m, last_N, guess);
+    for (int c = 0; c < cables; ++c)
+        store(hn::IfThenElse(active, guess[c].value_N, last_N[c]), group.cable[c].tension_N[segment], lane);
 }
 
 // A tension beyond an end node's half segment, and how it goes with that node and its neighbour.
@@ -52,11 +53,11 @@ struct InnerEnd {
 
 // `way` -1 at the motor end, 1 at the load end: T = t (1 + way q) / (1 - way q) + way (drags), q = z tanh(mu
 // theta / 2).
-HWY_INLINE InnerEnd inner_end(const LaneCable& mechanics, const NodeGuess& node, const SegmentGuess& segment,
+HWY_INLINE InnerEnd inner_end(const LaneCable& mechanics, const NodeGuess& node, const LaneTension& segment,
                               double way_value, double span_m) {
     const Lanes one = lanes_of(1.0);
     const Lanes way = lanes_of(way_value);
-    const Lanes pressing_N = hn::Max(lanes_of(0.0), segment.tension_N);
+    const Lanes pressing_N = hn::Max(lanes_of(0.0), segment.value_N);
     const Lanes q = way * hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), node.friction * node.bend);
     const Lanes grown = (one + q) / (one - q);
     const Lanes rigid_N =
@@ -64,7 +65,7 @@ HWY_INLINE InnerEnd inner_end(const LaneCable& mechanics, const NodeGuess& node,
     const Lanes viscous_N_per_m = mechanics.sliding_drag_N_per_m(span_m);
     const Lanes by_bend_N = lanes_of(2.0) * node.friction * pressing_N / ((one - q) * (one - q)) + rigid_N;
     const Lanes stiffness = segment.per_m * grown;
-    return {segment.tension_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.slid_m),
+    return {segment.value_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.slid_m),
             way * (stiffness + by_bend_N * node.bend_per_m + viscous_N_per_m), hn::Neg(way) * stiffness};
 }
 
@@ -76,14 +77,15 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
     const double half_m = 0.5 * group.segment_m;
     const Lanes one = lanes_of(1.0);
     const Lanes zero = lanes_of(0.0);
-    SegmentGuess before[cables];
+    LaneTension before[cables];
+    LaneTension behind[cables];
     InnerEnd inner_motor[cables];
     Lanes upper[cables], value[cables], by_motor[cables];
 
     // Motor end: u_0 = at + per_rad turn + compliance T.
+    guess_segments(group, mechanics, active, 0, lane, before);
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        before[c] = segment_guess(cable, mechanics, active, 0, lane);
         inner_motor[c] = inner_end(mechanics, node_guess(cable, mechanics, 0, lane), before[c], -1.0, half_m);
         const Lanes gives = load(motor[c].compliance_m_per_N, lane);
         const Lanes pivot = one / (one - gives * inner_motor[c].per_end_m);
@@ -98,27 +100,28 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
     }
 
     const Lanes full_rigid_N = mechanics.constant_drag_N(group.segment_m);
+    const bool is_rigid = !none_of(hn::Ne(full_rigid_N, zero));
     const Lanes viscous_N_per_m = mechanics.sliding_drag_N_per_m(group.segment_m);
     const Lanes bristle_m = static_cast<const PreslidingLaw<Lanes>&>(mechanics).length_m;
     for (int node = 1; node < last; ++node) {
+        guess_segments(group, mechanics, active, node, lane, behind);
         for (int c = 0; c < cables; ++c) {
             const CableLanes& cable = group.cable[c];
-            const SegmentGuess behind = segment_guess(cable, mechanics, active, node, lane);
             const NodeGuess here = node_guess(cable, mechanics, node, lane);
             // A slack stretch presses on its conduit only by its bending stiffness. There the way to no drag,
             // not the slope of bristles that are fully bent, leads to equilibrium.
-            const Lanes sum_N = hn::Max(zero, before[c].tension_N + behind.tension_N);
+            const Lanes sum_N = hn::Max(zero, before[c].value_N + behind[c].value_N);
             const Which pressed = hn::Gt(sum_N, zero);
             const Lanes q = hn::IfThenElseZero(pressed, here.friction * here.bend);
-            const Lanes out_of_balance_N = behind.tension_N - before[c].tension_N - q * sum_N -
+            const Lanes out_of_balance_N = behind[c].value_N - before[c].value_N - q * sum_N -
                                            full_rigid_N * here.bend - viscous_N_per_m * here.slid_m;
             const Lanes lower = before[c].per_m * (one + q);
-            const Lanes above = behind.per_m * (one - q);
+            const Lanes above = behind[c].per_m * (one - q);
             const Lanes by_bend_N = here.friction * sum_N + full_rigid_N;
             const Lanes to_no_drag_m = hn::Max(hn::Abs(here.slid_m), bristle_m);
+            const Lanes slack_drag = is_rigid ? full_rigid_N / to_no_drag_m : zero;
             const Lanes drag =
-                hn::IfThenElse(pressed, by_bend_N * here.bend_per_m, full_rigid_N / to_no_drag_m) +
-                viscous_N_per_m;
+                hn::IfThenElse(pressed, by_bend_N * here.bend_per_m, slack_drag) + viscous_N_per_m;
             const Lanes pivot = one / hn::Neg(lower + above + drag + lower * upper[c]);
             upper[c] = above * pivot;
             value[c] = (hn::Neg(out_of_balance_N) - lower * value[c]) * pivot;
@@ -128,7 +131,7 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
                 by_motor[c] = hn::Neg(lower) * by_motor[c] * pivot;
                 store(by_motor[c], cable.by_motor[node], lane);
             }
-            before[c] = behind;
+            before[c] = behind[c];
         }
     }
 
@@ -259,44 +262,56 @@ LaneValues move(const CablesGroup& group, const LaneFlags& active, const LaneVal
     return largest;
 }
 
+template <int cables>
+HWY_INLINE void keep_lanes(const CablesGroup& group, int lane, LaneValues* motor_tension_N,
+                           LaneValues* load_tension_N) {
+    const LaneCable mechanics(group, lane);
+    const Which all = hn::Eq(lanes_of(0.0), lanes_of(0.0));
+    const int last = group.nodes - 1;
+    const double half_m = 0.5 * group.segment_m;
+    LaneTension first[cables];
+    LaneTension final_segment[cables];
+    guess_segments(group, mechanics, all, 0, lane, first);
+    for (int c = 0; c < cables; ++c) final_segment[c] = first[c];
+    for (int segment = 1; segment < last; ++segment)
+        guess_segments(group, mechanics, all, segment, lane, final_segment);
+    for (int c = 0; c < cables; ++c) {
+        const CableLanes& cable = group.cable[c];
+        store(inner_end(mechanics, node_guess(cable, mechanics, 0, lane), first[c], -1.0, half_m).value_N,
+              motor_tension_N[c], lane);
+        for (int node = 1; node < last; ++node) node_guess(cable, mechanics, node, lane);
+        store(inner_end(mechanics, node_guess(cable, mechanics, last, lane), final_segment[c], 1.0, half_m)
+                  .value_N,
+              load_tension_N[c], lane);
+        for (int node = 0; node <= last; ++node) {
+            const Lanes now_m = load(cable.displacement_m[node], lane);
+            if (group.any_varying_friction) {
+                const Lanes speed =
+                    hn::Abs(now_m - load(cable.before_m[node], lane)) / lanes_of(group.time_step_s);
+                const Lanes lagging = load(cable.lagging_speed_m_per_s[node], lane);
+                store(laws::lagging_speed<Lanes>(mechanics, lagging, speed, mechanics.time_step_s),
+                      cable.lagging_speed_m_per_s[node], lane);
+            }
+            store(now_m, cable.before_m[node], lane);
+            store(load(cable.bend[node], lane), cable.before_bend[node], lane);
+        }
+        for (int segment = 0; segment < last; ++segment) {
+            const Lanes tension_N = load(cable.tension_N[segment], lane);
+            store(tension_N, cable.before_tension_N[segment], lane);
+            if (!mechanics.creeps) continue;
+            store(load(cable.crept_m[segment], lane) * mechanics.creep_stays +
+                      mechanics.step_creep_m_per_N * tension_N,
+                  cable.crept_m[segment], lane);
+        }
+    }
+}
+
 void keep(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N) {
     for (int lane = 0; lane < group.benches; lane += lanes_at_once) {
-        const LaneCable mechanics(group, lane);
-        const Which all = hn::Eq(lanes_of(0.0), lanes_of(0.0));
-        const int last = group.nodes - 1;
-        const double half_m = 0.5 * group.segment_m;
-        for (int c = 0; c < group.cables; ++c) {
-            const CableLanes& cable = group.cable[c];
-            const SegmentGuess first = segment_guess(cable, mechanics, all, 0, lane);
-            SegmentGuess final_segment = first;
-            for (int segment = 1; segment < last; ++segment)
-                final_segment = segment_guess(cable, mechanics, all, segment, lane);
-            store(inner_end(mechanics, node_guess(cable, mechanics, 0, lane), first, -1.0, half_m).value_N,
-                  motor_tension_N[c], lane);
-            for (int node = 1; node < last; ++node) node_guess(cable, mechanics, node, lane);
-            store(inner_end(mechanics, node_guess(cable, mechanics, last, lane), final_segment, 1.0, half_m)
-                      .value_N,
-                  load_tension_N[c], lane);
-            for (int node = 0; node <= last; ++node) {
-                const Lanes now_m = load(cable.displacement_m[node], lane);
-                if (group.any_varying_friction) {
-                    const Lanes speed =
-                        hn::Abs(now_m - load(cable.before_m[node], lane)) / lanes_of(group.time_step_s);
-                    const Lanes lagging = load(cable.lagging_speed_m_per_s[node], lane);
-                    store(laws::lagging_speed<Lanes>(mechanics, lagging, speed, mechanics.time_step_s),
-                          cable.lagging_speed_m_per_s[node], lane);
-                }
-                store(now_m, cable.before_m[node], lane);
-                store(load(cable.bend[node], lane), cable.before_bend[node], lane);
-            }
-            for (int segment = 0; segment < last; ++segment) {
-                const Lanes tension_N = load(cable.tension_N[segment], lane);
-                store(tension_N, cable.before_tension_N[segment], lane);
-                if (!mechanics.creeps) continue;
-                store(load(cable.crept_m[segment], lane) * mechanics.creep_stays +
-                          mechanics.step_creep_m_per_N * tension_N,
-                      cable.crept_m[segment], lane);
-            }
+        if (group.cables == 2) {
+            keep_lanes<2>(group, lane, motor_tension_N, load_tension_N);
+        } else {
+            keep_lanes<1>(group, lane, motor_tension_N, load_tension_N);
         }
     }
 }

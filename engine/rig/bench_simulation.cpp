@@ -14,6 +14,10 @@ namespace capstan {
 namespace {
 
 constexpr double move_tolerance_m = 1e-9;
+// Where Newton's method converges quadratically, what its next move would be is known before it is made, and
+// a small one is not made.
+constexpr double last_move_m = 1e-7;
+constexpr double never_made_m = 1e-10;
 // A free pulley turns no further than this in one iteration.
 constexpr double max_motor_turn_rad = 0.2;
 constexpr double max_load_turn_rad = 0.02;
@@ -153,6 +157,8 @@ BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, cons
 void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags active, EachAngles& angles,
                                EachReport& reports) {
     cables_.set_free({.motor = any(free.motor), .load = any(free.load)});
+    LaneValues last_m;
+    std::fill(std::begin(last_m.of), std::end(last_m.of), std::numeric_limits<double>::quiet_NaN());
     for (int iteration = 1; iteration <= max_iterations && any(active); ++iteration) {
         const Pull pull = linearise(active, angles);
         LaneValues motor_turn;
@@ -203,8 +209,13 @@ void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags ac
         const LaneValues largest_m = cables_.move(active, motor_turn, load_turn, fractions);
         for (int lane = 0; lane < count_; ++lane) {
             if (!active.of[lane]) continue;
-            reports[static_cast<std::size_t>(lane)].converged = largest_m.of[lane] < move_tolerance_m;
-            active.of[lane] = std::isfinite(largest_m.of[lane]) && !(largest_m.of[lane] < move_tolerance_m);
+            const double moved_m = largest_m.of[lane];
+            const double less = moved_m / last_m.of[lane];
+            const bool converged =
+                moved_m < move_tolerance_m || (moved_m < last_move_m && moved_m * less * less < never_made_m);
+            reports[static_cast<std::size_t>(lane)].converged = converged;
+            active.of[lane] = std::isfinite(moved_m) && !converged;
+            last_m.of[lane] = moved_m;
         }
     }
 }

@@ -199,7 +199,8 @@ struct LaneCable : LaneLaws<CableLaws> {
           varies(hn::Ne(load(group.varying_friction, lane), lanes_of(0.0))),
           creeps(group.laws.is_active<CreepLaw>()),
           has_toe(group.laws.is_active<NonlinearStiffnessLaw>()),
-          toe_of_segment{lanes_of(group.segment_m) * this->toe_strain, this->toe_tension_N} {
+          toe_of_segment{lanes_of(group.segment_m) * this->toe_strain, this->toe_tension_N},
+          per_toe_tension(lanes_of(1.0) / this->toe_tension_N) {
         const Lanes stretch_m_per_N = load(group.stretch_m_per_N, lane);
         const Lanes creep_m_per_N = laws::creep_at_rest<Lanes>(*this, stretch_m_per_N);
         const Lanes fraction = laws::creep_fraction<Lanes>(*this, time_step_s);
@@ -213,6 +214,7 @@ struct LaneCable : LaneLaws<CableLaws> {
     Which varies;
     bool creeps, has_toe;  // whether any bench does; those that do not keep their values, bit for bit
     NonlinearStiffnessLaw<Lanes> toe_of_segment;  // its toe "strain" in metres
+    Lanes per_toe_tension;
     Lanes creep_stays, step_creep_m_per_N, elastic_m_per_N, elastic_N_per_m;
 
     HWY_INLINE Lanes sliding_drag_N_per_m(double span_m) const {
@@ -232,39 +234,54 @@ struct LaneTension {
     Lanes value_N, per_m;
 };
 
-// The tension of a segment that is stretched by this much beyond its creep (E31, E32). A stiffening cable's
-// tension is sought from `last_N`.
-HWY_INLINE LaneTension tension_of(const LaneCable& cable, Lanes stretch_m, Lanes last_N) {
+// The tensions of segments of each cable that are stretched by this much beyond their creep (E31, E32). A
+// stiffening cable's tension is sought from the last one.
+template <int cables>
+HWY_INLINE void find_tensions(const LaneCable& cable, const Lanes (&stretch_m)[cables],
+                              const Lanes (&last_N)[cables], LaneTension (&found)[cables]) {
     // The stiffness that a slack segment keeps, so that its nodes have a position.
     constexpr double slack_stiffness = 1e-9;
     const Lanes zero = lanes_of(0.0);
-    Lanes tension_N = stretch_m * cable.elastic_N_per_m;
-    Lanes slope = cable.elastic_N_per_m;
+    const Lanes one = lanes_of(1.0);
+    for (int c = 0; c < cables; ++c) found[c] = {stretch_m[c] * cable.elastic_N_per_m, cable.elastic_N_per_m};
     if (cable.has_toe) {
         const NonlinearStiffnessLaw<Lanes>& law = cable.toe_of_segment;
-        const Which toe = hn::And(hn::Gt(law.toe_strain, zero), hn::Gt(stretch_m, zero));
         constexpr int max_refinements = 4;
-        constexpr double refined = 1e-6;  // of the tension: the error left is of the order of its square
-        // Strain is concave in tension, so Newton from the left of the root stays there. A lane rests once it
-        // is refined, whatever the others need.
-        Lanes sought_N = hn::Min(hn::Max(last_N, zero), tension_N);
-        Lanes per_N = cable.elastic_m_per_N;
-        Which open = toe;
-        for (int refinement = 0; refinement < max_refinements && !hn::AllFalse(BenchTag(), open);
-             ++refinement) {
-            const ToeStrain<Lanes> beyond = laws::toe_strain(law, sought_N);
-            const Lanes there_m = cable.elastic_m_per_N * sought_N + beyond.strain;
-            per_N = hn::IfThenElse(open, cable.elastic_m_per_N + beyond.strain_per_N, per_N);
-            const Lanes next_N = hn::Max(zero, sought_N + (stretch_m - there_m) / per_N);
-            const Which moves = hn::Gt(hn::Abs(next_N - sought_N), lanes_of(refined) * next_N);
-            sought_N = hn::IfThenElse(open, next_N, sought_N);
-            open = hn::And(open, moves);
+        const Lanes near = lanes_of(1e-2);  // the error left is of the order of its cube
+        const Lanes half = lanes_of(0.5);
+        // Chebyshev's method for the tension in units of the toe's, on the strain, which is concave in
+        // tension. A lane rests once it is near, whatever the others need.
+        const Lanes elastic_m = cable.elastic_m_per_N * law.toe_tension_N;
+        Which toe[cables], open[cables];
+        Lanes sought[cables], per_m[cables];
+        for (int c = 0; c < cables; ++c) {
+            open[c] = toe[c] = hn::And(hn::Gt(law.toe_strain, zero), hn::Gt(stretch_m[c], zero));
+            sought[c] = hn::Min(hn::Max(last_N[c], zero), found[c].value_N) * cable.per_toe_tension;
+            per_m[c] = zero;
         }
-        tension_N = hn::IfThenElse(toe, sought_N, tension_N);
-        slope = hn::IfThenElse(toe, lanes_of(1.0) / per_N, slope);
+        for (int refinement = 0; refinement < max_refinements; ++refinement) {
+            Which any = open[0];
+            for (int c = 0; c < cables; ++c) {
+                const ToeStrain<Lanes> beyond = laws::toe_strain(law, sought[c]);
+                const Lanes rate = one / (elastic_m + beyond.slope);
+                const Lanes straight = (stretch_m[c] - (elastic_m * sought[c] + beyond.strain)) * rate;
+                const Lanes bent = beyond.slope * rate * straight;  // by how much the rate rises on the way
+                const Lanes further = straight + hn::Min(half * bent, one) * straight;
+                per_m[c] = hn::IfThenElse(open[c], rate + rate * bent, per_m[c]);
+                sought[c] = hn::IfThenElse(open[c], hn::Max(zero, sought[c] + further), sought[c]);
+                open[c] = hn::And(open[c], hn::Gt(hn::Abs(further), near));
+                any = c == 0 ? open[c] : hn::Or(any, open[c]);
+            }
+            if (none_of(any)) break;
+        }
+        for (int c = 0; c < cables; ++c)
+            found[c] = {hn::IfThenElse(toe[c], sought[c] * law.toe_tension_N, found[c].value_N),
+                        hn::IfThenElse(toe[c], per_m[c] * law.toe_tension_N, found[c].per_m)};
     }
-    const Lanes kept = hn::IfThenElse(hn::Gt(stretch_m, zero), lanes_of(1.0), lanes_of(slack_stiffness));
-    return {kept * tension_N, kept * slope};
+    for (int c = 0; c < cables; ++c) {
+        const Lanes kept = hn::IfThenElse(hn::Gt(stretch_m[c], zero), one, lanes_of(slack_stiffness));
+        found[c] = {kept * found[c].value_N, kept * found[c].per_m};
+    }
 }
 
 }  // namespace capstan::bench::HWY_NAMESPACE
