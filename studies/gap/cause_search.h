@@ -121,6 +121,8 @@ class CauseSearch {
     bool replace_the_weakest(const Level& level, Fits& all);
     void refine(const Level& level, Fits& all);
     void try_ripple_instead(const Level& level, Fits& all);
+    Fits fitted_instead(const Level& level, const CauseFit& fit, const CandidateCause& cause,
+                        const std::function<bool(const CandidateCause&)>& replaces);
     void try_periods(const Level& level, Fits& sets);
     void try_usual_numbers(const Level& level, Fits& all);
     void try_swapping(const Level& level, Hypothesis& swapped, Fits& all);

@@ -74,29 +74,51 @@ void CauseSearch::refine(const Level& level, Fits& all) {
 }
 
 // A smooth torque over the position may stand for a part of a ripple, beside another one of the wrong period
-// or alone. The ripple is tried in its place.
+// or alone, and a ripple of which less than a period was seen for a smooth torque. Each is tried in the place
+// of the other.
 void CauseSearch::try_ripple_instead(const Level& level, Fits& all) {
-    const CauseFit best = all.front().fit;
     const auto ripple =
         std::find_if(level.causes.begin(), level.causes.end(),
                      [](const CandidateCause& cause) { return periods_of(cause).has_value(); });
     if (ripple == level.causes.end()) return;
     const std::vector<std::string> confused = confusable_causes(ripple->effect);
-    Hypothesis instead = only_causes(best.hypothesis(), [&](const CandidateCause& cause) {
-        return std::find(confused.begin(), confused.end(), cause.effect) == confused.end();
-    });
-    if (instead.causes.size() == best.causes.size() || is_out_of_time()) return;
-    if (std::find(instead.causes.begin(), instead.causes.end(), &*ripple) == instead.causes.end())
-        instead =
-            with_cause(instead, &*ripple,
-                       screen_each_start(rough_model().fitter, *ripple, instead, best.weights).front().start);
-    report("fitting " + in_words(instead.causes));
-    Fits sets;
-    add_fits(level, {instead}, false, sets);
-    try_periods(level, sets);
-    std::erase_if(sets, [](const ScoredFit& each) { return has_too_slow_a_ripple(each.fit.hypothesis()); });
-    std::move(sets.begin(), sets.end(), std::back_inserter(all));
+    const auto is_smooth = [&](const CandidateCause& cause) {
+        return std::find(confused.begin(), confused.end(), cause.effect) != confused.end();
+    };
+    const CauseFit best = all.front().fit;
+    const auto& causes = best.causes;
+    if (std::any_of(causes.begin(), causes.end(),
+                    [&](const CandidateCause* each) { return is_smooth(*each); })) {
+        Fits sets = fitted_instead(level, best, *ripple, is_smooth);
+        try_periods(level, sets);
+        std::erase_if(sets,
+                      [](const ScoredFit& each) { return has_too_slow_a_ripple(each.fit.hypothesis()); });
+        std::move(sets.begin(), sets.end(), std::back_inserter(all));
+    } else if (has_too_slow_a_ripple(best.hypothesis())) {
+        const auto smooth = std::find_if(level.causes.begin(), level.causes.end(), is_smooth);
+        if (smooth == level.causes.end()) return;
+        Fits sets = fitted_instead(level, best, *smooth,
+                                   [&](const CandidateCause& cause) { return &cause == &*ripple; });
+        std::move(sets.begin(), sets.end(), std::back_inserter(all));
+    }
     sort_by_evidence(all);
+}
+
+// With a cause in the place of those that it replaces.
+CauseSearch::Fits CauseSearch::fitted_instead(const Level& level, const CauseFit& fit,
+                                              const CandidateCause& cause,
+                                              const std::function<bool(const CandidateCause&)>& replaces) {
+    Fits sets;
+    if (is_out_of_time()) return sets;
+    Hypothesis instead =
+        only_causes(fit.hypothesis(), [&](const CandidateCause& each) { return !replaces(each); });
+    if (std::find(instead.causes.begin(), instead.causes.end(), &cause) == instead.causes.end())
+        instead =
+            with_cause(instead, &cause,
+                       screen_each_start(rough_model().fitter, cause, instead, fit.weights).front().start);
+    report("fitting " + in_words(instead.causes));
+    add_fits(level, {instead}, false, sets);
+    return sets;
 }
 
 // Further causes beside the best set, beside usual numbers of the bench.
