@@ -128,11 +128,13 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquare
     double damping = start_damping;
     int slow = 0;  // steps in turn that lowered the sum little
     bool holds = fit.jacobian.size() > 0;
+    bool is_here = false;  // the Jacobian was computed at these parameters
     for (int iteration = 0; iteration < options.max_iterations && !fit.converged; ++iteration) {
         const bool is_corrected = holds && (options.secant || iteration == 0);
         if (!is_corrected) {
             fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
             fit.evaluations += per_jacobian;
+            is_here = true;
         }
         holds = false;
         const Normal normal = normal_equations(fit, options.lower_bounds);
@@ -140,6 +142,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquare
         if (iteration >= min_iterations && fit.sum_of_squares - promised > options.pruned_sum_of_squares)
             return fit;
         if (promised < options.min_decrease) {
+            if (options.jacobian_at_end && !is_here) continue;  // a corrected Jacobian may be wrong
             fit.converged = true;
             break;
         }
@@ -168,6 +171,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquare
                 const Eigen::VectorXd step = tried.col(best) - fit.parameters;
                 holds = fit.sum_of_squares - sum > as_promised * normal.decrease(step);
                 if (options.secant) correct_along(step, there.col(best) - fit.residuals, fit.jacobian);
+                is_here = false;
                 fit.parameters = tried.col(best);
                 fit.residuals = there.col(best);
                 fit.sum_of_squares = sum;
@@ -182,7 +186,7 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquare
         slow = before - fit.sum_of_squares < slow_decreases * options.min_decrease ? slow + 1 : 0;
         fit.converged |= slow == max_slow;
     }
-    if (options.jacobian_at_end) {
+    if (options.jacobian_at_end && !is_here) {
         fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
         fit.evaluations += per_jacobian;
     }

@@ -36,7 +36,8 @@ struct LeastSquaresOptions {
     /// lower it by less than five times this.
     double min_decrease = 0.0;
     int max_iterations = 40;
-    bool jacobian_at_end = true;  ///< computed again at the fit, for its covariance
+    /// The Jacobian is computed at the fit, for its covariance, and no search ends on a corrected one.
+    bool jacobian_at_end = true;
     /// After a step that lowers the sum about as far as promised, the Jacobian is corrected along that step
     /// instead of computed again.
     bool secant = false;

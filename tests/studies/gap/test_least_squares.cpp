@@ -119,6 +119,20 @@ TEST(LeastSquares, AKnownJacobianIsNotComputedAgain) {
     EXPECT_LT((fit.parameters - line.solution()).norm(), 1e-2 * far_away.norm());
 }
 
+TEST(LeastSquares, ASearchDoesNotEndOnAJacobianFromElsewhere) {
+    const Line line;
+    LeastSquaresFit flat;
+    flat.parameters = far_away;
+    flat.residuals = line(far_away);
+    flat.jacobian = Eigen::MatrixXd::Zero(line.design.rows(), line.design.cols());
+    LeastSquaresOptions options;
+    options.min_decrease = 1e-9;
+    const LeastSquaresFit fit = fit_least_squares(line, flat, options);
+    EXPECT_TRUE(fit.converged);
+    EXPECT_LT((fit.parameters - line.solution()).norm(), 1e-3);
+    EXPECT_LT((fit.jacobian - line.design).norm(), 1e-6 * line.design.norm());
+}
+
 // The first step leads uphill; a Jacobian at the start then leads down.
 TEST(LeastSquares, AWrongJacobianAtTheStartIsReplaced) {
     const Line line;
