@@ -14,8 +14,6 @@ namespace capstan::gap {
 
 namespace {
 
-// The correlation time of residuals.
-constexpr double correlation_time_s = 0.25;
 // Trials of a search after each Jacobian, which move side by side.
 constexpr int dampings_at_once = 4;
 constexpr int max_iterations = 20;
@@ -54,17 +52,30 @@ CauseFitter::CauseFitter(const Recording& recording, const EffectsTwinOptions& o
     for (const ResidualSeries& series : series_) {
         data_rows_ += series.rows;
         determined_rows_ += static_cast<double>(series.determined_rows());
+        rows_[series.channel] += static_cast<double>(series.determined_rows());
     }
+    for (const RecordedRun& run : recording.runs) duration_s_ += run.time_s.back() - run.time_s.front();
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel)
         lattice_.push_back(unstated_step(recording, channel));
+    std::map<std::size_t, double> times_s;
+    for (const auto& [channel, rows] : rows_) times_s[channel] = usual_correlation_time_s;
+    set_correlation_times(std::move(times_s));
+}
+
+void CauseFitter::set_correlation_times(std::map<std::size_t, double> times_s) {
+    correlation_time_s_ = std::move(times_s);
     // Priors weigh against independent samples, not against all of them.
     prior_weight_ = std::sqrt(determined_rows_ / independent_samples());
 }
 
+double CauseFitter::independent_samples(std::size_t channel) const {
+    return rows_.at(channel) / determined_rows_ * duration_s_ / correlation_time_s_.at(channel);
+}
+
 double CauseFitter::independent_samples() const {
-    double duration_s = 0.0;
-    for (const RecordedRun& run : recording_.runs) duration_s += run.time_s.back() - run.time_s.front();
-    return duration_s / correlation_time_s;
+    double samples = 0.0;
+    for (const auto& [channel, time_s] : correlation_time_s_) samples += independent_samples(channel);
+    return samples;
 }
 
 // A rounded reading determines the value only to half a step. A smaller residual counts as zero.
@@ -153,8 +164,11 @@ SeriesWeights CauseFitter::balancing_weights(const Eigen::VectorXd& residuals) c
     const double least = recording_.nominal_is_fitted ? 1e-6 : 1.0;
     const std::map<std::size_t, double> left = mean_squares(residuals);
     SeriesWeights weights;
-    for (const ResidualSeries& series : series_)
-        weights.push_back(1.0 / std::sqrt(std::max(least, left.at(series.channel))));
+    for (const ResidualSeries& series : series_) {
+        const double samples_of_a_row =  // relative to the average row
+            duration_s_ / (correlation_time_s_.at(series.channel) * independent_samples());
+        weights.push_back(std::sqrt(samples_of_a_row / std::max(least, left.at(series.channel))));
+    }
     return weights;
 }
 

@@ -25,12 +25,16 @@ struct ResidualSeries {
     /// By row; empty: all. A driven angle that rests within a step of its encoder does not determine the
     /// friction, and residuals there count as zero.
     std::vector<bool> is_determined{};
+    double noise_part = 0.0;  ///< of the square of `scale`
 
     bool determines(std::size_t row) const { return is_determined.empty() || is_determined[row]; }
     std::size_t determined_rows() const { return determined_rows(0, rows); }
     /// Of those from `from` to one before `to`.
     std::size_t determined_rows(std::size_t from, std::size_t to) const;
 };
+
+/// The correlation time of residuals, as long as nothing is known of them.
+inline constexpr double usual_correlation_time_s = 0.25;
 
 /// The series of every channel that the twin predicts, run by run.
 std::vector<ResidualSeries> residual_series(const Recording& recording, const EffectsTwin& twin);
@@ -142,6 +146,13 @@ class CauseFitter {
     const EffectsTwin& twin() const { return twin_; }
     /// The number of independent instants in the recording: neighbouring residuals are correlated.
     double independent_samples() const;
+    /// The part of them that a channel has.
+    double independent_samples(std::size_t channel) const;
+    /// For how long neighbouring residuals of each channel, by its index, are correlated (E60), between what
+    /// motion allows and what is assumed as long as nothing is known of them.
+    std::map<std::size_t, double> correlation_times_s(const Eigen::VectorXd& residuals) const;
+    /// Independent samples, and balanced weights of the channels, follow these from now on.
+    void set_correlation_times(std::map<std::size_t, double> times_s);
 
   private:
     void write_residuals(std::size_t run, const TwinRun& twin,
@@ -174,6 +185,9 @@ class CauseFitter {
     std::size_t data_rows_ = 0;
     double determined_rows_ = 0.0;
     double prior_weight_ = 1.0;
+    double duration_s_ = 0.0;             // of all runs
+    std::map<std::size_t, double> rows_;  // that count, of each channel
+    std::map<std::size_t, double> correlation_time_s_;
 };
 
 }  // namespace capstan::gap

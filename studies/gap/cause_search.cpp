@@ -162,6 +162,7 @@ FoundCauses CauseSearch::run() & {
         add_measured_sets(best, found.fits);
     } else if (!is_measured) {
         found.fits = fitted_again(fine_, found.fits, max_fitted_finely);
+        if (is_sharper_) found.fits = fitted_again(fine_, found.fits, max_fitted_finely);
     }
     drop_unearned_causes(found.fits);
     found.nominal_misfit = nominal_misfit_;
@@ -390,9 +391,7 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         if (std::abs(coordinate) > number.usual) scored.far_numbers.push_back(k);
     }
     scored.has_unknown_scales = is_undescribed(*scored.fit.bench);
-    if (scored.has_unknown_scales) {
-        scored.beside = model.discrepancy.with_own_scales(scored.fit.residuals);
-    } else {
+    if (!scored.has_unknown_scales) {
         scored.beside = model.discrepancy.of(scored.fit.residuals);
         scored.channel_misfits = model.fitter.channel_misfits(scored.fit);
     }
@@ -404,10 +403,13 @@ void CauseSearch::weigh(Model& model, ScoredFit& fit) {
     ++fitted_;
     evaluations_ += fit.fit.evaluations;
     if (!fit.fit.bench->is_measured()) {
-        if (fit.fit.causes.front()->effect == "none")
-            model.left_without_cause = std::min(model.left_without_cause, fit.misfit);
+        if (fit.fit.causes.front()->effect == "none" && fit.misfit < model.left_without_cause) {
+            model.left_without_cause = fit.misfit;
+            model.left_of_channels = model.fitter.channel_misfits(fit.fit);
+        }
         fit.max_visibility = std::sqrt(std::max(0.0, model.left_without_cause - fit.misfit));
     }
+    if (fit.has_unknown_scales) fit.beside = beside_own_scales(model, fit.fit);
     fit.evidence = evidence_.of(fit);
 }
 

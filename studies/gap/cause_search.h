@@ -87,6 +87,7 @@ class CauseSearch {
         /// What is left beside floating numbers without a cause, mean square; infinite where that was not
         /// fitted.
         double left_without_cause = std::numeric_limits<double>::infinity();
+        std::vector<double> left_of_channels{};  ///< the same of each predicted channel
     };
 
     void report(const std::string& activity);
@@ -99,6 +100,7 @@ class CauseSearch {
     CauseFit roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights);
     ScoredFit measured(const Model& model, CauseFit fit) const;
     void weigh(Model& model, ScoredFit& fit);
+    Marginals beside_own_scales(const Model& model, const CauseFit& fit) const;
     Fits made_side_by_side(Model& model, std::size_t count, const std::function<CauseFit(std::size_t)>& fit,
                            std::size_t at_least = 1);
     ScoredFit scored(Model& model, CauseFit fit);
@@ -112,6 +114,7 @@ class CauseSearch {
     double held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
                                const std::vector<LeftOut>& parts);
     void drop_unearned_causes(Fits& fits);
+    bool take_correlation_of(const ScoredFit& best);
     bool should_be_taken_as_built(const ScoredFit& best);
     ScoredFit without_cause(const Level& level);
     Fits search_one(const Level& level);
@@ -153,6 +156,7 @@ class CauseSearch {
     Level built_;
     Eigen::VectorXd built_numbers_;  // of the bench as built, beside the best causes of the measured bench
     double nominal_misfit_ = 0.0;
+    bool is_sharper_ = false;  // the evidence, because little correlation is left
     int fitted_ = 0;
     // Fits that are made side by side count and look at the time.
     std::atomic<int> evaluations_ = 0;

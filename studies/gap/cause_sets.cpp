@@ -78,6 +78,11 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         changes = is_undescribed_drive(level.bench) &&
                   ((is_smaller && try_more(level, all)) || replace_the_weakest(level, all));
     }
+    is_sharper_ = is_undescribed_drive(level.bench) && take_correlation_of(all.front());
+    if (is_sharper_) {
+        all = fitted_again(coarse_, all, max_after_draft);
+        try_fewer(level, all);
+    }
     if (!level.bench.is_measured()) try_others(level, all);
 }
 

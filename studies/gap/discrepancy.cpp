@@ -180,17 +180,25 @@ Marginals Discrepancy::of(const Eigen::VectorXd& residuals) const {
     return marginals;
 }
 
-Marginals Discrepancy::with_own_scales(const Eigen::VectorXd& residuals) const {
+Marginals Discrepancy::with_own_scales(const Eigen::VectorXd& residuals,
+                                       const std::vector<double>& of_laws) const {
+    double samples = 0.0;
+    for (const ChannelFeatures& channel : channels_) samples += channel.samples;
     Marginals marginals;
-    for (const ChannelFeatures& channel : channels_) {
-        const Marginals own = of_channel(channel, residuals);
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        const Marginals own = of_channel(channels_[c], residuals);
+        const double of_law = of_laws.empty() ? 0.0 : of_laws[c];
         for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
-            marginals[k].misfit += channel.part * std::log(own[k].misfit);
+            marginals[k].misfit += channels_[c].samples / samples * std::log(own[k].misfit + of_law);
             marginals[k].log_determinant += own[k].log_determinant;
         }
     }
     for (Marginal& each : marginals) each.misfit = std::exp(each.misfit);
     return marginals;
+}
+
+void Discrepancy::set_samples(const std::function<double(std::size_t channel)>& samples_of) {
+    for (ChannelFeatures& channel : channels_) channel.samples = samples_of(channel.channel);
 }
 
 }  // namespace capstan::gap

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "capstan/gap/cause_fit.h"
@@ -40,8 +41,13 @@ class Discrepancy {
     /// `residuals`: all series one after the other, in units of noise and floor.
     Marginals of(const Eigen::VectorXd& residuals) const;
     /// The same where each channel's error has an unknown scale of its own: the misfit is
-    /// the geometric mean over the channels, each in proportion to its samples (E54).
-    Marginals with_own_scales(const Eigen::VectorXd& residuals) const;
+    /// the geometric mean over the channels, each in proportion to its samples (E54). `of_laws`: what the
+    /// laws may be wrong by in each predicted channel, mean square, in the order of the channels; empty:
+    /// nothing.
+    Marginals with_own_scales(const Eigen::VectorXd& residuals,
+                              const std::vector<double>& of_laws = {}) const;
+    /// Independent ones, of each channel by its index.
+    void set_samples(const std::function<double(std::size_t channel)>& samples_of);
 
   private:
     struct ChannelFeatures {

@@ -34,7 +34,6 @@ constexpr double unknown_penalty = 4.0;
 // A model's floor is known to about a quarter, and a cause's law to law_error of what the cause does. A
 // discrepancy of that size belongs to the model of a named cause.
 constexpr double floor_error = 0.25;
-constexpr double law_error = 0.1;
 // The standard deviation of noise and floor together is known to a tenth: of ln variance twice that.
 constexpr double scale_error = 0.2;
 // What a number costs that a recording determines to a fiftieth of what was probable: ln 50 (E57).

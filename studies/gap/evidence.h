@@ -18,6 +18,9 @@ struct RankedEffect {
     std::string varies{};      ///< the condition of the runs that its numbers follow; empty: none
 };
 
+/// A law of the catalogue is an idealisation, good to this part of what its cause does.
+inline constexpr double law_error = 0.1;
+
 /// How well a set of causes explains a recording.
 struct ScoredFit {
     CauseFit fit;
@@ -76,6 +79,9 @@ class Evidence {
   public:
     /// `independent_samples`: the number of instants with independent residuals.
     explicit Evidence(double independent_samples) : samples_(independent_samples) {}
+
+    /// From now on.
+    void set_samples(double independent_samples) { samples_ = independent_samples; }
 
     double of(const ScoredFit& fit) const;
     /// The evidence of a fit's causes together with one outside the list.

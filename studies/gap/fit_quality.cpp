@@ -109,6 +109,44 @@ std::map<std::size_t, double> CauseFitter::mean_squares(const Eigen::VectorXd& r
     return squares;
 }
 
+// E60. The correlation that is measured, up to the lag where nothing is left of it, holds for the part of the
+// residuals that noise explains. The rest is the error of the model, and as correlated as is usual.
+std::map<std::size_t, double> CauseFitter::correlation_times_s(const Eigen::VectorXd& residuals) const {
+    // What a model lacks follows the motion, and a hand changes its motion within a tenth of a second.
+    constexpr double shortest_s = 0.1;
+    constexpr double gone = 0.05;
+    const double step_s = twin_.stride() / recording_.sample_rate_Hz;
+    std::map<std::size_t, double> times_s;
+    for (const auto& [channel, mean_square] : mean_squares(residuals)) {
+        const auto sum_over_series = [&, of = channel](const auto& value) {
+            double sum = 0.0;
+            for (const ResidualSeries& series : series_) {
+                if (series.channel == of) sum += value(series);
+            }
+            return sum;
+        };
+        const double squares = mean_square * rows_.at(channel);
+        double time_s = step_s;
+        for (Eigen::Index lag = 1; time_s < usual_correlation_time_s; ++lag) {
+            const double products = sum_over_series([&](const ResidualSeries& series) {
+                if (series.rows <= static_cast<std::size_t>(lag)) return 0.0;
+                const auto own = residuals.segment(static_cast<Eigen::Index>(series.first_row),
+                                                   static_cast<Eigen::Index>(series.rows));
+                return own.head(own.size() - lag).dot(own.tail(own.size() - lag));
+            });
+            if (products <= gone * squares) break;
+            time_s += 2.0 * step_s * products / squares;
+        }
+        time_s = std::clamp(time_s, shortest_s, usual_correlation_time_s);
+        const double noise = sum_over_series([&](const ResidualSeries& series) {
+            return series.noise_part * static_cast<double>(series.determined_rows());
+        });
+        const double part = squares > noise ? noise / squares : 1.0;
+        times_s[channel] = 1.0 / (part / time_s + (1.0 - part) / usual_correlation_time_s);
+    }
+    return times_s;
+}
+
 double CauseFitter::clearest_change(const Eigen::VectorXd& change) const {
     double clearest = 0.0;
     for (const auto& [channel, mean_square] : mean_squares(change))

@@ -1,5 +1,5 @@
-// What becomes of a set of causes that was built up one by one: it is refined, and judged on runs that its
-// fit did not see.
+// What becomes of a set of causes that was built up one by one: it is refined, weighed by what it leaves, and
+// judged on runs that its fit did not see.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -216,6 +216,33 @@ void CauseSearch::try_periods(const Level& level, Fits& sets) {
         climbs = number.value(best.fit.coordinates[ripple.periods]) != middle;
     }
     sort_by_evidence(sets);
+}
+
+// What the best fit leaves may be little more than noise, whose samples are independent. Whether it says more
+// than was thought.
+bool CauseSearch::take_correlation_of(const ScoredFit& best) {
+    const double before = fine_.fitter.independent_samples();
+    const auto times_s = coarse_.fitter.correlation_times_s(best.fit.residuals);
+    for (Model* model : {&fine_, &coarse_}) {
+        model->fitter.set_correlation_times(times_s);
+        model->discrepancy.set_samples(
+            [&](std::size_t channel) { return model->fitter.independent_samples(channel); });
+    }
+    evidence_.set_samples(fine_.fitter.independent_samples());
+    return fine_.fitter.independent_samples() > before;
+}
+
+// As long as the usual correlation is assumed, it stands for what laws are wrong by.
+Marginals CauseSearch::beside_own_scales(const Model& model, const CauseFit& fit) const {
+    std::vector<double> of_laws;
+    if (is_sharper_ && !model.left_of_channels.empty()) {
+        of_laws = model.fitter.channel_misfits(fit);
+        std::transform(of_laws.begin(), of_laws.end(), model.left_of_channels.begin(), of_laws.begin(),
+                       [](double left, double without_cause) {
+                           return law_error * law_error * std::max(0.0, without_cause - left);
+                       });
+    }
+    return model.discrepancy.with_own_scales(fit.residuals, of_laws);
 }
 
 // The logarithm of the mean square residual of each part with the numbers fitted to the rest, averaged over

@@ -200,9 +200,11 @@ std::vector<ResidualSeries> residual_series(const Recording& recording, const Ef
             std::vector<double> of_inputs;
             for (const TwinRun& each : moved_again)
                 of_inputs.push_back(rms_difference(later(nominal), later(each)));
-            const double scale = std::hypot(sample_noise(described), floor, upper_median(of_inputs));
+            const double noise = std::hypot(sample_noise(described), upper_median(of_inputs));
+            const double scale = std::hypot(noise, floor);
             const std::size_t rows = later(nominal).size();
             all.push_back({run, channel, first, scale > 0.0 ? scale : 1.0, next_row, rows});
+            if (scale > 0.0) all.back().noise_part = std::pow(noise / scale, 2);
             all.back().is_determined = determined_rows(recording, all.back(), twin.stride());
             next_row += rows;
         }

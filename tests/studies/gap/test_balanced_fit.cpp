@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
 #include "capstan/gap/bench_knowledge.h"
 #include "capstan/gap/cause_fit.h"
@@ -107,6 +108,40 @@ TEST_F(DriveWithAnErrorInItsTorque, LeavesResidualsInUnitsOfNoise) {
     EXPECT_TRUE(fitter.data_residuals({&found, 1})
                     .col(0)
                     .isApprox(fit.residuals.head(static_cast<Eigen::Index>(fitter.data_rows())), 1e-9));
+}
+
+TEST_F(DriveWithAnErrorInItsTorque, LeavesFewerIndependentSamplesThanNoiseDoes) {
+    CauseFitter fitter(bench_, {.segments = 12}, 1);
+    const double usual = fitter.independent_samples();
+    Eigen::VectorXd residuals = fitted(true).residuals;
+    const std::map<std::size_t, double> of_errors_s = fitter.correlation_times_s(residuals);
+    std::mt19937 generator(1);
+    std::normal_distribution<double> noise;
+    for (const ResidualSeries& series : fitter.series()) {
+        for (std::size_t row = 0; row < series.rows; ++row)
+            residuals[static_cast<Eigen::Index>(series.first_row + row)] =
+                0.9 * std::sqrt(series.noise_part) * noise(generator);
+    }
+    const std::map<std::size_t, double> of_noise_s = fitter.correlation_times_s(residuals);
+    const auto torque = static_cast<std::size_t>(*bench_.channel("motor_torque"));
+    EXPECT_GT(of_errors_s.at(torque), 0.24);
+    for (const auto& [channel, time_s] : of_noise_s) EXPECT_NEAR(time_s, 0.1, 1e-9) << channel;
+    fitter.set_correlation_times(of_noise_s);
+    EXPECT_NEAR(fitter.independent_samples(), usual * usual_correlation_time_s / 0.1, 1e-6 * usual);
+}
+
+TEST_F(DriveWithAnErrorInItsTorque, WeighsLessInABalancedFitThanAChannelWithNoiseAlone) {
+    CauseFitter fitter(bench_, {.segments = 12}, 1);
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    options.balanced = true;
+    std::map<std::size_t, double> times_s;
+    for (const ResidualSeries& series : fitter.series())
+        times_s[series.channel] = bench_.channels[series.channel].name == "motor_torque" ? 0.25 : 0.1;
+    const CauseFit alike = fitter.fit(nominal_hypothesis(knowledge_), options);
+    fitter.set_correlation_times(times_s);
+    const CauseFit weighed = fitter.fit(nominal_hypothesis(knowledge_), options);
+    EXPECT_LT(rms(weighed, "load_angle"), rms(alike, "load_angle"));
 }
 
 }  // namespace

@@ -88,5 +88,25 @@ TEST_F(OnASession, WithOwnScalesAChannelCountsByHowItsErrorChanges) {
     EXPECT_NEAR(errors(3.0, 0.1) / errors(3.0, 0.2), std::pow(0.25, 1.0 - part), 1e-9);
 }
 
+// E60.
+TEST_F(OnASession, WithOwnScalesAChannelCountsByItsSamplesAndByWhatItsLawsMayBeWrongBy) {
+    const std::size_t first = fitter.series().front().channel;
+    const std::size_t channels =
+        fitter
+            .channel_misfits(
+                {.residuals = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitter.data_rows()))})
+            .size();
+    const Eigen::VectorXd left = residuals([&](const ResidualSeries& series, std::size_t row) {
+        return (series.channel == first ? 1e-6 : 1.0) * (row % 2 == 0 ? 1.0 : -1.0);
+    });
+    Discrepancy weighed = discrepancy;
+    weighed.set_samples([&](std::size_t channel) { return channel == first ? 300.0 : 100.0; });
+    std::vector<double> of_laws(channels, 0.0);
+    of_laws.front() = 0.25;
+    const double part = 300.0 / (300.0 + 100.0 * static_cast<double>(channels - 1));
+    EXPECT_NEAR(weighed.with_own_scales(left, of_laws)[0].misfit, std::pow(0.25, part), 1e-3);
+    EXPECT_LT(weighed.with_own_scales(left)[0].misfit, 1e-6);
+}
+
 }  // namespace
 }  // namespace capstan::gap
