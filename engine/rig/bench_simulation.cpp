@@ -14,10 +14,10 @@ namespace capstan {
 namespace {
 
 constexpr double move_tolerance_m = 1e-9;
-// Where Newton's method converges quadratically, what its next move would be is known before it is made, and
-// a small one is not made.
-constexpr double last_move_m = 1e-7;
-constexpr double never_made_m = 1e-10;
+// Newton's method converges quadratically: after moves of a and b the next one is about b^3 / a^2. After a
+// small move, a next one below the last number is not made.
+constexpr double small_move_m = 1e-7;
+constexpr double negligible_move_m = 1e-10;
 // A free pulley turns no further than this in one iteration.
 constexpr double max_motor_turn_rad = 0.2;
 constexpr double max_load_turn_rad = 0.02;
@@ -157,7 +157,7 @@ BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, cons
 void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags active, EachAngles& angles,
                                EachReport& reports) {
     cables_.set_free({.motor = any(free.motor), .load = any(free.load)});
-    LaneValues last_m;
+    LaneValues last_m;  // the move before; none before the first, which therefore predicts nothing
     std::fill(std::begin(last_m.of), std::end(last_m.of), std::numeric_limits<double>::quiet_NaN());
     for (int iteration = 1; iteration <= max_iterations && any(active); ++iteration) {
         const Pull pull = linearise(active, angles);
@@ -210,9 +210,9 @@ void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags ac
         for (int lane = 0; lane < count_; ++lane) {
             if (!active.of[lane]) continue;
             const double moved_m = largest_m.of[lane];
-            const double less = moved_m / last_m.of[lane];
-            const bool converged =
-                moved_m < move_tolerance_m || (moved_m < last_move_m && moved_m * less * less < never_made_m);
+            const double ratio = moved_m / last_m.of[lane];
+            const bool converged = moved_m < move_tolerance_m ||
+                                   (moved_m < small_move_m && moved_m * ratio * ratio < negligible_move_m);
             reports[static_cast<std::size_t>(lane)].converged = converged;
             active.of[lane] = std::isfinite(moved_m) && !converged;
             last_m.of[lane] = moved_m;

@@ -162,6 +162,7 @@ FoundCauses CauseSearch::run() & {
         add_measured_sets(best, found.fits);
     } else if (!is_measured) {
         found.fits = fitted_again(fine_, found.fits, max_fitted_finely);
+        // A sharper evidence also tells whether a fit is quite at its minimum.
         if (is_sharper_) found.fits = fitted_again(fine_, found.fits, max_fitted_finely);
     }
     drop_unearned_causes(found.fits);

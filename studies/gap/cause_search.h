@@ -123,7 +123,7 @@ class CauseSearch {
     bool try_more(const Level& level, Fits& all);
     bool replace_the_weakest(const Level& level, Fits& all);
     void refine(const Level& level, Fits& all);
-    void try_ripple_instead(const Level& level, Fits& all);
+    void try_ripple_or_torque(const Level& level, Fits& all);
     Fits fitted_instead(const Level& level, const CauseFit& fit, const CandidateCause& cause,
                         const std::function<bool(const CandidateCause&)>& replaces);
     void try_periods(const Level& level, Fits& sets);

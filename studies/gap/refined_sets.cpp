@@ -64,7 +64,7 @@ Hypothesis with_usual_numbers(Hypothesis hypothesis) {
 void CauseSearch::refine(const Level& level, Fits& all) {
     constexpr int max_rounds = 2;
     Hypothesis swapped;
-    if (is_undescribed_drive(level.bench)) try_ripple_instead(level, all);
+    if (is_undescribed_drive(level.bench)) try_ripple_or_torque(level, all);
     for (int round = 0; round < max_rounds && !is_out_of_time(); ++round) {
         const double before = all.front().evidence;
         try_usual_numbers(level, all);
@@ -76,7 +76,7 @@ void CauseSearch::refine(const Level& level, Fits& all) {
 // A smooth torque over the position may stand for a part of a ripple, beside another one of the wrong period
 // or alone, and a ripple of which less than a period was seen for a smooth torque. Each is tried in the place
 // of the other.
-void CauseSearch::try_ripple_instead(const Level& level, Fits& all) {
+void CauseSearch::try_ripple_or_torque(const Level& level, Fits& all) {
     const auto ripple =
         std::find_if(level.causes.begin(), level.causes.end(),
                      [](const CandidateCause& cause) { return periods_of(cause).has_value(); });
