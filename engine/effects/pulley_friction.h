@@ -8,10 +8,13 @@
 
 namespace capstan {
 
-/// Friction of a pulley's bearing (E27): Coulomb and viscous.
+/// Friction at a pulley (E27): Coulomb, in proportion to the torque that passes, and viscous.
 struct BearingFriction {
     double coulomb_Nm = 0.0;
     double viscous_Nm_s = 0.0;
+    /// Coulomb friction in parts of the torque between cables and pulley: that of gears and of teeth under
+    /// load. Below 1, where a drive locks itself.
+    double per_torque = 0.0;
     /// Angle over which Coulomb friction builds up, as bristles do, so that it holds at rest. 0: friction of
     /// a pulley whose angle is prescribed fades below 0.01 rad/s, a pulley that finds its own angle has 1e-4.
     double presliding_rad = 0.0;
@@ -27,7 +30,7 @@ struct BearingFriction {
         const double sign = std::tanh(speed_rad_per_s / fading_rad_per_s);
         return {sign, (1.0 - sign * sign) / (fading_rad_per_s * time_step_s)};
     }
-    /// `sign`: of the motion, from the bristles or the speed.
+    /// Without what is in proportion to the torque. `sign`: of the motion, from the bristles or the speed.
     Torque torque(const Bristle<double>& sign, double speed_rad_per_s, double time_step_s) const {
         return {coulomb_Nm * sign.bend + viscous_Nm_s * speed_rad_per_s,
                 coulomb_Nm * sign.bend_per_m + viscous_Nm_s / time_step_s};
@@ -56,29 +59,41 @@ struct PulleyFriction {
         EffectDescription holding = at_load;
         holding.variant = "load holding";
         holding.meaning = "friction of the load pulley's bearing, which holds at rest";
+        const EffectParameter per_torque = {.name = "per_torque", .high = 0.9, .typical = 0.05};
+        EffectDescription of_motor_gear = at_motor;
+        of_motor_gear.variant = "motor gear";
+        of_motor_gear.meaning = "friction at the motor in proportion to the torque that passes, as of a gear";
+        EffectDescription of_load_gear = at_load;
+        of_load_gear.variant = "load gear";
+        of_load_gear.meaning = "friction at the load in proportion to the torque that passes, as of a gear";
         const EffectRow<PulleyFriction>::Parameter coulomb = {
             {.name = "coulomb", .unit = "N m", .high = 10.0, .typical = 0.05},
             [](PulleyFriction& friction) -> double& { return friction.load.coulomb_Nm; }};
         const EffectRow<PulleyFriction>::Parameter viscous = {
             {.name = "viscous", .unit = "N m s", .high = 10.0, .typical = 1e-2},
             [](PulleyFriction& friction) -> double& { return friction.load.viscous_Nm_s; }};
-        return {{.about = at_motor,
-                 .parameters = {{{.name = "coulomb", .unit = "N m", .high = 10.0, .typical = 0.01},
-                                 [](PulleyFriction& f) -> double& { return f.motor.coulomb_Nm; }},
-                                {{.name = "viscous", .unit = "N m s", .high = 10.0, .typical = 1e-3},
-                                 [](PulleyFriction& f) -> double& { return f.motor.viscous_Nm_s; }}}},
-                {.about = at_load, .parameters = {coulomb, viscous}},
-                {.about = holding,
-                 .parameters = {coulomb,
-                                viscous,
-                                {{.name = "presliding",
-                                  .unit = "rad",
-                                  .low = 1e-5,
-                                  .high = 0.1,
-                                  .typical = 2e-4,
-                                  .role = ParameterRole::shape,
-                                  .absent = 2e-4},
-                                 [](PulleyFriction& f) -> double& { return f.load.presliding_rad; }}}}};
+        return {
+            {.about = at_motor,
+             .parameters = {{{.name = "coulomb", .unit = "N m", .high = 10.0, .typical = 0.01},
+                             [](PulleyFriction& f) -> double& { return f.motor.coulomb_Nm; }},
+                            {{.name = "viscous", .unit = "N m s", .high = 10.0, .typical = 1e-3},
+                             [](PulleyFriction& f) -> double& { return f.motor.viscous_Nm_s; }}}},
+            {.about = at_load, .parameters = {coulomb, viscous}},
+            {.about = holding,
+             .parameters = {coulomb,
+                            viscous,
+                            {{.name = "presliding",
+                              .unit = "rad",
+                              .low = 1e-5,
+                              .high = 0.1,
+                              .typical = 2e-4,
+                              .role = ParameterRole::shape,
+                              .absent = 2e-4},
+                             [](PulleyFriction& f) -> double& { return f.load.presliding_rad; }}}},
+            {.about = of_motor_gear,
+             .parameters = {{per_torque, [](PulleyFriction& f) -> double& { return f.motor.per_torque; }}}},
+            {.about = of_load_gear,
+             .parameters = {{per_torque, [](PulleyFriction& f) -> double& { return f.load.per_torque; }}}}};
     }
 };
 

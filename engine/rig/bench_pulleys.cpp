@@ -41,9 +41,10 @@ double BenchPulleys::load_inertia_kg_m2(const BenchInputs& inputs) const {
     return load_is_free(inputs) ? std::max(min_kg_m2, sum_kg_m2) : sum_kg_m2;
 }
 
-// The torque lost to a pulley's bearing and inertia at this angle (E27, E35).
-Torque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const BearingFriction& friction,
-                            double inertia_kg_m2, double angle_rad, double time_step_s) {
+// The torque lost to a pulley's friction and inertia at this angle (E27, E35).
+PulleyTorque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const BearingFriction& friction,
+                                  double inertia_kg_m2, double angle_rad, double pull_Nm,
+                                  double time_step_s) {
     const double turned_rad = angle_rad - pulley.angle_rad;
     const double speed = turned_rad / time_step_s;
     const Bristle<double> sign = bearing == Bearing::finds_its_angle
@@ -51,7 +52,14 @@ Torque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const Bearing
                                      : BearingFriction::sign_of(speed, time_step_s);
     const Torque rubbing = friction.torque(sign, speed, time_step_s);
     const Torque inertia = Inertia::torque(inertia_kg_m2, speed, pulley.speed_rad_per_s, time_step_s);
-    return {rubbing.value_Nm + inertia.value_Nm, rubbing.per_rad + inertia.per_rad};
+    PulleyTorque lost = {rubbing.value_Nm + inertia.value_Nm, rubbing.per_rad + inertia.per_rad, 0.0};
+    if (friction.per_torque > 0.0) {
+        const double coulomb_Nm = friction.per_torque * std::abs(pull_Nm);
+        lost.value_Nm += coulomb_Nm * sign.bend;
+        lost.per_rad += coulomb_Nm * sign.bend_per_m;
+        lost.per_pull = std::copysign(friction.per_torque, pull_Nm) * sign.bend;
+    }
+    return lost;
 }
 
 // A pulley whose angle is prescribed cannot creep, and its encoder knows little of the first tenth of a
@@ -60,10 +68,10 @@ BenchPulleys::Bearing BenchPulleys::bearing_of(bool free, const BearingFriction&
     return free || friction.presliding_rad > 0.0 ? Bearing::finds_its_angle : Bearing::is_turned;
 }
 
-Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) const {
-    const Torque lost =
-        losses(motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
-               effects_.of<PulleyFriction>().motor, known_.motor_kg_m2, angle_rad, inputs.time_step_s);
+PulleyTorque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad, double pull_Nm) const {
+    const PulleyTorque lost = losses(
+        motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
+        effects_.of<PulleyFriction>().motor, known_.motor_kg_m2, angle_rad, pull_Nm, inputs.time_step_s);
     const Torque swing = swing_torque(inputs, angle_rad);
     const Torque cogging = effects_.of<MotorCogging>().torque(angle_rad);
     const Torque spring = effects_.of<PositionTorque>().torque(angle_rad);
@@ -78,7 +86,7 @@ Torque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad) 
         balance.value_Nm -= Backlash::contact_Nm_per_rad * across;
         balance.per_rad += across == 0.0 ? 0.0 : Backlash::contact_Nm_per_rad;
     }
-    return balance;
+    return {pull_Nm + balance.value_Nm, balance.per_rad, 1.0 + lost.per_pull};
 }
 
 // The torque taken by what holds the load pulley (E17, E29, E34).
@@ -99,13 +107,13 @@ Torque BenchPulleys::held_by(const BenchInputs& inputs, double angle_rad) const 
     return {stiffness * across + damping * spread_rad, (across == 0.0 ? 0.0 : stiffness) + damping};
 }
 
-Torque BenchPulleys::load_balance(const BenchInputs& inputs, double angle_rad) const {
-    const Torque lost =
+PulleyTorque BenchPulleys::load_balance(const BenchInputs& inputs, double angle_rad, double pull_Nm) const {
+    const PulleyTorque lost =
         losses(load_, bearing_of(load_is_free(inputs), effects_.of<PulleyFriction>().load),
-               effects_.of<PulleyFriction>().load, load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s);
-    if (!load_is_free(inputs)) return {-lost.value_Nm, -lost.per_rad};
-    const Torque taken = held_by(inputs, angle_rad);
-    return {-lost.value_Nm - taken.value_Nm, -lost.per_rad - taken.per_rad};
+               effects_.of<PulleyFriction>().load, load_inertia_kg_m2(inputs), angle_rad, pull_Nm,
+               inputs.time_step_s);
+    const Torque taken = load_is_free(inputs) ? held_by(inputs, angle_rad) : Torque{};
+    return {pull_Nm + (-lost.value_Nm - taken.value_Nm), -lost.per_rad - taken.per_rad, 1.0 - lost.per_pull};
 }
 
 BenchPulleys::Swing BenchPulleys::swung(const Pulley& pulley, double angle_rad, double time_step_s) {
@@ -151,21 +159,23 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
         motor_.torque_Nm = torque->torque_Nm - zeros_.motor_Nm;
         motor_.encoder_rad = motor_stands_rad(motor_.torque_Nm, angles.motor_rad);
     } else {
+        const double pull_Nm = pulleys_.motor_radius_m *
+                               effects_.of<EccentricPulley>().radius_ratio(angles.motor_rad) * motor_pull_N;
         motor_.torque_Nm =
-            pulleys_.motor_radius_m * effects_.of<EccentricPulley>().radius_ratio(angles.motor_rad) *
-                motor_pull_N +
+            pull_Nm +
             losses(motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
                    effects_.of<PulleyFriction>().motor, effects_.of<Inertia>().motor_kg_m2, angles.motor_rad,
-                   inputs.time_step_s)
+                   pull_Nm, inputs.time_step_s)
                 .value_Nm +
             effects_.of<MotorCogging>().torque(angles.motor_rad).value_Nm +
             effects_.of<PositionTorque>().torque(angles.motor_rad).value_Nm;
         motor_.encoder_rad = std::get<MotorAngle>(inputs.motor).angle_rad;
     }
     const auto* held = std::get_if<LoadAngle>(&inputs.load);
-    load_.torque_Nm = load_is_free(inputs) ? held_by(inputs, angles.load_rad).value_Nm
-                                           : pulleys_.load_radius_m * load_pull_N +
-                                                 load_balance(inputs, angles.load_rad).value_Nm;
+    load_.torque_Nm =
+        load_is_free(inputs)
+            ? held_by(inputs, angles.load_rad).value_Nm
+            : load_balance(inputs, angles.load_rad, pulleys_.load_radius_m * load_pull_N).value_Nm;
     load_.encoder_rad = held != nullptr ? held->angle_rad : angles.load_rad;
     turn(motor_, effects_.of<PulleyFriction>().motor, angles.motor_rad, inputs.time_step_s);
     turn(load_, effects_.of<PulleyFriction>().load, angles.load_rad, inputs.time_step_s);

@@ -20,6 +20,13 @@ struct TorqueZeros {
     double load_Nm = 0.0;
 };
 
+/// Torques at a pulley that the cables pull with a torque, linear in the pulley's angle and in that torque.
+struct PulleyTorque {
+    double value_Nm = 0.0;
+    double per_rad = 0.0;  ///< while the cables' torque stays
+    double per_pull = 0.0;
+};
+
 struct PulleyAngles {
     double motor_rad = 0.0;
     double load_rad = 0.0;
@@ -47,10 +54,10 @@ class BenchPulleys {
     PulleyAngles start(const BenchInputs& inputs) const;
     PulleyAngles angles() const { return {motor_.angle_rad, load_.angle_rad}; }
 
-    /// What the motor must give beyond the cables' pull, less what it gives.
-    Torque motor_balance(const BenchInputs& inputs, double angle_rad) const;
-    /// What the load pulley passes on of the cables' pull: all but its losses, less what is taken.
-    Torque load_balance(const BenchInputs& inputs, double angle_rad) const;
+    /// What the motor must give where the cables pull with this torque, less what it gives.
+    PulleyTorque motor_balance(const BenchInputs& inputs, double angle_rad, double pull_Nm) const;
+    /// What the load pulley passes on of the cables' torque: all but its losses, less what is taken.
+    PulleyTorque load_balance(const BenchInputs& inputs, double angle_rad, double pull_Nm) const;
 
     /// Remembers a step's outcome and reads the instruments. Pulls: of cable A less that of cable B [N].
     void settle(const BenchInputs& inputs, const PulleyAngles& angles, double motor_pull_N,
@@ -80,8 +87,8 @@ class BenchPulleys {
     /// How its Coulomb friction finds its sign: by bristles, which hold at rest, or by speed.
     enum class Bearing { finds_its_angle, is_turned };
     static Bearing bearing_of(bool free, const BearingFriction& friction);
-    static Torque losses(const Pulley& pulley, Bearing bearing, const BearingFriction& friction,
-                         double inertia_kg_m2, double angle_rad, double time_step_s);
+    static PulleyTorque losses(const Pulley& pulley, Bearing bearing, const BearingFriction& friction,
+                               double inertia_kg_m2, double angle_rad, double pull_Nm, double time_step_s);
     static void turn(Pulley& pulley, const BearingFriction& friction, double angle_rad, double time_step_s);
     static Swing swung(const Pulley& pulley, double angle_rad, double time_step_s);
     Torque swing_torque(const BenchInputs& inputs, double angle_rad) const;

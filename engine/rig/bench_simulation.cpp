@@ -184,17 +184,20 @@ void BenchSimulations::iterate(EachInputs inputs, const Free& free, LaneFlags ac
                 const double r_m = reel(bench, at_rad).radius_m;
                 const double r_m_per_rad = radii_[bench].motor_radius_m *
                                            effects_[bench].of<EccentricPulley>().radius_ratio_per_rad(at_rad);
-                const Torque motor = pulleys_[bench].motor_balance(inputs[bench], at_rad);
-                motor_error = r_m * pull.motor.value_N.of[lane] + motor.value_Nm;
-                mm = r_m * pull.motor.per_motor_rad.of[lane] + r_m_per_rad * pull.motor.value_N.of[lane] +
+                const PulleyTorque motor =
+                    pulleys_[bench].motor_balance(inputs[bench], at_rad, r_m * pull.motor.value_N.of[lane]);
+                motor_error = motor.value_Nm;
+                mm = motor.per_pull * (r_m * pull.motor.per_motor_rad.of[lane] +
+                                       r_m_per_rad * pull.motor.value_N.of[lane]) +
                      motor.per_rad;
-                if (load_turns) ml = r_m * pull.motor.per_load_rad.of[lane];
+                if (load_turns) ml = motor.per_pull * r_m * pull.motor.per_load_rad.of[lane];
             }
             if (load_turns) {
-                const Torque load = pulleys_[bench].load_balance(inputs[bench], angles[bench].load_rad);
-                load_error = r_l * pull.load.value_N.of[lane] + load.value_Nm;
-                ll = r_l * pull.load.per_load_rad.of[lane] + load.per_rad;
-                if (motor_turns) lm = r_l * pull.load.per_motor_rad.of[lane];
+                const PulleyTorque load = pulleys_[bench].load_balance(inputs[bench], angles[bench].load_rad,
+                                                                       r_l * pull.load.value_N.of[lane]);
+                load_error = load.value_Nm;
+                ll = load.per_pull * r_l * pull.load.per_load_rad.of[lane] + load.per_rad;
+                if (motor_turns) lm = load.per_pull * r_l * pull.load.per_motor_rad.of[lane];
             }
             const double determinant = mm * ll - ml * lm;
             motor_turn.of[lane] = -(motor_error * ll - load_error * ml) / determinant;
@@ -254,14 +257,22 @@ void BenchSimulations::bracket(EachInputs inputs, const Free& free, int lane, Pu
     (of_load ? held.load : held.motor).of[lane] = false;
     double best_rad = 0.0;
     double min_left_Nm = std::numeric_limits<double>::infinity();
+    const auto radius_m = [&](double angle_rad) {
+        return of_load ? radii_[bench].load_radius_m : reel(bench, angle_rad).radius_m;
+    };
+    const auto balance = [&](const Pull& pull, double angle_rad) {
+        const BenchPulleys& pulleys = pulleys_[bench];
+        const double pull_Nm =
+            radius_m(angle_rad) * (of_load ? pull.load.value_N : pull.motor.value_N).of[lane];
+        return of_load ? pulleys.load_balance(inputs[bench], angle_rad, pull_Nm)
+                       : pulleys.motor_balance(inputs[bench], angle_rad, pull_Nm);
+    };
     const auto torque_left = [&](double angle_rad) {
         (of_load ? from.load_rad : from.motor_rad) = angle_rad;
         solve(inputs, held, lane, from, angles, reports);
         const Pull pull = linearise(only, angles);
-        const double left_Nm = of_load ? radii_[bench].load_radius_m * pull.load.value_N.of[lane] +
-                                             pulleys_[bench].load_balance(inputs[bench], angle_rad).value_Nm
-                                       : -reel(bench, angle_rad).radius_m * pull.motor.value_N.of[lane] -
-                                             pulleys_[bench].motor_balance(inputs[bench], angle_rad).value_Nm;
+        const double left_Nm =
+            of_load ? balance(pull, angle_rad).value_Nm : -balance(pull, angle_rad).value_Nm;
         if (std::abs(left_Nm) < min_left_Nm) {
             min_left_Nm = std::abs(left_Nm);
             best_rad = angle_rad;
@@ -270,10 +281,10 @@ void BenchSimulations::bracket(EachInputs inputs, const Free& free, int lane, Pu
     };
     const auto stiffness_Nm_per_rad = [&](double angle_rad) {
         const Pull pull = linearise(only, angles);
-        return std::abs(of_load ? radii_[bench].load_radius_m * pull.load.per_load_rad.of[lane] +
-                                      pulleys_[bench].load_balance(inputs[bench], angle_rad).per_rad
-                                : reel(bench, angle_rad).radius_m * pull.motor.per_motor_rad.of[lane] +
-                                      pulleys_[bench].motor_balance(inputs[bench], angle_rad).per_rad);
+        const PulleyTorque torque = balance(pull, angle_rad);
+        return std::abs(torque.per_pull * radius_m(angle_rad) *
+                            (of_load ? pull.load.per_load_rad : pull.motor.per_motor_rad).of[lane] +
+                        torque.per_rad);
     };
     const auto give_up = [&] {
         torque_left(best_rad);

@@ -78,14 +78,18 @@ void remove_undescribed_parts(std::vector<CandidateCause>& causes) {
     });
 }
 
+// Not that of gears, which grows with the torque.
+bool is_friction_of_a_bearing(const CandidateCause& cause) {
+    return cause.effect == "pulley_friction" && cause.numbers.front().name == "coulomb";
+}
+
 // Zeros and bearings of an undescribed bench float by factors. Its radii and routing are not known, so the
 // gain of a sensor and a bend at a place are part of what was fitted.
 void remove_what_is_fitted(std::vector<CandidateCause>& causes) {
     remove_wrong_numbers(causes);
     std::erase_if(causes, [](const CandidateCause& cause) {
-        return cause.varies.empty() &&
-               (cause.effect == "sensor_offset" || cause.effect == "pulley_friction" ||
-                cause.effect == "sensor_gain" || cause.effect == "local_bend");
+        return cause.varies.empty() && (cause.effect == "sensor_offset" || is_friction_of_a_bearing(cause) ||
+                                        cause.effect == "sensor_gain" || cause.effect == "local_bend");
     });
 }
 

@@ -217,6 +217,66 @@ TEST(TurnedMotor, OnABearingWithPreslidingIsHeldAtRestToo) {
     }
 }
 
+TEST(TurnedMotor, OnAGearGivesAPartMoreThanTheCablesTakeAndGetsAPartLessBack) {
+    constexpr double part = 0.1;
+    BenchEffects effects;
+    effects.of<PulleyFriction>().motor.per_torque = part;
+    BenchSimulation geared = pair_with(effects);
+    BenchSimulation free = pair_with({});
+    const auto ratio = [&](double angle_rad) {
+        const BenchInputs inputs{MotorAngle{angle_rad}, LoadAngle{0.0}, time_step_s, 0.0};
+        geared.advance(inputs);
+        free.advance(inputs);
+        return geared.motor_torque_Nm() / free.motor_torque_Nm();
+    };
+    for (int step = 1; step <= 40; ++step) ASSERT_NEAR(ratio(0.01 * step), 1.0 + part, 1e-6) << step;
+    for (int step = 39; step >= 20; --step) ASSERT_NEAR(ratio(0.01 * step), 1.0 - part, 1e-6) << step;
+    EXPECT_NEAR(ratio(0.2), 1.0, 1e-9);  // at rest
+}
+
+TEST(TurnedLoad, OnAGearPassesAPartLessOfTheCablesTorqueToTheHandThatYields) {
+    constexpr double part = 0.1;
+    BenchEffects effects;
+    effects.of<PulleyFriction>().load.per_torque = part;
+    BenchSimulation geared = pair_with(effects);
+    BenchSimulation free = pair_with({});
+    // The motor pulls first, while the load is held, and the hand then moves with it and against it.
+    double load_rad = 0.0;
+    const auto ratio = [&](int step, double by_rad) {
+        load_rad += by_rad;
+        const BenchInputs inputs{MotorAngle{0.02 * std::min(step, 40)}, LoadAngle{load_rad}, time_step_s,
+                                 0.0};
+        geared.advance(inputs);
+        free.advance(inputs);
+        return geared.load_torque_Nm() / free.load_torque_Nm();
+    };
+    int step = 0;
+    while (step < 60) EXPECT_NEAR(ratio(++step, 0.0), 1.0, 1e-9) << step;
+    while (step < 70) ASSERT_NEAR(ratio(++step, 0.001), 1.0 - part, 1e-6) << step;
+    while (step < 80) ASSERT_NEAR(ratio(++step, -0.001), 1.0 + part, 1e-6) << step;
+}
+
+// The two pulleys find their angles; what the gear takes depends on what the cables pull, which is sought
+// too.
+TEST(DrivenMotor, ThroughAGearPullsTheCablesWithWhatItLeaves) {
+    constexpr double part = 0.2;
+    BenchEffects effects;
+    effects.of<PulleyFriction>().motor.per_torque = part;
+    BenchSimulation bench = pair_with(effects);
+    for (int step = 1; step <= 200; ++step) {
+        const double torque_Nm = 0.2 * swing(step);
+        const double before_rad = bench.motor_angle_rad();
+        ASSERT_TRUE(bench.advance({MotorTorque{torque_Nm}, LoadSpring{3.0, 0.0}, time_step_s, 0.0}).converged)
+            << step;
+        const double pull_Nm = pulleys.motor_radius_m * (bench.motor_tension_N(0) - bench.motor_tension_N(1));
+        const double turned_rad = bench.motor_angle_rad() - before_rad;
+        ASSERT_LE(std::abs(torque_Nm - pull_Nm), part * std::abs(pull_Nm) + 1e-7) << step;
+        if (std::abs(turned_rad) > 1e-3)  // the friction is built up
+            ASSERT_NEAR(torque_Nm, pull_Nm + std::copysign(part * std::abs(pull_Nm), turned_rad), 1e-6)
+                << step;
+    }
+}
+
 // How much of the cable slides.
 
 // Where it reels in as much as a round pulley, the cables cannot tell the two apart, and its torque is that

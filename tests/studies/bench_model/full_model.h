@@ -25,7 +25,7 @@ inline model_comparison::DiagnosedSplit full_split() {
     found.corrected.pretension_ratio = odd_number(0.7);
     found.friction_interval = {odd_number(0.85), odd_number(0.95)};
     found.corrected.effects.of<ViscousFriction>().drag_N_s_per_m2 = odd_number(3.0);
-    found.corrected.effects.of<PulleyFriction>().motor = {odd_number(0.01), 0.0, 0.01};
+    found.corrected.effects.of<PulleyFriction>().motor = {odd_number(0.01), 0.0, odd_number(0.05), 0.01};
     LocalBend& bend = found.corrected.effects.of<LocalBend>();
     bend = {odd_number(0.5), odd_number(0.3), odd_number(0.1), BentCables::only_b};
     found.corrected.sensor_faults["load_torque"].offset = odd_number(-0.02);

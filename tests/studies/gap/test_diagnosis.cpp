@@ -159,6 +159,16 @@ TEST(Diagnosis, ASensorThatIsSlowAndLateHasOneFault) {
     EXPECT_LT(std::min(present(diagnosis, "sensor_lag"), present(diagnosis, "time_misalignment")), 0.3);
 }
 
+TEST(Diagnosis, NamesTheFrictionOfAGearAsFrictionAtTheMotor) {
+    BenchNumbers numbers;
+    numbers.effects.of<PulleyFriction>().motor.per_torque = 0.15;
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    ASSERT_EQ(diagnosis.causes.size(), 1u);
+    EXPECT_EQ(diagnosis.causes.front().effect, "pulley_friction");
+    EXPECT_EQ(diagnosis.causes.front().variant, "motor gear");
+    EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, 0.15, 0.03);
+}
+
 BenchNumbers rough_numbers() {
     BenchNumbers numbers;
     numbers.friction_ratio = 1.35;
