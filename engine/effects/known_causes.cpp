@@ -18,8 +18,10 @@ const std::vector<KnownCause>& known_causes() {
             if (causes.back().name != effect.name)
                 causes.push_back({effect.name, effect.title, effect.family, effect.confusable_with});
         }
-        for (const SensorFault& fault : sensor_fault_catalogue())
-            causes.push_back({fault.name, fault.title, "sensor", fault.confusable_with});
+        for (const SensorFault& fault : sensor_fault_catalogue()) {
+            if (fault.variant.empty())
+                causes.push_back({fault.name, fault.title, "sensor", fault.confusable_with});
+        }
         return causes;
     }();
     return all;

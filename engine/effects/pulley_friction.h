@@ -61,9 +61,10 @@ struct PulleyFriction {
         holding.meaning = "friction of the load pulley's bearing, which holds at rest";
         const EffectParameter per_torque = {.name = "per_torque", .high = 0.9, .typical = 0.05};
         EffectDescription of_motor_gear = at_motor;
-        of_motor_gear.variant = "motor gear";
-        of_motor_gear.meaning = "friction at the motor in proportion to the torque that passes, as of a gear";
         EffectDescription of_load_gear = at_load;
+        of_motor_gear.variant = "motor gear";
+        of_motor_gear.is_rare = of_load_gear.is_rare = true;
+        of_motor_gear.meaning = "friction at the motor in proportion to the torque that passes, as of a gear";
         of_load_gear.variant = "load gear";
         of_load_gear.meaning = "friction at the load in proportion to the torque that passes, as of a gear";
         const EffectRow<PulleyFriction>::Parameter coulomb = {

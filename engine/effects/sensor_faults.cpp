@@ -50,13 +50,16 @@ std::vector<double> delayed(const std::vector<double>& signal, double delay_s, d
 
 }  // namespace
 
-std::vector<double> sensed(std::vector<double> signal, const SensorFaults& faults, double time_step_s) {
+std::vector<double> sensed(std::vector<double> signal, const SensorFaults& faults, double time_step_s,
+                           double session_time_s) {
     if (faults.none() || signal.size() < 2) return signal;
     if (faults.hysteresis > 0.0) add_hysteresis(signal, faults.hysteresis);
     if (faults.lag_s > 0.0) add_lag(signal, faults.lag_s, time_step_s);
     if (faults.delay_s != 0.0) signal = delayed(signal, faults.delay_s, time_step_s);
-    for (double& value : signal) {
-        value = faults.gain * value + faults.offset;
+    for (std::size_t sample = 0; sample < signal.size(); ++sample) {
+        double& value = signal[sample];
+        value =
+            faults.gain * value + faults.zero_at(session_time_s + static_cast<double>(sample) * time_step_s);
         if (faults.step > 0.0) value = faults.step * std::round(value / faults.step);
     }
     return signal;
@@ -77,6 +80,14 @@ const std::vector<SensorFault>& sensor_fault_catalogue() {
          .typical = 0.05,
          .typical_of = TypicalOf::channel_span,
          .value = &SensorFaults::offset},
+        {.name = "sensor_offset",
+         .variant = "drift",
+         .title = "sensor offset",
+         .number = "change_in_100_s",
+         .size = Size::either_sign,
+         .typical = 0.05,
+         .typical_of = TypicalOf::channel_span,
+         .value = &SensorFaults::drift_by_100_s},
         {.name = "sensor_lag",
          .title = "sensor lag",
          .unit = "s",

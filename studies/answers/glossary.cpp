@@ -89,7 +89,8 @@ std::vector<GlossaryTerm> all_terms() {
         all.push_back({effect.title + variant, effect.name, "effect", effect.meaning});
     }
     for (const SensorFault& fault : sensor_fault_catalogue())
-        all.push_back({fault.title, fault.name, "sensor fault",
+        all.push_back({fault.title + (fault.variant.empty() ? "" : " (" + fault.variant + ")"), fault.name,
+                       "sensor fault",
                        "A fault of a sensor that a diagnosis can name" +
                            (fault.unit.empty() ? std::string(".") : "; its size is in " + fault.unit + ".")});
     return all;

@@ -126,9 +126,11 @@ class FittedNumbers {
             if (effect.name == cause.effect && effect.variant == cause.variant)
                 return named(effect.numbers, name);
         for (ModelSensor& sensor : model_.sensors) {
-            for (std::size_t k = 0; k < sensor_fault_catalogue().size(); ++k)
-                if (sensor.channel == cause.variant && sensor_fault_catalogue()[k].name == cause.effect)
+            for (std::size_t k = 0; k < sensor_fault_catalogue().size(); ++k) {
+                const SensorFault& fault = sensor_fault_catalogue()[k];
+                if (cause.effect == fault.name && cause.variant == fault.variant_at(sensor.channel))
                     return named(sensor.faults, fault_keys()[k].name);
+            }
         }
         return nullptr;
     }
@@ -243,7 +245,7 @@ BenchModel model_of(const model_comparison::DiagnosedSplit& split,
     const gap::Diagnosis& diagnosis = split.diagnosis;
     // A number that is added to BenchNumbers must be added to the model and its file as well; this names all.
     const auto& [friction_ratio, stiffness_ratio, pretension_ratio, bend_at_motor_ratio, bend_at_load_ratio,
-                 load_radius_ratio, effects, sensor_faults, follows] = diagnosis.corrected;
+                 load_radius_ratio, effects, sensor_faults, follows] = diagnosis.corrected.in_other_runs();
     BenchModel model;
     model.origin = origin;
     model.recorded_mode = split.recorded.mode;

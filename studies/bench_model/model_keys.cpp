@@ -19,8 +19,8 @@ const std::vector<FaultKey>& fault_keys() {
         using TypicalOf = SensorFault::TypicalOf;
         std::vector<FaultKey> keys;
         for (const SensorFault& fault : sensor_fault_catalogue()) {
-            const std::string name =
-                fault.name.starts_with(prefix) ? fault.name.substr(prefix.size()) : fault.name;
+            std::string name = fault.name.starts_with(prefix) ? fault.name.substr(prefix.size()) : fault.name;
+            if (!fault.variant.empty()) name = fault.variant;
             const std::string unit = fault.typical_of == TypicalOf::time_step ? "s" : fault.unit;
             keys.push_back({name, unit, fault.typical_of == TypicalOf::channel_span, fault.value});
         }

@@ -57,8 +57,12 @@ void correct_readings(Recording& recording, std::size_t run, const BenchNumbers&
     for (const auto& [name, fault] : in_run.sensor_faults) {
         const auto channel = recording.channel(name);
         if (!channel) continue;
-        for (double& value : recording.runs[run].values[static_cast<std::size_t>(*channel)])
-            value = (value - fault.offset) / fault.gain;
+        RecordedRun& corrected = recording.runs[run];
+        std::vector<double>& values = corrected.values[static_cast<std::size_t>(*channel)];
+        for (std::size_t sample = 0; sample < values.size(); ++sample)
+            values[sample] =
+                (values[sample] - fault.zero_at(corrected.session_start_s + corrected.time_s[sample])) /
+                fault.gain;
     }
 }
 
@@ -118,12 +122,16 @@ std::vector<std::string> parts_not_used(const BenchModel& model, const UsedParts
             add(cause_title(effect.name));
     for (const bench_model::ModelSensor& sensor : model.sensors) {
         for (const FittedNumber& fault : sensor.faults) {
-            if (used.zeros_and_gains && (fault.name == "gain" || fault.name == "offset")) continue;
+            if (used.zeros_and_gains &&
+                (fault.name == "gain" || fault.name == "offset" || fault.name == "drift"))
+                continue;
             // Within a sample no estimate of a sample changes.
             if (fault.name == "time_misalignment" && used.sample_rate_Hz > 0.0 &&
                 std::abs(fault.value) * used.sample_rate_Hz < 1.0)
                 continue;
-            const std::string cause = find_cause(fault.name) != nullptr ? fault.name : "sensor_" + fault.name;
+            const std::string cause = fault.name == "drift"               ? "sensor_offset"
+                                      : find_cause(fault.name) != nullptr ? fault.name
+                                                                          : "sensor_" + fault.name;
             add(fmt::format("{} ({})", cause_title(cause), channel_words(sensor.channel)));
         }
     }

@@ -107,6 +107,7 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
     cause.variant = effect.variant;
     cause.end = effect.end;
     cause.is_rare = effect.is_rare;
+    cause.is_sought_last = effect.name == "pulley_friction" && effect.parameters.front().name == "per_torque";
     std::vector<double> values = effect.absent;
     std::vector<std::size_t> open;  // parameters
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
@@ -146,8 +147,9 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
 
 // Faults of one channel's sensor. `lattice`: the step on which all its values lie, where that shows; without
 // it readings are not coarse.
-std::vector<CandidateCause> sensor_causes(const std::string& channel, double span, double time_step_s,
+std::vector<CandidateCause> sensor_causes(const Channel& described, double span, double time_step_s,
                                           const std::optional<double>& lattice) {
+    const std::string& channel = described.name;
     const auto kind_of_fault = [](SensorFault::Size size) {
         switch (size) {
             case SensorFault::Size::either_sign:
@@ -173,11 +175,16 @@ std::vector<CandidateCause> sensor_causes(const std::string& channel, double spa
     std::vector<CandidateCause> causes;
     for (const SensorFault& fault : sensor_fault_catalogue()) {
         if (fault.size == SensorFault::Size::lattice && !lattice) continue;
+        const bool is_drift = fault.value == &SensorFaults::drift_by_100_s;
+        if (is_drift && described.unit == "rad") continue;  // an encoder counts
         CandidateCause cause = plain(fault.name, "sensor:" + channel);
-        cause.variant = channel;
-        cause.numbers = {{"size", fault.unit, kind_of_fault(fault.size),
-                          fault.typical * unit_of_typical(fault.typical_of), SensorFaults().*fault.value,
-                          -1e3, 1e3}};
+        cause.variant = fault.variant_at(channel);
+        cause.is_exact = cause.is_exact && !is_drift;
+        cause.is_of_runs = cause.is_rare = cause.is_sought_last = is_drift;
+        const bool is_in_channel_unit = fault.typical_of == SensorFault::TypicalOf::channel_span;
+        cause.numbers = {{fault.number, is_in_channel_unit ? described.unit : fault.unit,
+                          kind_of_fault(fault.size), fault.typical * unit_of_typical(fault.typical_of),
+                          SensorFaults().*fault.value, -1e3, 1e3}};
         if (lattice && fault.size == SensorFault::Size::lattice) {
             cause.numbers.front().low = cause.numbers.front().high = *lattice;
             cause.is_seen = true;
@@ -207,6 +214,7 @@ CandidateCause following(const CandidateCause& number, const BenchNumbers::Follo
     CandidateCause cause = number;
     cause.variant += (cause.variant.empty() ? "with " : " with ") + follows.condition;
     cause.varies = follows.condition;
+    cause.is_of_runs = true;
     const auto add = [&](const char* name) {
         cause.numbers.push_back(
             {name, unit, OpenNumber::Kind::signed_size, typical, 0.0, -100.0 * typical, 100.0 * typical});
@@ -221,25 +229,43 @@ CandidateCause following(const CandidateCause& number, const BenchNumbers::Follo
     return cause;
 }
 
+// A cause whose number is different in each run: a cable that was tensioned anew, a conduit that was laid
+// anew, a sensor that was zeroed anew. The change is counted from the first run.
+CandidateCause differing(const CandidateCause& number, BenchNumbers::Following differs,
+                         const std::vector<RecordedRun>& runs, const std::string& unit, double typical) {
+    CandidateCause cause = number;
+    cause.variant += cause.variant.empty() ? "between runs" : " between runs";
+    cause.is_of_runs = cause.is_rare = cause.is_sought_last = true;
+    std::vector<int> changed;
+    for (const RecordedRun& run : runs) {
+        differs.of_runs[run.number] = 0.0;
+        if (&run == &runs.front()) continue;
+        changed.push_back(run.number);
+        cause.numbers.push_back({"change_in_run_" + std::to_string(run.number), unit,
+                                 OpenNumber::Kind::signed_size, typical, 0.0, -100.0 * typical,
+                                 100.0 * typical});
+    }
+    cause.apply = [differs, changed](BenchNumbers& numbers, Values values) {
+        numbers.follows.push_back(differs);
+        for (std::size_t k = 0; k < changed.size(); ++k)
+            numbers.follows.back().of_runs[changed[k]] = values[k];
+    };
+    return cause;
+}
+
 // Friction, pretension or the zero of a sensor that follows a condition with different values in the runs: in
 // proportion to it, and with three values also curved, as the friction of a joint that bends either way.
-std::vector<CandidateCause> following_causes(const Recording& recording) {
+// Where no condition tells the runs apart, they may differ all the same.
+std::vector<CandidateCause> causes_of_runs(const Recording& recording) {
     constexpr double typical_log = 0.1;
     constexpr double typical_zero = 0.05;  // of the channel's span
+    using What = BenchNumbers::Following::What;
     std::vector<CandidateCause> causes;
-    for (const auto& [condition, first] : recording.runs.front().conditions) {
-        const std::vector<double> values = values_of(recording, condition);
-        if (values.size() < 2) continue;
-        const bool curved = values.size() > 2;
-        BenchNumbers::Following follows;
-        follows.condition = condition;
-        follows.middle = 0.5 * (values.front() + values.back());
-        follows.half_range = 0.5 * (values.back() - values.front());
-        using What = BenchNumbers::Following::What;
+    const auto add_each_number = [&](BenchNumbers::Following follows, const auto& made_from) {
         follows.what = What::friction;
-        causes.push_back(following(plain("param_mu", "parameter"), follows, curved, "", typical_log));
+        causes.push_back(made_from(plain("param_mu", "parameter"), follows, "", typical_log));
         follows.what = What::pretension;
-        causes.push_back(following(plain("param_T0", "parameter"), follows, curved, "", typical_log));
+        causes.push_back(made_from(plain("param_T0", "parameter"), follows, "", typical_log));
         follows.what = What::zero;
         for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
             const Channel& described = recording.channels[channel];
@@ -247,10 +273,26 @@ std::vector<CandidateCause> following_causes(const Recording& recording) {
             CandidateCause zero = plain("sensor_offset", "sensor:" + described.name);
             zero.family = "sensor";
             zero.variant = follows.channel = described.name;
-            causes.push_back(following(zero, follows, curved, described.unit,
-                                       typical_zero * largest_span(recording, channel)));
+            causes.push_back(
+                made_from(zero, follows, described.unit, typical_zero * largest_span(recording, channel)));
         }
+    };
+    for (const auto& [condition, first] : recording.runs.front().conditions) {
+        const std::vector<double> values = values_of(recording, condition);
+        if (values.size() < 2) continue;
+        BenchNumbers::Following follows;
+        follows.condition = condition;
+        follows.middle = 0.5 * (values.front() + values.back());
+        follows.half_range = 0.5 * (values.back() - values.front());
+        add_each_number(follows, [&](const CandidateCause& number, const BenchNumbers::Following& its,
+                                     const std::string& unit, double typical) {
+            return following(number, its, values.size() > 2, unit, typical);
+        });
     }
+    if (causes.empty() && recording.runs.size() > 1)
+        add_each_number(
+            {}, [&](const CandidateCause& number, const BenchNumbers::Following& its, const std::string& unit,
+                    double typical) { return differing(number, its, recording.runs, unit, typical); });
     return causes;
 }
 
@@ -289,11 +331,13 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
         if (!recording.is_predicted(name) || (name == channel::load_angle && !recording.nominal_is_fitted))
             continue;
         for (CandidateCause& cause :
-             sensor_causes(name, largest_span(recording, channel), 1.0 / recording.sample_rate_Hz,
-                           unstated_step(recording, channel)))
+             sensor_causes(recording.channels[channel], largest_span(recording, channel),
+                           1.0 / recording.sample_rate_Hz, unstated_step(recording, channel)))
             causes.push_back(std::move(cause));
     }
-    for (CandidateCause& cause : following_causes(recording)) causes.push_back(std::move(cause));
+    for (CandidateCause& cause : causes_of_runs(recording)) causes.push_back(std::move(cause));
+    std::stable_partition(causes.begin(), causes.end(),
+                          [](const CandidateCause& cause) { return !cause.is_sought_last; });
     return causes;
 }
 

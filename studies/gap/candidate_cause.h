@@ -70,7 +70,11 @@ struct CandidateCause {
     bool is_seen = false;
     /// Parts are made to be without it (EffectDescription).
     bool is_rare = false;
+    /// It resembles what others do and few recordings have it, so that it is sought once these have been.
+    bool is_sought_last = false;
     std::string varies;  ///< the condition of the runs that the numbers follow; empty: none
+    /// The numbers follow a condition of the runs or the time of a sensor's zero, or differ between the runs.
+    bool is_of_runs = false;
     /// How far friction, stiffness and pretension may be from their nominal values (logarithms, standard
     /// deviation): one of them far, if that is the cause.
     double friction_std = 0.0;
@@ -87,7 +91,7 @@ struct CandidateCause {
 std::string in_words(const std::vector<const CandidateCause*>& causes);
 
 /// Every cause that this recording could show: none, wrong parameters, the effects of the catalogue, and the
-/// sensor faults of each predicted channel.
+/// sensor faults of each predicted channel. Those that are sought last come last.
 std::vector<CandidateCause> candidate_causes(const Recording& recording);
 
 }  // namespace capstan::gap

@@ -127,7 +127,8 @@ Eigen::MatrixXd CauseFitter::data_residuals(std::span<const Hypothesis> hypothes
                 for (auto& [channel, fault] : smooth) {
                     if (lattice_[static_cast<std::size_t>(*recording_.channel(channel))]) fault.step = 0.0;
                 }
-                write_residuals(run, faults.empty() ? twins[lane] : twin_.with_faults(twins[lane], smooth),
+                write_residuals(run,
+                                faults.empty() ? twins[lane] : twin_.with_faults(run, twins[lane], smooth),
                                 faults, all.col(static_cast<Eigen::Index>(k)));
             }
         }

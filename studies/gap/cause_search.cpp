@@ -88,8 +88,8 @@ bool is_friction_of_a_bearing(const CandidateCause& cause) {
 void remove_what_is_fitted(std::vector<CandidateCause>& causes) {
     remove_wrong_numbers(causes);
     std::erase_if(causes, [](const CandidateCause& cause) {
-        return cause.varies.empty() && (cause.effect == "sensor_offset" || is_friction_of_a_bearing(cause) ||
-                                        cause.effect == "sensor_gain" || cause.effect == "local_bend");
+        return !cause.is_of_runs && (cause.effect == "sensor_offset" || is_friction_of_a_bearing(cause) ||
+                                     cause.effect == "sensor_gain" || cause.effect == "local_bend");
     });
 }
 
@@ -225,7 +225,8 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
                                    ? start
                                    : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
-    const std::vector<Further> all = screened(level, nothing, singles.front().fit.weights, true);
+    const std::vector<Further> all =
+        screened(level, level.sought_first(), nothing, singles.front().fit.weights, true);
     // Where the numbers of an undescribed bench lead nowhere without the right cause, the screening beside
     // them says nothing, and every cause is fitted.
     const bool is_told = !is_undescribed(level.bench) || singles.front().misfit < leads_nowhere;

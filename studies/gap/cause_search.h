@@ -69,6 +69,8 @@ class CauseSearch {
         BenchKnowledge bench;
         std::vector<CandidateCause> causes;
 
+        std::span<const CandidateCause> sought_first() const;
+        std::span<const CandidateCause> sought_last() const;
         /// Null if it is not sought.
         const CandidateCause* same_cause(const std::string& effect, const std::string& variant) const;
     };
@@ -132,9 +134,11 @@ class CauseSearch {
     void add_fits(const Level& level, const std::vector<Hypothesis>& starts, bool any_size, Fits& fits);
     void try_replacing(const Level& level, Fits& sets);
     void try_others(const Level& level, Fits& all);
+    bool try_last(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;
     void add_measured_sets(const ScoredFit& built, Fits& all);
-    std::vector<Further> screened(const Level& level, const Hypothesis& present, const SeriesWeights& weights,
+    std::vector<Further> screened(const Level& level, std::span<const CandidateCause> causes,
+                                  const Hypothesis& present, const SeriesWeights& weights,
                                   bool begins_elsewhere);
     void fit_roughly(std::vector<Further>& all, const SeriesWeights& weights,
                      std::span<const Eigen::VectorXd> elsewhere);
@@ -144,7 +148,11 @@ class CauseSearch {
     static double pruned_at(const Fits& fits);
     Fits larger_sets(const Level& level, const Fits& smaller);
     void add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
-                  std::size_t max_further, Fits& sets);
+                  std::size_t max_further, Fits& sets) {
+        add_sets(level, level.sought_first(), hypothesis, weights, max_further, sets);
+    }
+    void add_sets(const Level& level, std::span<const CandidateCause> causes, const Hypothesis& hypothesis,
+                  const SeriesWeights& weights, std::size_t max_further, Fits& sets);
 
     const Recording& recording_;
     CauseSearchOptions options_;

@@ -78,6 +78,7 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         changes = is_undescribed_drive(level.bench) &&
                   ((is_smaller && try_more(level, all)) || replace_the_weakest(level, all));
     }
+    if (try_last(level, all)) try_fewer(level, all);
     is_sharper_ = is_undescribed_drive(level.bench) && take_correlation_of(all.front());
     if (is_sharper_) {
         all = fitted_again(coarse_, all, max_after_draft);
@@ -110,6 +111,38 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
              max_fitted_further, others);
     std::move(others.begin(), others.end(), std::back_inserter(all));
     sort_by_evidence(all);
+}
+
+// Causes that are sought last: alone, beside the best set, and in the place of each of its causes. Whether
+// one is better.
+bool CauseSearch::try_last(const Level& level, Fits& all) {
+    constexpr std::size_t promising = 2;
+    const ScoredFit best = all.front();
+    const Hypothesis found = best.fit.hypothesis();
+    const bool is_nothing = found.causes.front()->effect == "none";
+    if (level.sought_last().empty() || is_out_of_time() || (is_nothing && !worth_a_further_cause(best)))
+        return false;
+    Fits sets;
+    const auto add = [&](const Hypothesis& beside, std::size_t count) {
+        add_sets(level, level.sought_last(), beside, best.fit.weights, count, sets);
+    };
+    add(only_causes(found, [](const CandidateCause&) { return false; }), promising);
+    if (!is_nothing && found.causes.size() < max_causes) add(found, promising);
+    if (found.causes.size() > 1)
+        for (const Hypothesis& fewer : without_each(found)) add(fewer, 1);
+    std::move(sets.begin(), sets.end(), std::back_inserter(all));
+    sort_by_evidence(all);
+    return all.front().evidence > best.evidence;
+}
+
+std::span<const CandidateCause> CauseSearch::Level::sought_last() const {
+    const auto first = std::find_if(causes.begin(), causes.end(),
+                                    [](const CandidateCause& cause) { return cause.is_sought_last; });
+    return {first, causes.end()};
+}
+
+std::span<const CandidateCause> CauseSearch::Level::sought_first() const {
+    return {causes.begin(), causes.size() - sought_last().size()};
 }
 
 // The best set without each of its causes in turn, from where the set led: a smaller set may have been left
@@ -269,11 +302,13 @@ void CauseSearch::try_replacing(const Level& level, Fits& sets) {
 // and what is left of it shows only after they have moved: there a first cause gets a few steps of a search
 // whatever the screening says, and a further one if it is among the most promising. What an undescribed bench
 // without a cause led to may be far from where it is with one, so that a first cause also begins elsewhere.
-std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level, const Hypothesis& present,
+std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
+                                                        std::span<const CandidateCause> causes,
+                                                        const Hypothesis& present,
                                                         const SeriesWeights& weights, bool begins_elsewhere) {
     constexpr std::size_t most_promising = 12;
     std::vector<Further> all;
-    for (const Screened& each : screen(rough_model().fitter, level.causes, present, weights)) {
+    for (const Screened& each : screen(rough_model().fitter, causes, present, weights)) {
         if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
         all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
     }
@@ -309,11 +344,12 @@ void CauseSearch::fit_roughly(std::vector<Further>& all, const SeriesWeights& we
 }
 
 // `weights`: of the fit that the hypothesis comes from; `max_further`: causes that are tried beside it.
-void CauseSearch::add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
+void CauseSearch::add_sets(const Level& level, std::span<const CandidateCause> causes,
+                           const Hypothesis& hypothesis, const SeriesWeights& weights,
                            std::size_t max_further, Fits& sets) {
     std::size_t further = 0;
     std::vector<Hypothesis> starts;
-    for (const Further& each : screened(level, hypothesis, weights, false)) {
+    for (const Further& each : screened(level, causes, hypothesis, weights, false)) {
         if (further == max_further || is_out_of_time()) break;
         const bool known =
             std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), [&](const CandidateCause* cause) {

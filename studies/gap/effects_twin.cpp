@@ -74,26 +74,53 @@ void check_driven(const Recording& recording) {
 
 }  // namespace
 
+double BenchNumbers::Following::mean_change() const {
+    double sum = 0.0;
+    for (const auto& [run, change] : of_runs) sum += change;
+    return sum / static_cast<double>(of_runs.size());
+}
+
+double BenchNumbers::Following::change_in(const RecordedRun& run) const {
+    if (!of_runs.empty()) {
+        const auto own = of_runs.find(run.number);
+        return own != of_runs.end() ? own->second : mean_change();
+    }
+    const auto stated = run.conditions.find(condition);
+    if (stated == run.conditions.end()) return 0.0;
+    const double part = (stated->second - middle) / half_range;
+    return part * (linear + part * squared);
+}
+
+void BenchNumbers::change(const Following& each, double by) {
+    switch (each.what) {
+        case Following::What::friction:
+            friction_ratio *= std::exp(by);
+            break;
+        case Following::What::pretension:
+            pretension_ratio *= std::exp(by);
+            break;
+        case Following::What::zero:
+            sensor_faults[each.channel].offset += by;
+            break;
+    }
+}
+
 BenchNumbers BenchNumbers::in_run(const RecordedRun& run) const {
     BenchNumbers numbers = *this;
-    for (const Following& each : follows) {
-        const auto stated = run.conditions.find(each.condition);
-        if (stated == run.conditions.end()) continue;
-        const double part = (stated->second - each.middle) / each.half_range;
-        const double change = part * (each.linear + part * each.squared);
-        switch (each.what) {
-            case Following::What::friction:
-                numbers.friction_ratio *= std::exp(change);
-                break;
-            case Following::What::pretension:
-                numbers.pretension_ratio *= std::exp(change);
-                break;
-            case Following::What::zero:
-                numbers.sensor_faults[each.channel].offset += change;
-                break;
-        }
-    }
     numbers.follows.clear();
+    for (const Following& each : follows) numbers.change(each, each.change_in(run));
+    return numbers;
+}
+
+BenchNumbers BenchNumbers::in_other_runs() const {
+    BenchNumbers numbers = *this;
+    numbers.follows.clear();
+    for (const Following& each : follows) {
+        if (each.of_runs.empty())
+            numbers.follows.push_back(each);
+        else
+            numbers.change(each, each.mean_change());
+    }
     return numbers;
 }
 
@@ -132,7 +159,7 @@ int EffectsTwin::samples(std::size_t run) const {
 
 TwinRun EffectsTwin::run(std::size_t run_index, const BenchNumbers& numbers) const {
     const MovedBench of_run{run_index, numbers.in_run(recording_.runs[run_index])};
-    return with_faults(run_each({&of_run, 1}).front(), of_run.numbers.sensor_faults);
+    return with_faults(run_index, run_each({&of_run, 1}).front(), of_run.numbers.sensor_faults);
 }
 
 std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) const {
@@ -214,14 +241,16 @@ void EffectsTwin::align_load_angle(std::size_t run, TwinRun& twin) const {
     for (double& value : predicted) value += off;
 }
 
-TwinRun EffectsTwin::with_faults(const TwinRun& run,
+TwinRun EffectsTwin::with_faults(std::size_t run_index, const TwinRun& predicted,
                                  const std::map<std::string, SensorFaults>& faults) const {
-    TwinRun sensed_run = run;
+    const RecordedRun& run = recording_.runs[run_index];
+    TwinRun sensed_run = predicted;
     for (const auto& [channel, fault] : faults) {
         std::vector<double>& values =
             sensed_run.values[static_cast<std::size_t>(*recording_.channel(channel))];
         if (!values.empty())
-            values = sensed(std::move(values), fault, options_.stride / recording_.sample_rate_Hz);
+            values = sensed(std::move(values), fault, options_.stride / recording_.sample_rate_Hz,
+                            run.session_start_s + run.time_s.front());
     }
     return sensed_run;
 }

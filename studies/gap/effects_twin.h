@@ -31,7 +31,7 @@ struct BenchNumbers {
     /// By channel. Of a channel that drives the bench only the offset counts.
     std::map<std::string, SensorFaults> sensor_faults;
     /// A number that follows a condition of the runs: it changes by `linear c + squared c^2`, where c goes
-    /// from -1 to 1 over the range of the condition.
+    /// from -1 to 1 over the range of the condition. Or one that differs between runs as nobody stated.
     struct Following {
         enum class What {
             friction,    ///< logarithm of the friction
@@ -45,13 +45,21 @@ struct BenchNumbers {
         double half_range = 1.0;
         double linear = 0.0;
         double squared = 0.0;
+        /// In place of a condition: the change in each run, by its number. In any other run it is their mean.
+        std::map<int, double> of_runs{};
+
+        double change_in(const RecordedRun& run) const;
+        double mean_change() const;  ///< of of_runs
     };
     std::vector<Following> follows;
 
     /// The numbers under the run's conditions.
     BenchNumbers in_run(const RecordedRun& run) const;
+    /// What holds for another recording: numbers that differ between runs have their mean.
+    BenchNumbers in_other_runs() const;
 
     double zero_of(const std::string& channel) const;
+    void change(const Following& each, double by);
 
     /// A path with its wrap moved between its thirds.
     std::vector<CurvaturePiece> routing(const std::vector<CurvaturePiece>& described) const;
@@ -97,8 +105,9 @@ class EffectsTwin {
     /// sensor faults.
     std::vector<TwinRun> run_each(std::span<const MovedBench> moved) const;
 
-    /// The run as faulty sensors read it.
-    TwinRun with_faults(const TwinRun& run, const std::map<std::string, SensorFaults>& faults) const;
+    /// What `run` predicts, as faulty sensors read it.
+    TwinRun with_faults(std::size_t run, const TwinRun& predicted,
+                        const std::map<std::string, SensorFaults>& faults) const;
 
   private:
     struct Reader {

@@ -28,6 +28,8 @@ constexpr double cause_beside_floating_numbers_penalty = 3.9;
 // Values of a channel lie on an unstated lattice by chance with no probability to speak of: e^-10.
 constexpr double seen_gain = 10.0;
 // Pulleys are turned: the radius of one in a thousand changes by more than their tolerance, as a cam's does.
+// No more often is anything tensioned or zeroed between the runs of a session, or a gear behind the torque
+// sensor.
 constexpr double rare_cause_penalty = 6.9;
 // A cause outside the list is rarer than the causes in it.
 constexpr double unknown_penalty = 4.0;

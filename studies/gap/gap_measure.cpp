@@ -100,8 +100,8 @@ GapMeasure measure_gap(const Recording& recording, const CauseFitter& fitter, co
         const BenchNumbers runner_up = models.runner_up.in_run(recording.runs[run]);
         std::vector<TwinRun> twins =
             twin.run_each(std::vector<MovedBench>{{run, {}}, {run, leading}, {run, runner_up}});
-        twins[1] = twin.with_faults(twins[1], leading.sensor_faults);
-        twins[2] = twin.with_faults(twins[2], runner_up.sensor_faults);
+        twins[1] = twin.with_faults(run, twins[1], leading.sensor_faults);
+        twins[2] = twin.with_faults(run, twins[2], runner_up.sensor_faults);
         const TwinRun held_out = held_out_run(twin, run, models.held_out);
         RunResiduals residuals{run, {}, twins[0].sliding_fraction, 0};
         residuals.residual.resize(recording.channels.size());

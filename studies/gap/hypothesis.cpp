@@ -24,7 +24,7 @@ Mechanics mechanics_of(const Hypothesis& hypothesis, const BenchNumbers& in_run)
     }
     for (const CandidateCause* cause : hypothesis.causes) {
         const auto count = static_cast<Eigen::Index>(cause->numbers.size());
-        if (cause->family != "sensor" && cause->varies.empty() && count > 0) {
+        if (cause->family != "sensor" && !cause->is_of_runs && count > 0) {
             mechanics.causes.push_back(cause);
             for (Eigen::Index k = 0; k < count; ++k)
                 mechanics.numbers.push_back(hypothesis.coordinates[next + k]);

@@ -164,7 +164,7 @@ std::size_t ResidualSeries::determined_rows(std::size_t from, std::size_t to) co
 std::vector<LeftOut> left_out_in_turn(std::size_t runs, const std::vector<const CandidateCause*>& causes) {
     const bool in_halves =
         runs == 1 || std::any_of(causes.begin(), causes.end(), [](const CandidateCause* cause) {
-            return !cause->varies.empty() || cause->effect == "pretension_drift";
+            return cause->is_of_runs || cause->effect == "pretension_drift";
         });
     std::vector<LeftOut> parts;
     for (std::size_t run = 0; run < runs; ++run) {

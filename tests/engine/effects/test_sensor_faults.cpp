@@ -24,7 +24,7 @@ TEST(SensorFaults, NoneChangesNoBit) {
 }
 
 TEST(SensorFaults, ASingleSampleStaysUnchanged) {
-    SensorFaults all{0.5, 0.1, 0.03, 1.1, 0.2, 0.25};
+    SensorFaults all{0.5, 0.1, 0.03, 1.1, 0.2, 0.3, 0.25};
     EXPECT_EQ(sensed({4.0}, all, time_step_s), std::vector<double>{4.0});
     EXPECT_TRUE(sensed({}, all, time_step_s).empty());
 }
@@ -37,6 +37,16 @@ TEST(SensorFaults, GainAndOffsetAreAStraightLine) {
     EXPECT_DOUBLE_EQ(readings[0], -0.5);
     EXPECT_DOUBLE_EQ(readings[1], 11.5);
     EXPECT_DOUBLE_EQ(readings[2], -12.5);
+}
+
+TEST(SensorFaults, ADriftMovesTheZeroWithTheTimeOfTheSession) {
+    SensorFaults faults;
+    faults.offset = -0.5;
+    faults.drift_by_100_s = 2.0;
+    constexpr double run_began_s = 50.0;
+    const std::vector<double> readings = sensed({3.0, 3.0, 3.0}, faults, time_step_s, run_began_s);
+    for (std::size_t k = 0; k < readings.size(); ++k)
+        EXPECT_NEAR(readings[k], 3.0 - 0.5 + 1.0 + 0.02 * time_step_s * static_cast<double>(k), 1e-12);
 }
 
 TEST(SensorFaults, QuantisedReadingsAreTheNearestMultiples) {

@@ -73,6 +73,17 @@ TEST(ModelPrediction, HasTheErrorsThatTheDiagnosisReportsOfRunsHeldOut) {
     expect_the_errors_of(split);
 }
 
+// What differs between runs is not known of another one, which gets the mean.
+TEST(ModelPrediction, HasThemWhereANumberDiffersBetweenRuns) {
+    model_comparison::DiagnosedSplit split = exact_split();
+    gap::BenchNumbers& corrected = split.diagnosis.corrected;
+    corrected.follows.push_back({.what = gap::BenchNumbers::Following::What::pretension,
+                                 .of_runs = {{1, 0.0}, {3, odd_number(0.2)}}});
+    const double in_run_2 = corrected.in_run(split.recorded.runs[1]).pretension_ratio;
+    EXPECT_NEAR(in_run_2 / corrected.pretension_ratio, std::exp(0.5 * odd_number(0.2)), 1e-12);
+    expect_the_errors_of(split);
+}
+
 TEST(ModelPrediction, HasThemForADriveOfUnknownGeometryToo) {
     const Recording session = gap::lumped_session({.motor_torque_sign = -1.0});
     model_comparison::DiagnosedSplit split;

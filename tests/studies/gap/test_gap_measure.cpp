@@ -43,9 +43,12 @@ TEST(LeftOutInTurn, IsEachHalfOfARunWhereOnlyAllRunsTogetherTellANumber) {
     drift.effect = "pretension_drift";
     CandidateCause with_roll;
     with_roll.varies = "roll_deg";
+    with_roll.is_of_runs = true;
+    CandidateCause tensioned_anew;
+    tensioned_anew.is_of_runs = true;
     CandidateCause drag;
     drag.effect = "viscous_friction";
-    for (const CandidateCause* between_runs : {&drift, &with_roll}) {
+    for (const CandidateCause* between_runs : {&drift, &with_roll, &tensioned_anew}) {
         const std::vector<LeftOut> halves = left_out_in_turn(3, {&drag, between_runs});
         ASSERT_EQ(halves.size(), 6u);
         EXPECT_FALSE(halves[5].is_complete_run());
