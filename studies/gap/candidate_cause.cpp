@@ -289,10 +289,13 @@ std::vector<CandidateCause> causes_of_runs(const Recording& recording) {
             return following(number, its, values.size() > 2, unit, typical);
         });
     }
-    if (causes.empty() && recording.runs.size() > 1)
-        add_each_number(
-            {}, [&](const CandidateCause& number, const BenchNumbers::Following& its, const std::string& unit,
-                    double typical) { return differing(number, its, recording.runs, unit, typical); });
+    if (!causes.empty() || recording.runs.size() < 2) return causes;
+    add_each_number(
+        {}, [&](const CandidateCause& number, const BenchNumbers::Following& its, const std::string& unit,
+                double typical) { return differing(number, its, recording.runs, unit, typical); });
+    // A pretension that is not stated is sought as one of all runs.
+    if (!recording.nominal_is_fitted && recording.nominal->spread.pretension > 0.0)
+        std::erase_if(causes, [](const CandidateCause& cause) { return cause.effect == "param_T0"; });
     return causes;
 }
 
