@@ -20,7 +20,7 @@ const std::vector<FaultKey>& fault_keys() {
         std::vector<FaultKey> keys;
         for (const SensorFault& fault : sensor_fault_catalogue()) {
             std::string name = fault.name.starts_with(prefix) ? fault.name.substr(prefix.size()) : fault.name;
-            if (!fault.variant.empty()) name = fault.variant;
+            if (!fault.variant.empty()) name = fault.number;
             const std::string unit = fault.typical_of == TypicalOf::time_step ? "s" : fault.unit;
             keys.push_back({name, unit, fault.typical_of == TypicalOf::channel_span, fault.value});
         }

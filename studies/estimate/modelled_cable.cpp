@@ -123,13 +123,13 @@ std::vector<std::string> parts_not_used(const BenchModel& model, const UsedParts
     for (const bench_model::ModelSensor& sensor : model.sensors) {
         for (const FittedNumber& fault : sensor.faults) {
             if (used.zeros_and_gains &&
-                (fault.name == "gain" || fault.name == "offset" || fault.name == "drift"))
+                (fault.name == "gain" || fault.name == "offset" || fault.name == "change_in_100_s"))
                 continue;
             // Within a sample no estimate of a sample changes.
             if (fault.name == "time_misalignment" && used.sample_rate_Hz > 0.0 &&
                 std::abs(fault.value) * used.sample_rate_Hz < 1.0)
                 continue;
-            const std::string cause = fault.name == "drift"               ? "sensor_offset"
+            const std::string cause = fault.name == "change_in_100_s"     ? "sensor_offset"
                                       : find_cause(fault.name) != nullptr ? fault.name
                                                                           : "sensor_" + fault.name;
             add(fmt::format("{} ({})", cause_title(cause), channel_words(sensor.channel)));
