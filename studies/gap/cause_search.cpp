@@ -150,7 +150,12 @@ FoundCauses CauseSearch::run() & {
     const bool is_measured = described_.bench.is_measured();
     found.fits = search_one(described_);
     bool built = is_measured && should_be_taken_as_built(found.fits.front());
-    if (!built) {
+    if (built) {
+        // Two causes may look like one that asks for far numbers.
+        Fits pairs = larger_sets(described_, found.fits);
+        std::move(pairs.begin(), pairs.end(), std::back_inserter(found.fits));
+        sort_by_evidence(found.fits);
+    } else {
         search_several(described_, found.fits);
         const ScoredFit& best = found.fits.front();
         built = is_measured &&
