@@ -32,7 +32,10 @@ FloatingNumber ratio(const std::string& name, double prior_std, const std::strin
 std::vector<FloatingNumber> ratios(const NominalSpread& of_values, const NominalSpread& stated) {
     const auto number = [](const char* name, const char* wrong, double of_value, double spread,
                            double BenchNumbers::*in_bench) {
-        return spread > 0.0 ? ratio(name, spread, "", in_bench) : ratio(name, of_value, wrong, in_bench);
+        if (spread > 0.0) return ratio(name, spread, "", in_bench);
+        FloatingNumber stated_number = ratio(name, of_value, wrong, in_bench);
+        stated_number.measured_std = nominal_log_std;
+        return stated_number;
     };
     return {
         number("friction", "param_mu", of_values.friction, stated.friction, &BenchNumbers::friction_ratio),
@@ -214,6 +217,21 @@ double FloatingNumber::value(double coordinate) const {
             return scale * coordinate;
     }
     return 0.0;
+}
+
+// As many stated numbers were measured as not, and a measured one is right to measured_std. What the fit adds
+// to the prior is what the recording says of the number (a normal density each).
+double FloatingNumber::is_far(double coordinate, double deviation) const {
+    if (std::abs(coordinate) <= usual) return 0.0;
+    if (measured_std == 0.0) return 1.0;
+    const double prior = prior_std * prior_std;
+    const double posterior = std::min(deviation * deviation, 0.999 * prior);
+    const double told = 1.0 / (1.0 / posterior - 1.0 / prior);
+    const double shown = coordinate * (told + prior) / prior;
+    const auto log_density = [&](double variance) {
+        return -0.5 * (std::log(told + variance) + shown * shown / (told + variance));
+    };
+    return 1.0 / (1.0 + std::exp(log_density(measured_std * measured_std) - log_density(prior)));
 }
 
 bool FloatingNumber::is_at_bound(double coordinate) const {

@@ -25,6 +25,8 @@ struct FloatingNumber {
     bool of_a_sensor = false;
     /// Up to here the coordinate is usual, either way, and the number is not named as a cause.
     double usual = 0.0;
+    /// Of the coordinate of a number that may well have been measured as it was stated; 0: none was stated.
+    double measured_std = 0.0;
     /// The cause that it stands for where it is far from what was stated; no effect: none.
     std::string effect{};
     std::string variant{};
@@ -33,6 +35,8 @@ struct FloatingNumber {
     std::function<void(BenchNumbers&, double value)> apply;
 
     double value(double coordinate) const;
+    /// The probability that it is not what was stated, if a fit left it here with this standard deviation.
+    double is_far(double coordinate, double deviation) const;
     /// Whether the search ended at the end of its range: the true number may lie beyond it.
     bool is_at_bound(double coordinate) const;
 };

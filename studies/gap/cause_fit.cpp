@@ -351,7 +351,7 @@ CauseFit CauseFitter::completed(const Hypothesis& hypothesis, const SeriesWeight
     SeriesWeights inverse;
     for (const double weight : weights) inverse.push_back(1.0 / weight);
     apply(inverse, fit.residuals);
-    fit.log_volume_ratio = log_volume_ratio(fit, found.jacobian);
+    integrate(fit, found.jacobian);
     fit.sum_of_squares = weights.empty() ? found.sum_of_squares : fit.residuals.squaredNorm();
     fit.evaluations = found.evaluations;
     fit.converged = found.converged;

@@ -71,6 +71,7 @@ struct CauseFit {
     /// How much of what was probable of the numbers beforehand the recording leaves: the logarithm of the
     /// posterior's volume over the prior's (E57), at most 0.
     double log_volume_ratio = 0.0;
+    Eigen::VectorXd deviations{};  ///< standard deviations of the coordinates, by the same method
     int evaluations = 0;
     bool converged = false;
 
@@ -162,7 +163,8 @@ class CauseFitter {
     std::map<std::size_t, double> mean_squares(const Eigen::VectorXd& residuals) const;
     double clearest_change(const Eigen::VectorXd& change) const;
     SeriesWeights balancing_weights(const Eigen::VectorXd& residuals) const;
-    double log_volume_ratio(const CauseFit& fit, const Eigen::MatrixXd& jacobian) const;
+    /// Fills in what follows from the residuals and their Jacobian.
+    void integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) const;
     /// The rows of a part.
     void set_zero(const LeftOut& part, Eigen::Ref<Eigen::MatrixXd> residuals) const;
     LeastSquaresOptions search_from(const Hypothesis& start) const;

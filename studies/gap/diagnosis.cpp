@@ -166,7 +166,9 @@ class Diagnoser {
             diagnosis.causes.push_back(fitted);
         }
         put_clearest_first(diagnosis.causes, leading.visibility);
-        for (const std::size_t k : leading.far_numbers) {
+        for (const auto& [k, probability] : leading.far_numbers) {
+            constexpr double likely = 0.5;
+            if (probability < likely) continue;
             const FloatingNumber& number = fit.bench->numbers[k];
             FittedCause far{number.effect, number.variant, number.component, number.end, {}, {}};
             if (number.kind != FloatingNumber::Kind::ratio) {

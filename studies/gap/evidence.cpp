@@ -113,6 +113,14 @@ double unknown_fraction(const ScoredFit& fit, double without_cause) {
     return left + closed > 0.0 ? left / (left + closed) : neither_leaves;
 }
 
+// The probability that an effect of a hypothesis is there, if the hypothesis holds.
+double is_there(const WeighedHypothesis& hypothesis, const std::string& effect) {
+    const auto far = hypothesis.of_the_bench.find(effect);
+    const bool is_cause =
+        std::find(hypothesis.effects.begin(), hypothesis.effects.end(), effect) != hypothesis.effects.end();
+    return is_cause || far == hypothesis.of_the_bench.end() ? 1.0 : far->second;
+}
+
 // Gives `unknown` this fraction of all shares; all of it where it stands alone.
 void give_unknown_its_fraction(std::map<std::string, double>& shares, double fraction) {
     shares.erase("unknown");
@@ -142,9 +150,12 @@ std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& ef
 
 }  // namespace
 
-std::vector<std::string> ScoredFit::of_the_bench() const {
-    std::vector<std::string> effects;
-    for (const std::size_t number : far_numbers) effects.push_back(fit.bench->numbers[number].effect);
+std::map<std::string, double> ScoredFit::of_the_bench() const {
+    std::map<std::string, double> effects;
+    for (const FarNumber& far : far_numbers) {
+        double& most = effects[fit.bench->numbers[far.number].effect];
+        most = std::max(most, far.probability);
+    }
     return effects;
 }
 
@@ -271,9 +282,12 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
     for (const WeighedHypothesis& each : weighed) {
         std::map<std::string, double> shares;
         for (const std::string& effect : each.effects) shares[effect] = 1.0;
-        if (!each.of_the_bench.empty() && shares.count("none") > 0)
-            shares["none"] = none_beside_numbers_fraction;
-        for (const std::string& effect : each.of_the_bench) shares.emplace(effect, bench_fraction);
+        double any_far = 0.0;
+        for (const auto& [effect, probability] : each.of_the_bench) {
+            shares.emplace(effect, bench_fraction * probability);
+            any_far = std::max(any_far, probability);
+        }
+        if (shares.count("none") > 0) shares["none"] = 1.0 - (1.0 - none_beside_numbers_fraction) * any_far;
         if (each.with_unknown) give_unknown_its_fraction(shares, each.unknown_fraction);
         double sum = 0.0;
         for (const auto& [effect, share] : shares) sum += share;
@@ -281,7 +295,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
             RankedEffect& ranked = ranked_by_name[effect];
             ranked.effect = effect;
             ranked.probability += each.probability * share / sum;
-            ranked.present += each.probability;
+            ranked.present += each.probability * is_there(each, effect);
             if (best.emplace(effect, Best{each.evidence, visibility_in(each, effect)}).second)
                 ranked.varies = varies_in(each, effect);
         }

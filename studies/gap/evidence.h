@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,15 @@ struct ScoredFit {
     std::vector<double> channel_misfits{};
     /// Of the bench's floating numbers those that visibly change what is measured,
     std::vector<std::size_t> visible_numbers{};
-    /// and of these those that are further from what was stated than is usual.
-    std::vector<std::size_t> far_numbers{};
+    /// and of these those that may be further from what was stated than is usual, and how probably.
+    struct FarNumber {
+        std::size_t number = 0;
+        double probability = 0.0;
+    };
+    std::vector<FarNumber> far_numbers{};
 
-    /// The effects that they stand for.
-    std::vector<std::string> of_the_bench() const;
+    /// The effects that they stand for, each by its most probable number.
+    std::map<std::string, double> of_the_bench() const;
     double evidence = 0.0;  ///< logarithm, up to a constant
 
     /// Lowers the evidence of its causes, also beside an unknown one.
@@ -55,8 +60,8 @@ struct ScoredFit {
 
 /// An explanation and how probable it is; its best fit where several variants were tried.
 struct WeighedHypothesis {
-    std::vector<std::string> effects;  ///< sorted; `unknown` stands for a cause outside the list
-    std::vector<std::string> of_the_bench;
+    std::vector<std::string> effects;            ///< sorted; `unknown` stands for a cause outside the list
+    std::map<std::string, double> of_the_bench;  ///< effects of far numbers, if the hypothesis holds
     double probability = 0.0;
     double evidence = 0.0;
     const ScoredFit* fit = nullptr;

@@ -39,7 +39,7 @@ Eigen::VectorXd CauseFitter::prior_residuals(const Hypothesis& hypothesis,
 }
 
 // E57. The Jacobian is that of the last step, with the weights of the search.
-double CauseFitter::log_volume_ratio(const CauseFit& fit, const Eigen::MatrixXd& jacobian) const {
+void CauseFitter::integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) const {
     const auto data_rows = static_cast<Eigen::Index>(data_rows_);
     Eigen::VectorXd widths(fit.coordinates.size());
     Eigen::Index row = 0;
@@ -59,8 +59,10 @@ double CauseFitter::log_volume_ratio(const CauseFit& fit, const Eigen::MatrixXd&
     const Eigen::MatrixXd told = jacobian.topRows(data_rows) * widths.asDiagonal();
     const Eigen::MatrixXd information = told.transpose() * told / (prior_weight_ * prior_weight_ * scale);
     const Eigen::Index count = widths.size();
-    const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(count, count) + information);
-    return log_ratio - factor.matrixLLT().diagonal().array().log().sum();
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
+    const Eigen::LLT<Eigen::MatrixXd> factor(identity + information);
+    fit.log_volume_ratio = log_ratio - factor.matrixLLT().diagonal().array().log().sum();
+    fit.deviations = (factor.solve(identity).diagonal().array().sqrt() * widths.array().abs()).matrix();
 }
 
 Visibility CauseFitter::visibility(const CauseFit& fit) const {

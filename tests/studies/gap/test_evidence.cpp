@@ -249,6 +249,47 @@ TEST(Evidence, AnUnknownCauseHasTheShareOfTheGapThatTheNamedOneLeaves) {
                 0.95 * 0.75 + 0.05 / 3.0, 1e-9);
 }
 
+// A fit of the bench as built, which left the friction far off with this probability.
+TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
+    static const BenchKnowledge bench = [] {
+        BenchKnowledge built = measured_bench();
+        built.numbers.push_back({.name = "zero", .effect = "sensor_offset"});
+        return built;
+    }();
+    const Known known;
+    const auto ranked_where_far = [&](double probability) {
+        ScoredFit nothing = fitted(evidence, {&known.none}, 1.0, {0.0});
+        nothing.fit.bench = &bench;
+        nothing.far_numbers = {{0, probability}};
+        return ranked_by(evidence, {known.none, known.drag}, {nothing});
+    };
+    const auto present = [](const std::vector<RankedEffect>& ranked, const std::string& effect) {
+        for (const RankedEffect& each : ranked) {
+            if (each.effect == effect) return each.present;
+        }
+        return 0.0;
+    };
+    EXPECT_GT(present(ranked_where_far(1.0), "param_mu"), 0.9);
+    EXPECT_NEAR(present(ranked_where_far(0.3), "param_mu"), 0.3, 0.05);
+    EXPECT_GT(probability(ranked_where_far(0.3), "none"), probability(ranked_where_far(0.9), "none"));
+    EXPECT_EQ(ranked_where_far(0.3).front().effect, "none");
+}
+
+TEST(FloatingNumber, IsFarAsFarAsTheRecordingTells) {
+    FloatingNumber friction;
+    friction.prior_std = 0.2;
+    friction.measured_std = 0.015;
+    EXPECT_GT(friction.is_far(0.1, 0.005), 0.99);        // told precisely, a tenth off
+    EXPECT_LT(friction.is_far(0.01, 0.005), 0.1);        // within what a measurement may be off by
+    EXPECT_NEAR(friction.is_far(0.02, 0.2), 0.5, 0.05);  // nothing is told
+    EXPECT_LT(friction.is_far(0.05, 0.07), 0.4);         // as stated, for all that is told
+    EXPECT_GT(friction.is_far(0.2, 0.05), friction.is_far(0.1, 0.05));
+    friction.measured_std = 0.0;
+    EXPECT_EQ(friction.is_far(0.01, 0.2), 1.0);
+    friction.usual = 0.02;
+    EXPECT_EQ(friction.is_far(-0.01, 0.2), 0.0);
+}
+
 TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
     const Known known;
     const ScoredFit single = fitted(evidence, {&known.drag}, 2.0, {6.0});
