@@ -18,6 +18,8 @@ struct EffectDescription {
     std::string end{};  ///< "motor", "load" or empty
     std::string equation{};
     std::string meaning{};
+    /// The name that an answer gives it where its own is none of the canonical ones; empty: its own.
+    std::string answered_as{};
     bool needs_pair = false;         ///< cannot be seen on a single cable with its far end held
     bool is_rare = false;            ///< parts are made to be without it
     bool changes_the_cable = false;  ///< can be part of a placement study's true cable
@@ -50,7 +52,7 @@ struct EffectParameter {
     /// The effect is an oscillation whose frequency it sets: only close to its value does it explain
     /// anything.
     bool resonates = false;
-    bool is_detail = false;  ///< a further size: a search begins without it
+    bool is_detail = false;          ///< a further size: a search begins without it
     std::optional<double> absent{};  ///< value without the effect; none: the default of the effect's struct
 };
 

@@ -16,11 +16,13 @@ const std::vector<KnownCause>& known_causes() {
         };
         for (const Effect& effect : effect_catalogue()) {
             if (causes.back().name != effect.name)
-                causes.push_back({effect.name, effect.title, effect.family, effect.confusable_with});
+                causes.push_back(
+                    {effect.name, effect.title, effect.family, effect.confusable_with, effect.answered_as});
         }
         for (const SensorFault& fault : sensor_fault_catalogue()) {
             if (fault.variant.empty())
-                causes.push_back({fault.name, fault.title, "sensor", fault.confusable_with});
+                causes.push_back(
+                    {fault.name, fault.title, "sensor", fault.confusable_with, fault.answered_as});
         }
         return causes;
     }();
@@ -37,6 +39,11 @@ const KnownCause* find_cause(std::string_view name) {
 std::string cause_title(std::string_view name) {
     const KnownCause* cause = find_cause(name);
     return cause != nullptr ? cause->title : std::string(name);
+}
+
+std::string answered_name(const std::string& name) {
+    const KnownCause* cause = find_cause(name);
+    return cause != nullptr && !cause->answered_as.empty() ? cause->answered_as : name;
 }
 
 std::vector<std::string> confusable_causes(std::string_view name) {

@@ -12,6 +12,7 @@ struct KnownCause {
     std::string title;
     std::string family;
     std::vector<std::string> confusable_with{};  ///< see EffectDescription
+    std::string answered_as{};                   ///< see EffectDescription
 };
 
 /// Wrong nominal numbers, then the effects, then the sensor faults, each in the order of its catalogue.
@@ -22,6 +23,9 @@ const KnownCause* find_cause(std::string_view name);
 
 /// The title; the name itself where no catalogue has it ("none", "unknown").
 std::string cause_title(std::string_view name);
+
+/// The canonical name that an answer gives a cause: its own, or that of a cause outside the list ("unknown").
+std::string answered_name(const std::string& name);
 
 /// Names of the causes whose residuals look almost like this one's, whichever row states the pair.
 std::vector<std::string> confusable_causes(std::string_view name);

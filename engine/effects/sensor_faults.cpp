@@ -60,6 +60,7 @@ std::vector<double> sensed(std::vector<double> signal, const SensorFaults& fault
         double& value = signal[sample];
         value =
             faults.gain * value + faults.zero_at(session_time_s + static_cast<double>(sample) * time_step_s);
+        if (faults.limit > 0.0) value = std::clamp(value, -faults.limit, faults.limit);
         if (faults.step > 0.0) value = faults.step * std::round(value / faults.step);
     }
     return signal;
@@ -107,6 +108,13 @@ const std::vector<SensorFault>& sensor_fault_catalogue() {
          .typical = 0.05,
          .typical_of = TypicalOf::channel_span,
          .value = &SensorFaults::step},
+        {.name = "sensor_clipping",
+         .title = "sensor clipping",
+         .number = "limit",
+         .size = Size::limit,
+         .typical_of = TypicalOf::channel_span,
+         .value = &SensorFaults::limit,
+         .answered_as = "unknown"},
         {.name = "sensor_hysteresis",
          .title = "sensor hysteresis",
          .typical = 0.03,

@@ -6,7 +6,7 @@
 namespace capstan {
 
 /// What a faulty sensor or its wiring makes of a true signal, in this order: hysteresis, lag, delay,
-/// gain, offset and drift, quantisation. By default the sensor has no fault.
+/// gain, offset and drift, clipping, quantisation. By default the sensor has no fault.
 struct SensorFaults {
     double hysteresis = 0.0;  ///< half the width of the loop that the reading makes of a slow cycle
     double lag_s = 0.0;       ///< time constant of a first-order low-pass
@@ -14,11 +14,12 @@ struct SensorFaults {
     double gain = 1.0;
     double offset = 0.0;
     double drift_by_100_s = 0.0;  ///< how far the offset has moved 100 s after the session began
+    double limit = 0.0;           ///< no reading is larger, either way; 0: none
     double step = 0.0;            ///< readings are multiples of it
 
     bool none() const {
         return hysteresis == 0.0 && lag_s == 0.0 && delay_s == 0.0 && gain == 1.0 && offset == 0.0 &&
-               drift_by_100_s == 0.0 && step == 0.0;
+               drift_by_100_s == 0.0 && limit == 0.0 && step == 0.0;
     }
     /// What is read of a signal that is 0.
     double zero_at(double session_time_s) const {
@@ -34,7 +35,7 @@ std::vector<double> sensed(std::vector<double> signal, const SensorFaults& fault
 
 /// One kind of fault.
 struct SensorFault {
-    enum class Size { positive, either_sign, lattice };
+    enum class Size { positive, either_sign, lattice, limit };
     enum class TypicalOf { absolute, channel_span, time_step };
 
     std::string name;       ///< canonical
@@ -47,6 +48,7 @@ struct SensorFault {
     TypicalOf typical_of = TypicalOf::absolute;  ///< what `typical` is a multiple of
     double SensorFaults::*value = nullptr;
     std::vector<std::string> confusable_with{};  ///< see EffectDescription
+    std::string answered_as{};                   ///< see EffectDescription
 
     /// The variant of the cause that this fault is at a channel.
     std::string variant_at(const std::string& channel) const {

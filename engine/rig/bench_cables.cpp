@@ -22,7 +22,8 @@ BenchEffects with_numerical_presliding(BenchEffects effects) {
 // Whether a law changes the friction coefficient from step to step.
 bool changes_friction(const auto& law) {
     if constexpr (
-        requires { laws::added_friction(law, 0.0); } || requires { laws::friction_factor(law, 0.0); })
+        requires { laws::added_friction(law, 0.0); } || requires { laws::friction_factor(law, 0.0); } ||
+        requires { laws::direction_factor(law, 0.0); } || requires { laws::session_factor(law, 0.0); })
         return law.is_active();
     return false;
 }
@@ -156,9 +157,9 @@ double BenchCables::rest_displacement_m(int bench, double tension_N) const {
     return -rest.load_compliance_m_per_N * tension_N - (group_.nodes - 1) * stretched_m(rest, tension_N);
 }
 
-void BenchCables::begin(const LaneFlags& active, const LaneValues& load_angle_rad, double time_step_s) {
+void BenchCables::begin(const LaneFlags& active, const CablesMoment& moment, double time_step_s) {
     group_.time_step_s = time_step_s;
-    begin_cables(group_, active, load_angle_rad);
+    begin_cables(group_, active, moment);
 }
 
 BenchCables::Ends BenchCables::linearise(const LaneFlags& active, const EndPlaces (&motor)[max_cables],

@@ -195,7 +195,7 @@ void linearise(const CablesGroup& group, const LaneFlags& active, const EndPlace
     }
 }
 
-void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& load_angle_rad) {
+void begin(const CablesGroup& group, const LaneFlags& active, const CablesMoment& moment) {
     for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
         const Which which = flags_at(active, lane);
         if (none_of(which)) continue;
@@ -215,13 +215,14 @@ void begin(const CablesGroup& group, const LaneFlags& active, const LaneValues& 
                     lanes_of(0.5) * (load(cable.before_tension_N[node < last ? node : last - 1], lane) +
                                      load(cable.before_tension_N[node > 0 ? node - 1 : 0], lane));
                 const Lanes wrap_rad =
-                    hn::Max(lanes_of(0.0),
-                            load(cable.wrap_rad[node], lane) +
-                                load(load_angle_rad, lane) * load(cable.wrap_per_load_angle[node], lane));
+                    hn::Max(lanes_of(0.0), load(cable.wrap_rad[node], lane) +
+                                               load(moment.load_angle_rad, lane) *
+                                                   load(cable.wrap_per_load_angle[node], lane));
                 const double span_m = (node == 0 || node == last ? 0.5 : 1.0) * group.segment_m;
-                const Lanes friction =
-                    mechanics.friction(wrap_rad, load(cable.lagging_speed_m_per_s[node], lane),
-                                       tension_N * wrap_rad / lanes_of(span_m));
+                const Sliding sliding = {
+                    load(cable.lagging_speed_m_per_s[node], lane), tension_N * wrap_rad / lanes_of(span_m),
+                    load(cable.before_bend[node], lane), load(moment.session_time_s, lane)};
+                const Lanes friction = mechanics.friction(wrap_rad, sliding);
                 const Lanes constant = load(cable.friction[node], lane);
                 store(hn::IfThenElse(mechanics.varies, friction, constant), cable.friction[node], lane);
             }
@@ -330,10 +331,10 @@ HWY_EXPORT(keep);
 
 }  // namespace bench
 
-void begin_cables(const CablesGroup& group, const LaneFlags& active, const LaneValues& load_angle_rad) {
+void begin_cables(const CablesGroup& group, const LaneFlags& active, const CablesMoment& moment) {
     using namespace bench;
     static const auto chosen = for_this_processor(+[] { return &HWY_DYNAMIC_DISPATCH(begin); });
-    chosen(group, active, load_angle_rad);
+    chosen(group, active, moment);
 }
 
 void linearise_cables(const CablesGroup& group, const LaneFlags& active, const EndPlaces* motor,

@@ -105,14 +105,20 @@ struct CablesGroup {
     CableLawParameters laws;
     LaneValues stretch_m_per_N;  ///< of a segment, by its own elasticity
     LaneValues dynamic_friction;
-    LaneValues varying_friction;        ///< not 0: Stribeck, load dependence or a bend that moves
+    LaneValues varying_friction;        ///< not 0: a law of the friction coefficient, or a bend that moves
     bool any_varying_friction = false;  ///< of any bench
     CableLanes cable[max_cables];
     FreePulleys free;  ///< of any bench
 };
 
-/// Begins a step of these benches where the last one ended; `load_angle_rad` for bends that follow it.
-void begin_cables(const CablesGroup& group, const LaneFlags& active, const LaneValues& load_angle_rad);
+/// What friction depends on beside the cables themselves.
+struct CablesMoment {
+    LaneValues load_angle_rad;  ///< for bends that follow it
+    LaneValues session_time_s;
+};
+
+/// Begins a step of these benches where the last one ended.
+void begin_cables(const CablesGroup& group, const LaneFlags& active, const CablesMoment& moment);
 
 /// Linearises about the present guess and solves for the conditions of both ends.
 void linearise_cables(const CablesGroup& group, const LaneFlags& active, const EndPlaces* motor,

@@ -89,12 +89,15 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
 }
 
 void BenchSimulations::begin(EachInputs inputs, const LaneFlags& active) {
-    LaneValues load_angle_rad;
+    CablesMoment moment;
     for (int lane = 0; lane < count_; ++lane) {
-        const auto* given = std::get_if<LoadAngle>(&inputs[static_cast<std::size_t>(lane)].load);
-        load_angle_rad.of[lane] = given != nullptr ? given->angle_rad : pulleys(lane).angles().load_rad;
+        const BenchInputs& its = inputs[static_cast<std::size_t>(lane)];
+        const auto* given = std::get_if<LoadAngle>(&its.load);
+        moment.load_angle_rad.of[lane] =
+            given != nullptr ? given->angle_rad : pulleys(lane).angles().load_rad;
+        moment.session_time_s.of[lane] = its.session_time_s;
     }
-    cables_.begin(active, load_angle_rad, inputs.front().time_step_s);
+    cables_.begin(active, moment, inputs.front().time_step_s);
 }
 
 // Where the motor end of a bench's cables rests follows the pretension (E33).

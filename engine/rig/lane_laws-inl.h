@@ -180,12 +180,20 @@ struct AddedFriction {
         return lanes_of(0.0);
     }
 };
+// Where a piece of cable is pressed and has slid, and when.
+struct Sliding {
+    Lanes lagging_speed_m_per_s, normal_force_N_per_m, bend, session_time_s;
+};
 struct FrictionFactor {
-    Lanes normal_force_N_per_m;
+    const Sliding& sliding;
     template <class Law>
     HWY_INLINE Lanes operator()(const Law& law) const {
-        if constexpr (requires { laws::friction_factor(law, normal_force_N_per_m); })
-            return laws::friction_factor(law, normal_force_N_per_m);
+        if constexpr (requires { laws::friction_factor(law, sliding.normal_force_N_per_m); })
+            return laws::friction_factor(law, sliding.normal_force_N_per_m);
+        if constexpr (requires { laws::direction_factor(law, sliding.bend); })
+            return laws::direction_factor(law, sliding.bend);
+        if constexpr (requires { laws::session_factor(law, sliding.session_time_s); })
+            return laws::session_factor(law, sliding.session_time_s);
         return lanes_of(1.0);
     }
 };
@@ -223,9 +231,9 @@ struct LaneCable : LaneLaws<CableLaws> {
     HWY_INLINE Lanes constant_drag_N(double span_m) const { return sum(ConstantDrag{lanes_of(span_m)}); }
 
     // tanh(mu theta / 2) of E18.
-    HWY_INLINE Lanes friction(Lanes wrap_rad, Lanes lagging_speed, Lanes normal_force_N_per_m) const {
-        const Lanes coefficient = dynamic_friction + sum(AddedFriction{lagging_speed});
-        const Lanes factor = product(FrictionFactor{normal_force_N_per_m});
+    HWY_INLINE Lanes friction(Lanes wrap_rad, const Sliding& sliding) const {
+        const Lanes coefficient = dynamic_friction + sum(AddedFriction{sliding.lagging_speed_m_per_s});
+        const Lanes factor = product(FrictionFactor{sliding});
         return hn::Tanh(BenchTag(), lanes_of(0.5) * coefficient * factor * wrap_rad);
     }
 };

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "capstan/answers/recording_answers.h"
 #include "capstan/effects/known_causes.h"
@@ -89,16 +91,33 @@ Data candidates_data(const DiagnosisRecord& diagnosis) {
     return list;
 }
 
+// A diagnosis that was stored by an early version does not say whether an effect is present at all.
+constexpr double not_stated = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<gap::RankedEffect> effects_of(const DiagnosisRecord& diagnosis) {
+    std::vector<gap::RankedEffect> effects;
+    for (const auto& each : diagnosis.effects)
+        effects.push_back({each.effect, each.probability_fraction, each.present_fraction.value_or(not_stated),
+                           each.varies});
+    return effects;
+}
+
+Data ranked_data(const std::vector<gap::RankedEffect>& effects) {
+    Data list = Data::list();
+    for (const gap::RankedEffect& each : effects) {
+        Data entry = {{"effect", each.effect},
+                      {"probability", each.probability},
+                      {"present", std::isnan(each.present) ? Data() : Data(each.present)}};
+        if (!each.varies.empty()) entry["varies"] = each.varies;
+        list.push_back(entry);
+    }
+    return list;
+}
+
 // The form that a judge reads (case, ranked, where, RMS before and after) and everything else.
 Data values_of(const DiagnosisRecord& diagnosis) {
-    Data data = {{"case", diagnosis.recording}, {"ranked", Data::list()}};
-    for (const auto& each : diagnosis.effects) {
-        Data entry = {{"effect", each.effect},
-                      {"probability", each.probability_fraction},
-                      {"present", each.present_fraction}};
-        if (!each.varies.empty()) entry["varies"] = each.varies;
-        data["ranked"].push_back(entry);
-    }
+    Data data = {{"case", diagnosis.recording},
+                 {"ranked", ranked_data(gap::in_answered_names(effects_of(diagnosis)))}};
     data["where"] = {{"component", text_or_nothing(diagnosis.component)},
                      {"end", text_or_nothing(diagnosis.cable_end)},
                      {"s_m", diagnosis.position_m},
@@ -193,7 +212,7 @@ reports::AnswerSection verdict_section(const DiagnosisRecord& diagnosis, const D
                     {cause_column("effect"),
                      {"probability", "probability", "", ".2f"},
                      {"present", "present at all", "", ".2f"}},
-                    *values.find("ranked"),
+                    ranked_data(effects_of(diagnosis)),
                     likely_effects(diagnosis)},
                    {"fitted",
                     "Fitted numbers",

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capstan/cable/invalid_input.h"
+#include "capstan/effects/known_causes.h"
 #include "capstan/platform/files.h"
 #include "capstan/recording/json_object.h"
 
@@ -56,8 +57,10 @@ AnsweredEffect answered(const Ranked& each) {
 CaseAnswer answer_of(const std::string& name, const gap::Diagnosis& diagnosis) {
     CaseAnswer answer;
     answer.name = name;
-    for (const gap::RankedEffect& each : diagnosis.ranked) answer.ranked.push_back(answered(each));
-    for (const gap::FittedCause& cause : diagnosis.causes) answer.named.push_back(cause.effect);
+    for (const gap::RankedEffect& each : gap::in_answered_names(diagnosis.ranked))
+        answer.ranked.push_back(answered(each));
+    for (const gap::FittedCause& cause : diagnosis.causes)
+        answer.named.push_back(answered_name(cause.effect));
     answer.component = diagnosis.component;
     answer.end = diagnosis.end;
     answer.position_m = diagnosis.position_m;

@@ -25,6 +25,7 @@ CandidateCause plain(const std::string& effect, const std::string& component) {
     cause.effect = effect;
     const KnownCause* known = find_cause(effect);
     cause.family = known != nullptr ? known->family : effect;
+    cause.is_outside_the_list = known != nullptr && known->answered_as == "unknown";
     cause.component = component;
     cause.apply = [](BenchNumbers&, Values) {};
     cause.is_exact = effect.starts_with("param_") || effect == "sensor_offset" || effect == "sensor_gain";
@@ -107,7 +108,9 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
     cause.variant = effect.variant;
     cause.end = effect.end;
     cause.is_rare = effect.is_rare;
-    cause.is_sought_last = effect.name == "pulley_friction" && effect.parameters.front().name == "per_torque";
+    cause.is_sought_last =
+        (effect.name == "pulley_friction" && effect.parameters.front().name == "per_torque") ||
+        cause.is_outside_the_list;
     std::vector<double> values = effect.absent;
     std::vector<std::size_t> open;  // parameters
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
@@ -145,16 +148,36 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
     return cause;
 }
 
-// Faults of one channel's sensor. `lattice`: the step on which all its values lie, where that shows; without
-// it readings are not coarse.
-std::vector<CandidateCause> sensor_causes(const Channel& described, double span, double time_step_s,
-                                          const std::optional<double>& lattice) {
+// What a channel's values show of its sensor.
+struct Readings {
+    double span = 0.0;
+    double largest = 0.0;           // either way, apart from noise
+    std::optional<double> lattice;  // the step on which all values lie, where that shows
+};
+
+Readings readings_of(const Recording& recording, std::size_t channel) {
+    // Of a thousand samples with normal noise one reads this much more.
+    constexpr double noise_beyond = 3.0;
+    const ValueRange range = range_of(recording, channel);
+    const double largest = std::max(std::abs(range.low), std::abs(range.high));
+    return {largest_span(recording, channel),
+            largest - noise_beyond * recording.channels[channel].noise_std.value_or(0.0),
+            unstated_step(recording, channel)};
+}
+
+// Faults of one channel's sensor. Without a lattice its readings are not coarse. One that clips does so at
+// its largest reading.
+std::vector<CandidateCause> sensor_causes(const Channel& described, const Readings& readings,
+                                          double time_step_s) {
     const std::string& channel = described.name;
+    const double span = readings.span;
+    const std::optional<double>& lattice = readings.lattice;
     const auto kind_of_fault = [](SensorFault::Size size) {
         switch (size) {
             case SensorFault::Size::either_sign:
                 return OpenNumber::Kind::signed_size;
             case SensorFault::Size::lattice:
+            case SensorFault::Size::limit:
                 return OpenNumber::Kind::step;
             case SensorFault::Size::positive:
                 break;
@@ -176,11 +199,16 @@ std::vector<CandidateCause> sensor_causes(const Channel& described, double span,
     for (const SensorFault& fault : sensor_fault_catalogue()) {
         if (fault.size == SensorFault::Size::lattice && !lattice) continue;
         const bool is_drift = fault.value == &SensorFaults::drift_by_100_s;
-        if (is_drift && described.unit == "rad") continue;  // an encoder counts
+        const bool is_limit = fault.size == SensorFault::Size::limit;
+        // An encoder counts, and counts on.
+        if ((is_drift || is_limit) && described.unit == "rad") continue;
+        if (is_limit && readings.largest <= 0.0) continue;
         CandidateCause cause = plain(fault.name, "sensor:" + channel);
         cause.variant = fault.variant_at(channel);
         cause.is_exact = cause.is_exact && !is_drift;
-        cause.is_of_runs = cause.is_rare = cause.is_sought_last = is_drift;
+        cause.is_of_runs = is_drift;
+        cause.is_rare = is_drift;
+        cause.is_sought_last = is_drift || is_limit;
         const bool is_in_channel_unit = fault.typical_of == SensorFault::TypicalOf::channel_span;
         cause.numbers = {{fault.number, is_in_channel_unit ? described.unit : fault.unit,
                           kind_of_fault(fault.size), fault.typical * unit_of_typical(fault.typical_of),
@@ -188,6 +216,10 @@ std::vector<CandidateCause> sensor_causes(const Channel& described, double span,
         if (lattice && fault.size == SensorFault::Size::lattice) {
             cause.numbers.front().low = cause.numbers.front().high = *lattice;
             cause.is_seen = true;
+        }
+        if (is_limit) {
+            OpenNumber& limit = cause.numbers.front();
+            limit.typical = limit.low = limit.high = readings.largest;
         }
         cause.apply = [channel, value = fault.value](BenchNumbers& numbers, Values values) {
             numbers.sensor_faults[channel].*value = values[0];
@@ -334,8 +366,8 @@ std::vector<CandidateCause> candidate_causes(const Recording& recording) {
         if (!recording.is_predicted(name) || (name == channel::load_angle && !recording.nominal_is_fitted))
             continue;
         for (CandidateCause& cause :
-             sensor_causes(recording.channels[channel], largest_span(recording, channel),
-                           1.0 / recording.sample_rate_Hz, unstated_step(recording, channel)))
+             sensor_causes(recording.channels[channel], readings_of(recording, channel),
+                           1.0 / recording.sample_rate_Hz))
             causes.push_back(std::move(cause));
     }
     for (CandidateCause& cause : causes_of_runs(recording)) causes.push_back(std::move(cause));

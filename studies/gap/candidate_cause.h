@@ -68,6 +68,8 @@ struct CandidateCause {
     bool is_exact = false;
     /// The values themselves show it, as those of a coarse channel lie on a lattice. It is not inferred.
     bool is_seen = false;
+    /// An answer has no name for it but `unknown` (EffectDescription).
+    bool is_outside_the_list = false;
     /// Parts are made to be without it (EffectDescription).
     bool is_rare = false;
     /// It resembles what others do and few recordings have it, so that it is sought once these have been.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "capstan/effects/known_causes.h"
+
 namespace capstan::gap {
 
 namespace {
@@ -223,6 +225,7 @@ double Evidence::priors(const ScoredFit& fit) const {
         evidence -= invisible(fit.visibility[k]);
         if (cause.family == "sensor") evidence -= sensor_fault_penalty;
         if (cause.is_rare) evidence -= rare_cause_penalty;
+        if (cause.is_outside_the_list) evidence -= unknown_penalty;
         const double law = clearest_law(fit, k);
         if (law > 0.0) faintest = std::min(faintest, fit.visibility[k] / law);
     }
@@ -320,6 +323,30 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
                                               : of_a.visibility > of_b.visibility;
     });
     return ranked;
+}
+
+std::vector<RankedEffect> in_answered_names(const std::vector<RankedEffect>& ranked) {
+    std::vector<RankedEffect> answered;
+    for (const RankedEffect& each : ranked) {
+        if (answered_name(each.effect) == each.effect) answered.push_back(each);
+    }
+    for (const RankedEffect& each : ranked) {
+        const std::string name = answered_name(each.effect);
+        if (name == each.effect) continue;
+        RankedEffect together{name, each.probability, each.present};
+        const auto same = std::find_if(answered.begin(), answered.end(),
+                                       [&](const RankedEffect& other) { return other.effect == name; });
+        if (same != answered.end()) {
+            together.probability += same->probability;
+            together.present = std::min(1.0, together.present + same->present);
+            answered.erase(same);
+        }
+        answered.insert(
+            std::find_if(answered.begin(), answered.end(),
+                         [&](const RankedEffect& other) { return other.probability < together.probability; }),
+            together);
+    }
+    return answered;
 }
 
 bool worth_a_further_cause(const ScoredFit& fit) {

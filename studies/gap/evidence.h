@@ -19,6 +19,9 @@ struct RankedEffect {
     std::string varies{};      ///< the condition of the runs that its numbers follow; empty: none
 };
 
+/// The same in the names that an answer gives: an effect that has no canonical name is part of `unknown`.
+std::vector<RankedEffect> in_answered_names(const std::vector<RankedEffect>& ranked);
+
 /// A law of the catalogue is an idealisation, good to this part of what its cause does.
 inline constexpr double law_error = 0.1;
 

@@ -34,6 +34,15 @@ TEST(KnownCauses, ConfusableMeansConfusableBothWays) {
               (std::vector<std::string>{"environment_coupling", "cable_stiffness_nonlinear"}));
 }
 
+TEST(KnownCauses, AnAnswerNamesWhatIsNotCanonicalUnknown) {
+    for (const char* cause : {"directional_friction", "friction_drift", "sensor_clipping"}) {
+        ASSERT_NE(find_cause(cause), nullptr) << cause;
+        EXPECT_EQ(answered_name(cause), "unknown");
+    }
+    EXPECT_EQ(answered_name("stribeck"), "stribeck");
+    EXPECT_EQ(answered_name("none"), "none");
+}
+
 TEST(KnownCauses, ANameOutsideTheCataloguesIsItsOwnTitle) {
     EXPECT_EQ(cause_title("viscous_friction"), "viscous friction");
     EXPECT_EQ(cause_title("unknown"), "unknown");

@@ -24,7 +24,7 @@ TEST(SensorFaults, NoneChangesNoBit) {
 }
 
 TEST(SensorFaults, ASingleSampleStaysUnchanged) {
-    SensorFaults all{0.5, 0.1, 0.03, 1.1, 0.2, 0.3, 0.25};
+    SensorFaults all{0.5, 0.1, 0.03, 1.1, 0.2, 0.3, 9.0, 0.25};
     EXPECT_EQ(sensed({4.0}, all, time_step_s), std::vector<double>{4.0});
     EXPECT_TRUE(sensed({}, all, time_step_s).empty());
 }
@@ -47,6 +47,14 @@ TEST(SensorFaults, ADriftMovesTheZeroWithTheTimeOfTheSession) {
     const std::vector<double> readings = sensed({3.0, 3.0, 3.0}, faults, time_step_s, run_began_s);
     for (std::size_t k = 0; k < readings.size(); ++k)
         EXPECT_NEAR(readings[k], 3.0 - 0.5 + 1.0 + 0.02 * time_step_s * static_cast<double>(k), 1e-12);
+}
+
+TEST(SensorFaults, AClippedReadingIsNoLargerThanItsLimitEitherWay) {
+    SensorFaults faults;
+    faults.gain = 2.0;
+    faults.limit = 3.0;
+    EXPECT_EQ(sensed({0.5, 1.4, 1.6, 9.0, -1.4, -9.0}, faults, time_step_s),
+              (std::vector<double>{1.0, 2.8, 3.0, 3.0, -2.8, -3.0}));
 }
 
 TEST(SensorFaults, QuantisedReadingsAreTheNearestMultiples) {

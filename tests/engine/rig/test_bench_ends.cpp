@@ -277,6 +277,48 @@ TEST(DrivenMotor, ThroughAGearPullsTheCablesWithWhatItLeaves) {
     }
 }
 
+// Friction by what the cable does.
+
+BenchSimulation cable_held_at_its_end(const BenchEffects& effects, double friction) {
+    return {{cable_with(30, friction), CableArrangement::single, pulleys, {}}, effects};
+}
+
+// From rest the cable slides one way only, as that of a bench with the friction of this way.
+TEST(DirectionalFriction, IsThatOfTheWayThatTheCableSlides) {
+    constexpr double friction = 0.21;
+    constexpr double difference = 0.3;
+    BenchEffects effects;
+    effects.of<DirectionalFriction>().difference = difference;
+    for (const double way : {1.0, -1.0}) {  // the motor pulls the cable in, or lets it out
+        BenchSimulation directional = cable_held_at_its_end(effects, friction);
+        BenchSimulation same = cable_held_at_its_end({}, friction * (1.0 - way * difference));
+        for (int step = 1; step <= 40; ++step) {
+            const BenchInputs inputs{MotorAngle{way * 0.005 * step}, LoadAngle{0.0}, time_step_s, 0.0};
+            directional.advance(inputs);
+            same.advance(inputs);
+        }
+        EXPECT_NEAR(directional.load_tension_N(0), same.load_tension_N(0), 2e-3) << way;
+        EXPECT_NEAR(directional.motor_tension_N(0), same.motor_tension_N(0), 2e-3) << way;
+    }
+}
+
+TEST(FrictionDrift, EndsAtTheFrictionThatItSettlesAt) {
+    constexpr double friction = 0.21;
+    BenchEffects effects;
+    effects.of<FrictionDrift>() = {.change = 0.5, .settling_s = 2.0};
+    const auto torque_Nm = [&](const BenchEffects& with, double its_friction, double session_time_s) {
+        BenchSimulation bench = pair_with(with, its_friction);
+        for (int step = 1; step <= 40; ++step)
+            bench.advance({MotorAngle{0.01 * step}, LoadAngle{0.0}, time_step_s, session_time_s});
+        return bench.load_torque_Nm();
+    };
+    const double early_Nm = torque_Nm(effects, friction, 0.0);
+    const double late_Nm = torque_Nm(effects, friction, 200.0);
+    EXPECT_NEAR(early_Nm, torque_Nm({}, friction, 0.0), 1e-9);
+    EXPECT_NEAR(late_Nm, torque_Nm({}, 1.5 * friction, 200.0), 1e-6);
+    EXPECT_LT(late_Nm, 0.95 * early_Nm);
+}
+
 // How much of the cable slides.
 
 // Where it reels in as much as a round pulley, the cables cannot tell the two apart, and its torque is that

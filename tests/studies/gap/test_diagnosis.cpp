@@ -208,6 +208,39 @@ TEST(Diagnosis, NamesTheFrictionOfAGearAsFrictionAtTheMotor) {
     EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, 0.15, 0.03);
 }
 
+TEST(Diagnosis, NamesFrictionThatDiffersByDirection) {
+    BenchNumbers numbers;
+    numbers.effects.of<DirectionalFriction>().difference = -0.25;
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    ASSERT_EQ(diagnosis.causes.size(), 1u);
+    EXPECT_EQ(diagnosis.causes.front().effect, "directional_friction");
+    EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, -0.25, 0.03);
+}
+
+TEST(Diagnosis, NamesFrictionThatSettlesDuringTheSession) {
+    BenchNumbers numbers;
+    numbers.effects.of<FrictionDrift>() = {.change = 0.8, .settling_s = 5.0};
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    ASSERT_EQ(diagnosis.causes.size(), 1u);
+    EXPECT_EQ(diagnosis.causes.front().effect, "friction_drift");
+    EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, 0.8, 0.1);
+}
+
+TEST(Diagnosis, NamesAClippedSensorAndItsLimit) {
+    Recording recording = session_of({});
+    const auto torque = static_cast<std::size_t>(*recording.channel("load_torque"));
+    double largest_Nm = 0.0;
+    for (const RecordedRun& run : recording.runs)
+        for (const double value : run.values[torque]) largest_Nm = std::max(largest_Nm, std::abs(value));
+    BenchNumbers numbers;
+    numbers.sensor_faults["load_torque"].limit = 0.7 * largest_Nm;
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    ASSERT_EQ(diagnosis.causes.size(), 1u);
+    EXPECT_EQ(diagnosis.causes.front().effect, "sensor_clipping");
+    EXPECT_EQ(diagnosis.component, "sensor:load_torque");
+    EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, 0.7 * largest_Nm, 0.05 * largest_Nm);
+}
+
 BenchNumbers rough_numbers() {
     BenchNumbers numbers;
     numbers.friction_ratio = 1.35;

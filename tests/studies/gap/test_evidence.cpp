@@ -249,6 +249,21 @@ TEST(Evidence, AnUnknownCauseHasTheShareOfTheGapThatTheNamedOneLeaves) {
                 0.95 * 0.75 + 0.05 / 3.0, 1e-9);
 }
 
+TEST(Evidence, AnAnswerCountsCausesOutsideTheCanonicalListAsUnknown) {
+    const std::vector<RankedEffect> ranked = {{"directional_friction", 0.4, 0.5},
+                                              {"stribeck", 0.35, 0.6, "roll_deg"},
+                                              {"unknown", 0.2, 0.25},
+                                              {"none", 0.05, 0.05}};
+    const std::vector<RankedEffect> answered = in_answered_names(ranked);
+    ASSERT_EQ(answered.size(), 3U);
+    EXPECT_EQ(answered[0].effect, "unknown");
+    EXPECT_DOUBLE_EQ(answered[0].probability, 0.6);
+    EXPECT_DOUBLE_EQ(answered[0].present, 0.75);
+    EXPECT_EQ(answered[1].effect, "stribeck");
+    EXPECT_EQ(answered[1].varies, "roll_deg");
+    EXPECT_EQ(answered[2].effect, "none");
+}
+
 // A fit of the bench as built, which left the friction far off with this probability.
 TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
     static const BenchKnowledge bench = [] {
