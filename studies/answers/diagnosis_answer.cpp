@@ -117,7 +117,8 @@ Data ranked_data(const std::vector<gap::RankedEffect>& effects) {
 // The form that a judge reads (case, ranked, where, RMS before and after) and everything else.
 Data values_of(const DiagnosisRecord& diagnosis) {
     Data data = {{"case", diagnosis.recording},
-                 {"ranked", ranked_data(gap::in_answered_names(effects_of(diagnosis)))}};
+                 {"ranked", ranked_data(gap::in_answered_names(effects_of(diagnosis)))},
+                 {"effects", ranked_data(effects_of(diagnosis))}};
     data["where"] = {{"component", text_or_nothing(diagnosis.component)},
                      {"end", text_or_nothing(diagnosis.cable_end)},
                      {"s_m", diagnosis.position_m},

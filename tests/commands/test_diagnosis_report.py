@@ -33,11 +33,17 @@ class DiagnosisReport(ServiceTest):
 
         rows = list(csv.DictReader(io.StringIO(self.report("csv"))))
         cells = {(row["table"], row["row"], row["column"]): row["value"] for row in rows}
-        count = len(made["ranked"])
+        count = len(made["effects"])
         self.assertEqual([{"effect": cells["probability", str(k), "effect"],
                            "probability": float(cells["probability", str(k), "probability"]),
                            "present": float(cells["probability", str(k), "present"])} for k in range(1, count + 1)],
-                         made["ranked"])
+                         made["effects"])
+        # The canonical list lacks three of the effects, which count as unknown.
+        outside = {"directional_friction", "friction_drift", "sensor_clipping", "unknown"}
+        ranked = {each["effect"]: each["probability"] for each in made["ranked"]}
+        self.assertEqual({each["effect"] for each in made["effects"]} - outside, ranked.keys() - {"unknown"})
+        self.assertAlmostEqual(sum(each["probability"] for each in made["effects"] if each["effect"] in outside),
+                               ranked["unknown"], places=12)
         for number, channel in enumerate(made["channels"], 1):
             self.assertEqual(float(cells["channels", str(number), "rms_held_out"]), channel["rms_held_out"])
 

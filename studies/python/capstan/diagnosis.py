@@ -61,13 +61,13 @@ class Diagnosis(Answer):
     @property
     def probabilities(self) -> dict[str, float]:
         """How probable each effect is as the leading cause, most probable first; they sum to 1."""
-        return {each["effect"]: each["probability"] for each in self.values["ranked"]}
+        return {each["effect"]: each["probability"] for each in self.values["effects"]}
 
     @property
     def causes(self) -> list[Cause]:
         """The causes that act together, the clearest first; empty where the model needs none, or none is known."""
         values = self.values
-        present = {each["effect"]: each["present"] for each in values["ranked"]}
+        present = {each["effect"]: each["present"] for each in values["effects"]}
         return [
             Cause(
                 each["effect"],
