@@ -219,9 +219,8 @@ double FloatingNumber::value(double coordinate) const {
     return 0.0;
 }
 
-// As many stated numbers were measured as not, and a measured one is right to measured_std. What the fit adds
-// to the prior is what the recording says of the number (a normal density each).
-double FloatingNumber::is_far(double coordinate, double deviation) const {
+// E63.
+double FloatingNumber::far_probability(double coordinate, double deviation) const {
     if (std::abs(coordinate) <= usual) return 0.0;
     if (measured_std == 0.0) return 1.0;
     const double prior = prior_std * prior_std;

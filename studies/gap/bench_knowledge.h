@@ -35,8 +35,9 @@ struct FloatingNumber {
     std::function<void(BenchNumbers&, double value)> apply;
 
     double value(double coordinate) const;
-    /// The probability that it is not what was stated, if a fit left it here with this standard deviation.
-    double is_far(double coordinate, double deviation) const;
+    /// The probability that it is not what was stated, if a fit left it here with this standard deviation
+    /// (E63).
+    double far_probability(double coordinate, double deviation) const;
     /// Whether the search ended at the end of its range: the true number may lie beyond it.
     bool is_at_bound(double coordinate) const;
 };

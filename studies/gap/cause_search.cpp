@@ -399,7 +399,8 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         const double coordinate = scored.fit.coordinates[static_cast<Eigen::Index>(k)];
         if (visibility.of_the_bench[k] <= visible || number.effect.empty()) continue;
         scored.visible_numbers.push_back(k);
-        const double far = number.is_far(coordinate, scored.fit.deviations[static_cast<Eigen::Index>(k)]);
+        const double far =
+            number.far_probability(coordinate, scored.fit.deviations[static_cast<Eigen::Index>(k)]);
         if (far > 0.0) scored.far_numbers.push_back({k, far});
     }
     scored.has_unknown_scales = is_undescribed(*scored.fit.bench);

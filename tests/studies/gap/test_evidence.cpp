@@ -290,19 +290,19 @@ TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
     EXPECT_EQ(ranked_where_far(0.3).front().effect, "none");
 }
 
-TEST(FloatingNumber, IsFarAsFarAsTheRecordingTells) {
+TEST(FloatingNumber, IsFarOnlyAsProbablyAsTheRecordingTells) {
     FloatingNumber friction;
     friction.prior_std = 0.2;
     friction.measured_std = 0.015;
-    EXPECT_GT(friction.is_far(0.1, 0.005), 0.99);        // told precisely, a tenth off
-    EXPECT_LT(friction.is_far(0.01, 0.005), 0.1);        // within what a measurement may be off by
-    EXPECT_NEAR(friction.is_far(0.02, 0.2), 0.5, 0.05);  // nothing is told
-    EXPECT_LT(friction.is_far(0.05, 0.07), 0.4);         // as stated, for all that is told
-    EXPECT_GT(friction.is_far(0.2, 0.05), friction.is_far(0.1, 0.05));
+    EXPECT_GT(friction.far_probability(0.1, 0.005), 0.99);        // told precisely, a tenth off
+    EXPECT_LT(friction.far_probability(0.01, 0.005), 0.1);        // within what a measurement may be off by
+    EXPECT_NEAR(friction.far_probability(0.02, 0.2), 0.5, 0.05);  // nothing is told
+    EXPECT_LT(friction.far_probability(0.05, 0.07), 0.4);         // as stated, for all that is told
+    EXPECT_GT(friction.far_probability(0.2, 0.05), friction.far_probability(0.1, 0.05));
     friction.measured_std = 0.0;
-    EXPECT_EQ(friction.is_far(0.01, 0.2), 1.0);
+    EXPECT_EQ(friction.far_probability(0.01, 0.2), 1.0);
     friction.usual = 0.02;
-    EXPECT_EQ(friction.is_far(-0.01, 0.2), 0.0);
+    EXPECT_EQ(friction.far_probability(-0.01, 0.2), 0.0);
 }
 
 TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
