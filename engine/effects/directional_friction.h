@@ -13,7 +13,7 @@ struct DirectionalFrictionLaw {
     bool is_active() const { return difference != 0.0; }
     static std::vector<EffectRow<DirectionalFrictionLaw>> rows() {
         return {{.about = {.name = "directional_friction",
-                           .title = "friction that differs by direction",
+                           .title = "directional friction",
                            .family = "friction law",
                            .component = "conduit",
                            .equation = "E61",

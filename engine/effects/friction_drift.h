@@ -15,7 +15,7 @@ struct FrictionDriftLaw {
     static std::vector<EffectRow<FrictionDriftLaw>> rows() {
         return {
             {.about = {.name = "friction_drift",
-                       .title = "friction that changes over the session",
+                       .title = "friction drift",
                        .family = "friction law",
                        .component = "conduit",
                        .equation = "E62",
