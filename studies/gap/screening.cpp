@@ -67,14 +67,16 @@ void add_probes(const CandidateCause& cause, std::vector<Probe>& probes) {
         if (cause.numbers[k].is_size() && !cause.numbers[k].is_detail) sizes.push_back(k);
     }
     for (const Eigen::VectorXd& shape : shapes_of(cause)) {
-        if (sizes.size() == 1) {
-            for (const double size : cause.numbers[sizes.front()].starts()) {
+        // A small size of friction may show nothing of what a larger one does, so that each is also alone.
+        for (const std::size_t alone : sizes) {
+            if (sizes.size() > 1 && cause.numbers[alone].kind != OpenNumber::Kind::size) continue;
+            for (const double size : cause.numbers[alone].starts()) {
                 Eigen::VectorXd start = shape;
-                start[static_cast<Eigen::Index>(sizes.front())] = size;
-                probes.push_back({&cause, start, {start}, sizes});
+                start[static_cast<Eigen::Index>(alone)] = size;
+                probes.push_back({&cause, start, {start}, {alone}});
             }
-            continue;
         }
+        if (sizes.size() == 1) continue;
         Probe probe{&cause, shape, {}, sizes};
         for (const std::size_t size : sizes) {
             Eigen::VectorXd alone = shape;

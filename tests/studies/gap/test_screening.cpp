@@ -64,6 +64,22 @@ TEST(Screening, FindsAnInertiaThatRingsWhateverItsSize) {
     }
 }
 
+// Friction of a bearing that holds the motor back over much of the motion changes other things than a little
+// of it does.
+TEST(Screening, FindsAFrictionOfABearingOfWhichALittleShowsNothing) {
+    for (const double coulomb_Nm : {0.01, 0.03}) {
+        BenchNumbers numbers;
+        numbers.effects.of<PulleyFriction>().motor.coulomb_Nm = coulomb_Nm;
+        const Recording recording = exact_session(numbers, coarse_twin);
+        const CauseFitter fitter(recording, coarse_twin, 1);
+        const std::vector<CandidateCause> causes =
+            only_named(recording, {"pulley_friction", "bending_stiffness", "local_bend", "motor_cogging"});
+        const std::vector<Screened> screened = screen(fitter, causes, nominal);
+        ASSERT_FALSE(screened.empty());
+        EXPECT_EQ(screened.front().cause->effect, "pulley_friction") << coulomb_Nm;
+    }
+}
+
 // A ripple of six periods a turn is told from those of other numbers of periods, the most promising first.
 TEST(Screening, PutsTheStartWithTheTrueNumberOfPeriodsFirst) {
     BenchNumbers numbers;
