@@ -22,7 +22,8 @@ const std::vector<FaultKey>& fault_keys() {
             std::string name = fault.name.starts_with(prefix) ? fault.name.substr(prefix.size()) : fault.name;
             if (!fault.variant.empty()) name = fault.number;
             const std::string unit = fault.typical_of == TypicalOf::time_step ? "s" : fault.unit;
-            keys.push_back({name, unit, fault.typical_of == TypicalOf::channel_span, fault.value});
+            keys.push_back({name, unit, fault.typical_of == TypicalOf::channel_span,
+                            fault.size == SensorFault::Size::either_sign, fault.value});
         }
         return keys;
     }();

@@ -22,6 +22,7 @@ struct FaultKey {
     std::string name;  ///< "offset"
     std::string unit;
     bool in_channel_unit = false;
+    bool may_be_negative = false;
     double SensorFaults::*value = nullptr;
 };
 const std::vector<FaultKey>& fault_keys();

@@ -97,13 +97,14 @@ std::vector<ModelSensor> sensors_in(TableReader table) {
         ModelSensor sensor{channel, {}};
         for (const FaultKey& fault : fault_keys()) {
             const std::string begins = fault.name + "_";
+            const Range range = fault.may_be_negative ? Range::finite : Range::zero_or_more;
             for (const std::string& key : row.keys()) {
                 if (key.ends_with(interval_ending)) continue;
                 if (fault.in_channel_unit && key.starts_with(begins))
                     sensor.faults.push_back(
-                        row.fitted(fault.name, unit_in_words(key.substr(begins.size())), Range::finite));
+                        row.fitted(fault.name, unit_in_words(key.substr(begins.size())), range));
                 else if (key == key_with_unit(fault.name, fault.unit))
-                    sensor.faults.push_back(row.fitted(fault.name, fault.unit, Range::finite));
+                    sensor.faults.push_back(row.fitted(fault.name, fault.unit, range));
             }
         }
         row.reject_other_keys();

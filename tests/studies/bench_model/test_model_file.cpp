@@ -136,6 +136,21 @@ TEST(ModelFile, RejectsWhatIsMissingMisspeltOrOutOfRange) {
     EXPECT_NE(problems_in("a = ").find("m.toml:1:"), std::string::npos);
 }
 
+// A limit below zero would be no limit, and a step or a lag below zero nothing at all.
+TEST(ModelFile, RejectsAFaultThatIsLessThanNone) {
+    BenchModel model = full_model();
+    const char* channel = "load_torque";
+    model.sensors = {{channel, {{"clipping", "N m", 0.5}, {"gain", "", -1.0}, {"offset", "N m", -0.1}}}};
+    const std::string text = model_text(model);
+    const SensorFaults read = parse_model(text, "m.toml").numbers().sensor_faults.at(channel);
+    EXPECT_EQ(read.limit, 0.5);
+    EXPECT_EQ(read.gain, -1.0);
+    EXPECT_EQ(read.offset, -0.1);
+    const std::string problems = problems_in(with(text, "clipping_Nm = ", "clipping_Nm = -"));
+    EXPECT_NE(problems.find("sensor.load_torque.clipping_Nm"), std::string::npos) << problems;
+    EXPECT_NE(problems.find("must be a finite number of 0 or more"), std::string::npos) << problems;
+}
+
 TEST(ModelFile, ReplacesAModelAndNothingElse) {
     const gap::TemporaryFolder scratch;
     const std::filesystem::path folder = scratch.write({"", ""}).parent_path();
