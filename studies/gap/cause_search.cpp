@@ -185,8 +185,6 @@ FoundCauses CauseSearch::run() & {
 // rough knowledge of the bench.
 bool CauseSearch::should_be_taken_as_built(const ScoredFit& best) {
     constexpr double clearly = 3.0;
-    // Half the squared distance of three numbers from what was stated that one in a hundred exceeds.
-    constexpr double tenable_nominal_penalty = 5.67;
     if (is_out_of_time()) return false;
     if (best.nominal_penalty > tenable_nominal_penalty) return true;
     if (!worth_a_further_cause(best)) return false;

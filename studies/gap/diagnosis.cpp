@@ -43,7 +43,7 @@ class Diagnoser {
         Diagnosis diagnosis;
         const ScoredFit& nothing = nothing_in(fits);
         if (!is_nothing(fits.front()) && nothing.fit.bench->is_measured() &&
-            nothing.misfit < misfit_without_gap)
+            nothing.misfit < misfit_without_gap && nothing.nominal_penalty < tenable_nominal_penalty)
             put_nothing_first(fits, unproven_penalty);
         describe(diagnosis, fits);
         if (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap)) {

@@ -1,17 +1,20 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
 #include <string>
 
 #include "capstan/effects/effect_catalogue.h"
+#include "capstan/gap/cause_search.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/effects_twin.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "capstan/recording/recording_reader.h"
 #include "lumped_session.h"
 #include "sample_recording.h"
+#include "session_with_effects.h"
 
 namespace capstan::gap {
 namespace {
@@ -345,6 +348,20 @@ TEST(Diagnosis, DistinguishesAWrongFrictionCoefficientFromAMissingEffect) {
     const Diagnosis diagnosis = diagnosed(session_of(numbers));
     EXPECT_EQ(diagnosis.ranked.front().effect, "param_mu");
     EXPECT_NEAR(diagnosis.friction_ratio, 1.35, 0.05);
+}
+
+// A wrong stiffness alone leaves next to nothing, but one bench in a hundred has it so far off.
+TEST(Diagnosis, AWrongNumberThatExplainsAllIsNotNoGap) {
+    BenchNumbers numbers;
+    numbers.stiffness_ratio = 1.08;
+    const Diagnosis diagnosis = diagnosed(exact_session(numbers, {.segments = 30, .stride = 1}));
+    const CandidateScore none = *std::find_if(
+        diagnosis.candidates.begin(), diagnosis.candidates.end(),
+        [](const CandidateScore& each) { return each.effects == std::vector<std::string>{"none"}; });
+    EXPECT_LT(none.misfit, 0.25);
+    EXPECT_GT(none.nominal_penalty, tenable_nominal_penalty);
+    EXPECT_EQ(diagnosis.ranked.front().effect, "param_K");
+    EXPECT_NEAR(diagnosis.stiffness_ratio, 1.08, 0.01);
 }
 
 TEST(Diagnosis, RejectsABenchOfUnknownGeometry) {
