@@ -162,6 +162,8 @@ FoundCauses CauseSearch::run() & {
                 (leaves_much(best) || (best.fit.causes.size() > 1 && should_be_taken_as_built(best)));
     }
     if (built) {
+        evidence_.count_below_noise();
+        for (ScoredFit& each : found.fits) each.evidence = evidence_.of(each);
         Fits rougher = search_one(built_);
         search_several(built_, rougher);
         rougher = fitted_again(fine_, rougher, max_fitted_finely);

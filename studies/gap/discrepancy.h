@@ -16,6 +16,8 @@ inline constexpr std::array<double, 9> discrepancy_sizes = {0.0, 0.25, 0.5, 1.0,
 /// The logarithm of a mean square residual as the likelihood counts it: below noise with a reduced weight,
 /// because the model's floor is known only roughly.
 double weighed_log(double misfit);
+/// The same where numbers of the bench float, which take up a part of the floor.
+double weighed_log_beside_floating_numbers(double misfit);
 /// The same where the scale of a channel's error is not known: a smaller one says as much below noise as
 /// above.
 double log_of_unknown_scale(double misfit);

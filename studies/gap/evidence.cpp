@@ -14,9 +14,11 @@ namespace {
 // Penalties and log priors are natural logarithms.
 
 // A gap is a visible change. A cause that changes no channel by as much as noise and floor (rms) is within
-// what the model may be wrong by, and its fit follows that.
+// what the model may be wrong by, and its fit follows that: one that changes nothing has e^-20. Where the
+// bench's numbers float they take up a part of that error, and a cause below it shows.
 constexpr double visible = 1.0;
-constexpr double invisible_penalty = 8.0;
+constexpr double invisible_penalty = 20.0;
+constexpr double invisible_penalty_beside_floating_numbers = 8.0;
 // Whoever diagnoses a recording has seen a gap. One in twenty is none, and the others have one of about fifty
 // causes: e / (e + 50).
 constexpr double none_log_prior = 1.0;
@@ -59,8 +61,10 @@ constexpr double bench_fraction = 0.25;
 constexpr double none_beside_numbers_fraction = 0.1;
 
 // What it costs to name something, in the list or outside it, that changes a channel by this rms.
-double invisible(double change) {
-    return invisible_penalty * std::max(0.0, 1.0 - change / visible);
+double invisible(const ScoredFit& fit, double change) {
+    const double penalty =
+        fit.fit.bench->is_measured() ? invisible_penalty : invisible_penalty_beside_floating_numbers;
+    return penalty * std::max(0.0, 1.0 - change / visible);
 }
 
 // Of a discrepancy, in units of noise and floor. Where the scale of the channels' errors is not known, it was
@@ -163,7 +167,10 @@ std::map<std::string, double> ScoredFit::of_the_bench() const {
 
 // The log-likelihood of Gaussian residuals with a free scale is -n/2 ln(mean square), up to a constant.
 double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
-    return -0.5 * samples_ * (fit.has_unknown_scales ? log_of_unknown_scale(misfit) : weighed_log(misfit));
+    const double log = fit.has_unknown_scales ? log_of_unknown_scale(misfit)
+                       : below_noise_counts_  ? weighed_log_beside_floating_numbers(misfit)
+                                              : weighed_log(misfit);
+    return -0.5 * samples_ * log;
 }
 
 double Evidence::of(const ScoredFit& fit) const {
@@ -175,7 +182,7 @@ double Evidence::of(const ScoredFit& fit) const {
 double Evidence::with_unknown(const ScoredFit& fit) const {
     const bool named = fit.fit.causes.front()->effect != "none";
     const double prior = priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior);
-    const double function = marginal(fit, [](double size) { return std::exp(-invisible(size)); });
+    const double function = marginal(fit, [&](double size) { return std::exp(-invisible(fit, size)); });
     if (fit.channel_misfits.empty()) return prior + function;
     const double any = of_any_residuals(fit);
     const double most = std::max(function, any);
@@ -189,7 +196,7 @@ double Evidence::of_any_residuals(const ScoredFit& fit) const {
     const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());
     const double size = std::sqrt(std::max(0.0, most - tenable_mean_square(fit)));
     const double of_the_size = 0.5 * std::log(samples_);
-    return log_likelihood(fit, fit.misfit) + fit.fit.log_volume_ratio - of_the_size - invisible(size);
+    return log_likelihood(fit, fit.misfit) + fit.fit.log_volume_ratio - of_the_size - invisible(fit, size);
 }
 
 // The logarithm of the likelihood's mean over the sizes of the discrepancy.
@@ -222,7 +229,7 @@ double Evidence::priors(const ScoredFit& fit) const {
             continue;
         }
         inferred += 1.0;
-        evidence -= invisible(fit.visibility[k]);
+        evidence -= invisible(fit, fit.visibility[k]);
         if (cause.family == "sensor") evidence -= sensor_fault_penalty;
         if (cause.is_rare) evidence -= rare_cause_penalty;
         if (cause.is_outside_the_list) evidence -= unknown_penalty;

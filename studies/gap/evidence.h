@@ -90,6 +90,10 @@ class Evidence {
 
     /// From now on.
     void set_samples(double independent_samples) { samples_ = independent_samples; }
+    /// From now on, what is left below noise and floor counts nearly as much as what is left above. Where the
+    /// bench's numbers float they take up a part of the model's error, so that the floor is no longer what a
+    /// fit leaves.
+    void count_below_noise() { below_noise_counts_ = true; }
 
     double of(const ScoredFit& fit) const;
     /// The evidence of a fit's causes together with one outside the list.
@@ -114,6 +118,7 @@ class Evidence {
     double of_any_residuals(const ScoredFit& fit) const;
 
     double samples_;
+    bool below_noise_counts_ = false;
 };
 
 /// How many numbers a fit chose freely, beyond the nominal numbers within their uncertainty.

@@ -86,6 +86,35 @@ TEST(Evidence, CountsWhatIsLeftBelowTheFloorOnlyWhereTheScaleOfAnErrorIsNotKnown
     EXPECT_GT(gain_of_a_cause(true), gain_of_a_cause(false) + 50.0);
 }
 
+// Numbers that float take up the model's own error. Every fit of the recording then counts so.
+TEST(Evidence, CountsWhatIsLeftBelowTheFloorWhereTheBenchsNumbersFloat) {
+    const Known known;
+    Evidence beside_floating_numbers(200.0);
+    beside_floating_numbers.count_below_noise();
+    const ScoredFit none = fitted(beside_floating_numbers, {&known.none}, 0.5, {0.0});
+    const ScoredFit drag = fitted(beside_floating_numbers, {&known.drag}, 0.25, {1.0});
+    EXPECT_GT(drag.evidence - none.evidence, 60.0);
+}
+
+// On a measured bench the model's own error hides what is smaller; where numbers float they take up a part
+// of it.
+TEST(Evidence, AFaintCauseCostsLessWhereTheBenchsNumbersFloat) {
+    const Known known;
+    BenchKnowledge floating;
+    floating.numbers.resize(nominal_coordinates + 1);
+    const auto cost_of_faintness = [&](const BenchKnowledge* bench) {
+        ScoredFit clear = fitted(evidence, {&known.drag}, 0.9, {1.0});
+        ScoredFit faint = fitted(evidence, {&known.drag}, 0.9, {0.5});
+        for (ScoredFit* each : {&clear, &faint}) {
+            if (bench != nullptr) each->fit.bench = bench;
+            each->evidence = evidence.of(*each);
+        }
+        return clear.evidence - faint.evidence;
+    };
+    EXPECT_GT(cost_of_faintness(nullptr), 2.0 * cost_of_faintness(&floating));
+    EXPECT_GT(cost_of_faintness(&floating), 1.0);
+}
+
 // What the values of a channel show needs no inference, however faint it is.
 TEST(Evidence, NamesAFaintCauseThatIsSeen) {
     Known known;
