@@ -1,4 +1,5 @@
-// Rigs and drives of unknown geometry from spent seeds of the trial, each of which a diagnosis once missed.
+// Recordings from spent seeds of the trial, each of which a diagnosis once missed: rigs, drives of unknown
+// geometry, and benches with one or two protocols and nominal numbers 1% off.
 // The simulator knows nothing of the engine.
 #include <gtest/gtest.h>
 
@@ -23,6 +24,18 @@ gap::Diagnosis diagnosed(std::uint64_t seed, int number) {
     const CaseLabel label = make_rig_case(planned, options, folder.path());
     const Recording rig = read_recording(folder.path() / (label.name + ".csv"));
     return gap::diagnose(gap::equivalent_bench(rig, rig), {});
+}
+
+gap::Diagnosis diagnosed_short(std::uint64_t seed, int number) {
+    TrialOptions options;
+    options.seed = seed;
+    options.cases = 120;
+    options.length = RecordingLength::brief;
+    options.nominal_error = 0.01;
+    const PlannedCase planned = plan_trial(options).at(static_cast<std::size_t>(number - 1));
+    const ScratchFolder folder;
+    const CaseLabel label = make_case(planned, options, folder.path());
+    return gap::diagnose(read_recording(folder.path() / (label.name + ".csv")), {});
 }
 
 double present(const gap::Diagnosis& diagnosis, const std::string& effect) {
@@ -81,6 +94,20 @@ TEST(SpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
     const gap::Diagnosis diagnosis = diagnosed(118903, 5);
     EXPECT_GT(present(diagnosis, "creep"), 0.9);
     EXPECT_LT(present(diagnosis, "eccentric_pulley"), 0.3);
+}
+
+// A little friction of the motor's bearing shows nothing, and bending stiffness stood for it.
+TEST(SpentBenches, FrictionOfTheMotorsBearingIsNoBendingStiffness) {
+    const gap::Diagnosis diagnosis = diagnosed_short(885203, 66);
+    EXPECT_GT(present(diagnosis, "pulley_friction"), 0.9);
+    EXPECT_LT(present(diagnosis, "bending_stiffness"), 0.1);
+}
+
+// The stiffness alone, 6.5% off, leaves less than half of noise and floor.
+TEST(SpentBenches, AStiffnessThatIsFarOffIsNoAbsenceOfAGap) {
+    const gap::Diagnosis diagnosis = diagnosed_short(885203, 91);
+    EXPECT_GT(present(diagnosis, "param_K"), 0.8);
+    EXPECT_LT(present(diagnosis, "none"), 0.2);
 }
 
 }  // namespace
