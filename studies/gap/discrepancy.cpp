@@ -12,8 +12,8 @@ namespace capstan::gap {
 
 namespace {
 
-// Below this mean square residual, a smaller one is weak evidence and counts with a reduced weight. Above it
-// the logarithm has the weight by which Evidence::overstated divides.
+// E64. Below this mean square residual, a smaller one is weak evidence and counts with a reduced weight.
+// Above it the logarithm has the weight by which Evidence::overstated divides.
 constexpr double as_good_as_noise = 0.95;
 constexpr double above_noise_weight = 1.3;
 constexpr double below_noise_weight = 0.3;

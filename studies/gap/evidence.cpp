@@ -14,8 +14,9 @@ namespace {
 // Penalties and log priors are natural logarithms.
 
 // A gap is a visible change. A cause that changes no channel by as much as noise and floor (rms) is within
-// what the model may be wrong by, and its fit follows that: one that changes nothing has e^-20. Where the
-// bench's numbers float they take up a part of that error, and a cause below it shows.
+// what the model may be wrong by, and its fit follows that, so that hardly any likelihood may name it: one
+// that changes nothing is e^-20 as probable. Where the bench's numbers float they take up a part of that
+// error, and a fainter cause shows.
 constexpr double visible = 1.0;
 constexpr double invisible_penalty = 20.0;
 constexpr double invisible_penalty_beside_floating_numbers = 8.0;

@@ -67,7 +67,8 @@ void add_probes(const CandidateCause& cause, std::vector<Probe>& probes) {
         if (cause.numbers[k].is_size() && !cause.numbers[k].is_detail) sizes.push_back(k);
     }
     for (const Eigen::VectorXd& shape : shapes_of(cause)) {
-        // A small size of friction may show nothing of what a larger one does, so that each is also alone.
+        // Friction that is too small to hold a pulley does nothing of what more of it does, so that each
+        // size is also tried alone, at values of its own.
         for (const std::size_t alone : sizes) {
             if (sizes.size() > 1 && cause.numbers[alone].kind != OpenNumber::Kind::size) continue;
             for (const double size : cause.numbers[alone].starts()) {
