@@ -162,7 +162,7 @@ FoundCauses CauseSearch::run() & {
                 (leaves_much(best) || (best.fit.causes.size() > 1 && should_be_taken_as_built(best)));
     }
     if (built) {
-        evidence_.count_below_noise();
+        evidence_.set_below_noise_weight(below_noise_weight_beside_floating_numbers);
         for (ScoredFit& each : found.fits) each.evidence = evidence_.of(each);
         Fits rougher = search_one(built_);
         search_several(built_, rougher);

@@ -12,17 +12,8 @@ namespace capstan::gap {
 
 namespace {
 
-// E64. Below this mean square residual, a smaller one is weak evidence and counts with a reduced weight.
-// Above it the logarithm has the weight by which Evidence::overstated divides.
-constexpr double as_good_as_noise = 0.95;
+// E64. Above noise and floor the logarithm has the weight by which Evidence::overstated divides.
 constexpr double above_noise_weight = 1.3;
-constexpr double below_noise_weight = 0.3;
-constexpr double below_noise_weight_beside_floating_numbers = 1.0;
-
-double weighed_log(double misfit, double below_weight) {
-    return (above_noise_weight - below_weight) * std::log(std::max(misfit, as_good_as_noise)) +
-           below_weight * std::log(misfit);
-}
 
 constexpr double stop_widths[] = {0.02, 0.05, 0.1, 0.2, 0.4};  // of a channel's span
 
@@ -93,12 +84,10 @@ Features features_of(const Recording& recording, const RecordedRun& run, const s
 
 }  // namespace
 
-double weighed_log(double misfit) {
-    return weighed_log(misfit, below_noise_weight);
-}
-
-double weighed_log_beside_floating_numbers(double misfit) {
-    return weighed_log(misfit, below_noise_weight_beside_floating_numbers);
+double weighed_log(double misfit, double below_noise_weight) {
+    constexpr double as_good_as_noise = 0.95;
+    return (above_noise_weight - below_noise_weight) * std::log(std::max(misfit, as_good_as_noise)) +
+           below_noise_weight * std::log(misfit);
 }
 
 double log_of_unknown_scale(double misfit) {

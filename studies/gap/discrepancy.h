@@ -13,11 +13,9 @@ namespace capstan::gap {
 /// Standard deviations that a discrepancy may have, in units of noise and floor; the first is none.
 inline constexpr std::array<double, 9> discrepancy_sizes = {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
 
-/// The logarithm of a mean square residual as the likelihood counts it (E64): below noise and floor with a
-/// reduced weight, because the floor is an upper value of the model's error.
-double weighed_log(double misfit);
-/// The same where numbers of the bench float, which take up a part of the floor.
-double weighed_log_beside_floating_numbers(double misfit);
+/// The logarithm of a mean square residual as the likelihood counts it (E64): below noise and floor with this
+/// weight.
+double weighed_log(double misfit, double below_noise_weight);
 /// The same where the scale of a channel's error is not known: a smaller one says as much below noise as
 /// above.
 double log_of_unknown_scale(double misfit);

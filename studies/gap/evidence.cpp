@@ -168,9 +168,7 @@ std::map<std::string, double> ScoredFit::of_the_bench() const {
 
 // The log-likelihood of Gaussian residuals with a free scale is -n/2 ln(mean square), up to a constant.
 double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
-    const double log = fit.has_unknown_scales ? log_of_unknown_scale(misfit)
-                       : below_noise_counts_  ? weighed_log_beside_floating_numbers(misfit)
-                                              : weighed_log(misfit);
+    const double log = fit.has_unknown_scales ? log_of_unknown_scale(misfit) : log_of(misfit);
     return -0.5 * samples_ * log;
 }
 

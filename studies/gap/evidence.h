@@ -22,6 +22,13 @@ struct RankedEffect {
 /// The same in the names that an answer gives: an effect that has no canonical name is part of `unknown`.
 std::vector<RankedEffect> in_answered_names(const std::vector<RankedEffect>& ranked);
 
+/// The weight of what is left below noise and floor (E64). The floor is an upper value of the model's error,
+/// and a fit may follow that error.
+inline constexpr double below_noise_weight = 0.3;
+/// Where the bench's numbers float they take up a part of the model's error, so that the floor is no longer
+/// what a fit leaves.
+inline constexpr double below_noise_weight_beside_floating_numbers = 1.0;
+
 /// A law of the catalogue is an idealisation, good to this part of what its cause does.
 inline constexpr double law_error = 0.1;
 
@@ -90,10 +97,10 @@ class Evidence {
 
     /// From now on.
     void set_samples(double independent_samples) { samples_ = independent_samples; }
-    /// From now on, what is left below noise and floor counts nearly as much as what is left above. Where the
-    /// bench's numbers float they take up a part of the model's error, so that the floor is no longer what a
-    /// fit leaves.
-    void count_below_noise() { below_noise_counts_ = true; }
+    /// How much what is left below noise and floor counts (E64), from now on.
+    void set_below_noise_weight(double weight) { below_noise_weight_ = weight; }
+    /// The logarithm of a mean square residual as the likelihood counts it.
+    double log_of(double mean_square) const { return weighed_log(mean_square, below_noise_weight_); }
 
     double of(const ScoredFit& fit) const;
     /// The evidence of a fit's causes together with one outside the list.
@@ -118,7 +125,7 @@ class Evidence {
     double of_any_residuals(const ScoredFit& fit) const;
 
     double samples_;
-    bool below_noise_counts_ = false;
+    double below_noise_weight_ = below_noise_weight;
 };
 
 /// How many numbers a fit chose freely, beyond the nominal numbers within their uncertainty.

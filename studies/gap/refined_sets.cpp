@@ -271,7 +271,7 @@ double CauseSearch::held_out_log_misfit(const Hypothesis& hypothesis, const Seri
                                   static_cast<Eigen::Index>(part), static_cast<Eigen::Index>(to - from), 1)
                            .squaredNorm();
         }
-        sum += weighed_log(squares / std::max(1.0, rows));
+        sum += evidence_.log_of(squares / std::max(1.0, rows));
     }
     return sum / static_cast<double>(parts.size());
 }

@@ -90,7 +90,7 @@ TEST(Evidence, CountsWhatIsLeftBelowTheFloorOnlyWhereTheScaleOfAnErrorIsNotKnown
 TEST(Evidence, CountsWhatIsLeftBelowTheFloorWhereTheBenchsNumbersFloat) {
     const Known known;
     Evidence beside_floating_numbers(200.0);
-    beside_floating_numbers.count_below_noise();
+    beside_floating_numbers.set_below_noise_weight(below_noise_weight_beside_floating_numbers);
     const ScoredFit none = fitted(beside_floating_numbers, {&known.none}, 0.5, {0.0});
     const ScoredFit drag = fitted(beside_floating_numbers, {&known.drag}, 0.25, {1.0});
     EXPECT_GT(drag.evidence - none.evidence, 60.0);
