@@ -36,12 +36,17 @@ bool is_slowness_of_one_sensor(const CandidateCause& cause, const CandidateCause
 }
 
 // Those without a cause, whose misfit limits how visible one can be, and the best others: of several starts
-// with the same causes the best.
+// with the same causes the best. The best single cause is one of them, because another model may show that
+// those beside it do nothing.
 std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_sets) {
     std::stable_partition(fits.begin(), fits.end(),
                           [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
     std::vector<Hypothesis> best;
-    for (auto each = fits.begin(); each != fits.end() && best.size() < max_sets; ++each) {
+    bool has_single = false;
+    for (auto each = fits.begin(); each != fits.end(); ++each) {
+        const bool is_single = each->fit.causes.size() == 1 && each->fit.causes.front()->effect != "none";
+        if (best.size() >= max_sets && (has_single || !is_single)) continue;
+        has_single |= is_single;
         const auto has_same_causes = [&](const ScoredFit& other) {
             return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
                                        each->fit.causes.begin(), each->fit.causes.end());

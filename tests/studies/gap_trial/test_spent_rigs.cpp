@@ -96,6 +96,13 @@ TEST(SpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
     EXPECT_LT(present(diagnosis, "eccentric_pulley"), 0.3);
 }
 
+// The coarse model shows an inertia beside it, and a gain with an inertia leaves less.
+TEST(SpentBenches, FrictionThatDiffersByDirectionIsNoGain) {
+    const gap::Diagnosis diagnosis = diagnosed_short(996203, 34);
+    EXPECT_GT(present(diagnosis, "directional_friction"), 0.9);
+    EXPECT_LT(present(diagnosis, "sensor_gain"), 0.1);
+}
+
 // A little friction of the motor's bearing shows nothing, and bending stiffness stood for it.
 TEST(SpentBenches, FrictionOfTheMotorsBearingIsNoBendingStiffness) {
     const gap::Diagnosis diagnosis = diagnosed_short(885203, 66);
