@@ -9,9 +9,10 @@ namespace capstan {
 
 namespace {
 
-// The elastic body of the cell drags friction along: the reading trails by a bristle as wide as the loop.
-void add_hysteresis(std::vector<double>& signal, double half_width) {
-    const Presliding bristles{.length_m = half_width, .exponent = 1.0};
+// E65. The elastic body of the cell drags friction along: the reading trails by bristles as wide as the loop,
+// so long that it stands still at a reversal.
+void add_hysteresis(std::vector<double>& signal, double half_width, double exponent) {
+    const Presliding bristles{.length_m = half_width * std::exp2(exponent), .exponent = exponent};
     double bend = 0.0;
     double before = signal.front();
     for (double& value : signal) {
@@ -53,7 +54,7 @@ std::vector<double> delayed(const std::vector<double>& signal, double delay_s, d
 std::vector<double> sensed(std::vector<double> signal, const SensorFaults& faults, double time_step_s,
                            double session_time_s) {
     if (faults.none() || signal.size() < 2) return signal;
-    if (faults.hysteresis > 0.0) add_hysteresis(signal, faults.hysteresis);
+    if (faults.hysteresis > 0.0) add_hysteresis(signal, faults.hysteresis, faults.loop_exponent);
     if (faults.lag_s > 0.0) add_lag(signal, faults.lag_s, time_step_s);
     if (faults.delay_s != 0.0) signal = delayed(signal, faults.delay_s, time_step_s);
     for (std::size_t sample = 0; sample < signal.size(); ++sample) {
@@ -119,7 +120,8 @@ const std::vector<SensorFault>& sensor_fault_catalogue() {
          .title = "sensor hysteresis",
          .typical = 0.03,
          .typical_of = TypicalOf::channel_span,
-         .value = &SensorFaults::hysteresis},
+         .value = &SensorFaults::hysteresis,
+         .shape = {"loop_exponent", 1e-3, 2.0, &SensorFaults::loop_exponent}},
     };
     return all;
 }

@@ -9,8 +9,11 @@ namespace capstan {
 /// gain, offset and drift, clipping, quantisation. By default the sensor has no fault.
 struct SensorFaults {
     double hysteresis = 0.0;  ///< half the width of the loop that the reading makes of a slow cycle
-    double lag_s = 0.0;       ///< time constant of a first-order low-pass
-    double delay_s = 0.0;     ///< time misalignment; negative: the reading comes early
+    /// How the loop closes after a reversal: 0 a play, which moves nothing until it is crossed; 0.5
+    /// Rayleigh's law; 1 exponentially (E65).
+    double loop_exponent = 0.5;
+    double lag_s = 0.0;    ///< time constant of a first-order low-pass
+    double delay_s = 0.0;  ///< time misalignment; negative: the reading comes early
     double gain = 1.0;
     double offset = 0.0;
     double drift_by_100_s = 0.0;  ///< how far the offset has moved 100 s after the session began
@@ -47,6 +50,14 @@ struct SensorFault {
     double typical = 1.0;
     TypicalOf typical_of = TypicalOf::absolute;  ///< what `typical` is a multiple of
     double SensorFaults::*value = nullptr;
+    /// How it looks, if that is a number, too; it has no unit.
+    struct Shape {
+        std::string name{};
+        double low = 0.0;
+        double high = 0.0;
+        double SensorFaults::*value = nullptr;
+    };
+    Shape shape{};
     std::vector<std::string> confusable_with{};  ///< see EffectDescription
     std::string answered_as{};                   ///< see EffectDescription
 

@@ -129,7 +129,7 @@ class FittedNumbers {
             for (std::size_t k = 0; k < sensor_fault_catalogue().size(); ++k) {
                 const SensorFault& fault = sensor_fault_catalogue()[k];
                 if (cause.effect == fault.name && cause.variant == fault.variant_at(sensor.channel))
-                    return named(sensor.faults, fault_keys()[k].name);
+                    return named(sensor.faults, name == fault.shape.name ? name : fault_keys()[k].name);
             }
         }
         return nullptr;

@@ -25,6 +25,9 @@ const std::vector<FaultKey>& fault_keys() {
             keys.push_back({name, unit, fault.typical_of == TypicalOf::channel_span,
                             fault.size == SensorFault::Size::either_sign, fault.value});
         }
+        for (const SensorFault& fault : sensor_fault_catalogue())
+            if (fault.shape.value != nullptr)
+                keys.push_back({fault.shape.name, "", false, false, fault.shape.value});
         return keys;
     }();
     return all;

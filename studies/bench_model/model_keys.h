@@ -25,6 +25,7 @@ struct FaultKey {
     bool may_be_negative = false;
     double SensorFaults::*value = nullptr;
 };
+/// Those of the sizes, in the order of the catalogue, then those of the shapes.
 const std::vector<FaultKey>& fault_keys();
 
 /// What a number that follows a condition belongs to.

@@ -221,8 +221,15 @@ std::vector<CandidateCause> sensor_causes(const Channel& described, const Readin
             OpenNumber& limit = cause.numbers.front();
             limit.typical = limit.low = limit.high = readings.largest;
         }
-        cause.apply = [channel, value = fault.value](BenchNumbers& numbers, Values values) {
-            numbers.sensor_faults[channel].*value = values[0];
+        const SensorFault::Shape& shape = fault.shape;
+        if (shape.value != nullptr)
+            cause.numbers.push_back({shape.name, "", OpenNumber::Kind::shape, SensorFaults().*shape.value,
+                                     SensorFaults().*shape.value, shape.low, shape.high});
+        cause.apply = [channel, size = fault.value, form = shape.value](BenchNumbers& numbers,
+                                                                        Values values) {
+            SensorFaults& faults = numbers.sensor_faults[channel];
+            faults.*size = values[0];
+            if (form != nullptr) faults.*form = values[1];
         };
         causes.push_back(cause);
     }

@@ -1,5 +1,4 @@
-// Each fault of a sensor by its closed form: what it makes of a constant, a step, a ramp and a slow cycle
-// (E36).
+// Each fault of a sensor by its closed form: what it makes of a constant, a step, a ramp and a slow cycle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -115,8 +114,53 @@ TEST(SensorFaults, HysteresisTrailsASlowCycleByHalfTheLoopEitherWay) {
     EXPECT_NEAR(readings[300], cycle[300] + 0.5, 1e-3);
 }
 
+// Up and down again in steps of 0.01.
+std::vector<double> up_and_down(int steps) {
+    std::vector<double> cycle;
+    for (int k = 0; k < steps; ++k) cycle.push_back(0.01 * k);
+    for (int k = steps; k >= 0; --k) cycle.push_back(0.01 * k);
+    return cycle;
+}
+
+TEST(SensorFaults, HysteresisWithoutAnExponentIsAPlay) {
+    const SensorFaults faults{.hysteresis = 0.5, .loop_exponent = 0.0};
+    const std::vector<double> cycle = up_and_down(1000);
+    const std::vector<double> readings = sensed(cycle, faults, time_step_s);
+    // The friction of the cell begins unbent, as a play does in its middle.
+    double play = cycle.front();
+    for (std::size_t k = 0; k < cycle.size(); ++k) {
+        play = std::clamp(play, cycle[k] - 0.5, cycle[k] + 0.5);
+        EXPECT_NEAR(readings[k], play, 1e-12) << k;
+    }
+}
+
+TEST(SensorFaults, HysteresisOfRayleighClosesAlongAParabolaOverTwiceTheLoop) {
+    const double half_width = 0.5;
+    const SensorFaults faults{.hysteresis = half_width, .loop_exponent = 0.5};
+    constexpr std::size_t reversal = 1000;
+    const std::vector<double> cycle = up_and_down(reversal);
+    const std::vector<double> readings = sensed(cycle, faults, time_step_s);
+    for (const double back : {0.0, 0.25, 0.5, 1.0, 1.75, 2.0, 3.0}) {
+        const auto k = reversal + static_cast<std::size_t>(std::lround(back / 0.01));
+        const double left = std::max(0.0, 1.0 - back / (4.0 * half_width));  // of the way to the other side
+        EXPECT_NEAR(readings[k] - cycle[k], half_width * (1.0 - 2.0 * left * left), 1e-9) << back;
+    }
+}
+
+TEST(SensorFaults, HysteresisNeverMovesAReadingAgainstTheSignal) {
+    for (const double exponent : {0.0, 0.2, 0.5, 1.0, 1.6}) {
+        const SensorFaults faults{.hysteresis = 0.5, .loop_exponent = exponent};
+        const std::vector<double> cycle = up_and_down(1000);
+        const std::vector<double> readings = sensed(cycle, faults, time_step_s);
+        for (std::size_t k = 1; k < cycle.size(); ++k) {
+            const double moved = readings[k] - readings[k - 1];
+            EXPECT_GE(moved * (cycle[k] - cycle[k - 1]), -1e-15) << exponent << " " << k;
+        }
+    }
+}
+
 TEST(SensorFaults, ASignalThatStandsStillIsReadAsItIs) {
-    const SensorFaults slow{0.5, 0.1, 0.03, 1.0, 0.0, 0.0};
+    const SensorFaults slow{.hysteresis = 0.5, .lag_s = 0.1, .delay_s = 0.03};
     const std::vector<double> still(5, 7.0);
     for (const double reading : sensed(still, slow, time_step_s)) EXPECT_NEAR(reading, 7.0, 1e-12);
 }

@@ -31,6 +31,8 @@ inline model_comparison::DiagnosedSplit full_split() {
     found.corrected.sensor_faults["load_torque"].offset = odd_number(-0.02);
     found.corrected.sensor_faults["load_torque"].gain = odd_number(0.8);
     found.corrected.sensor_faults["load_torque"].drift_by_100_s = odd_number(0.03);
+    found.corrected.sensor_faults["load_torque"].hysteresis = odd_number(0.01);
+    found.corrected.sensor_faults["load_torque"].loop_exponent = odd_number(0.3);
     using Following = gap::BenchNumbers::Following;
     Following follows{Following::What::friction, "", "roll_deg", odd_number(-10.0), odd_number(45.0),
                       odd_number(0.1),           0.0};

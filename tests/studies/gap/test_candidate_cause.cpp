@@ -85,6 +85,20 @@ TEST(CandidateCauses, ReferToTheTensionOfADriveWithoutPretensionByItsTorques) {
     EXPECT_NEAR(reference_N_per_m(recording), 3.0 * slack_N_per_m, 1e-9 * slack_N_per_m);
 }
 
+TEST(CandidateCauses, TheLoopOfASensorHasASizeAndAShape) {
+    const std::vector<CandidateCause> causes = candidate_causes(driven_session());
+    const auto loop = std::find_if(causes.begin(), causes.end(), [](const CandidateCause& cause) {
+        return cause.effect == "sensor_hysteresis" && cause.variant == "load_torque";
+    });
+    ASSERT_NE(loop, causes.end());
+    ASSERT_EQ(loop->numbers.size(), 2u);
+    EXPECT_EQ(loop->numbers[1].value(0.0), SensorFaults().loop_exponent);
+    BenchNumbers numbers;
+    loop->apply(numbers, std::vector<double>{0.2, 0.7});
+    EXPECT_EQ(numbers.sensor_faults["load_torque"].hysteresis, 0.2);
+    EXPECT_EQ(numbers.sensor_faults["load_torque"].loop_exponent, 0.7);
+}
+
 TEST(CandidateCauses, AreSeenWhereAChannelsValuesLieOnALattice) {
     Recording recording = driven_session();
     const auto load_torque = static_cast<std::size_t>(*recording.channel("load_torque"));

@@ -96,6 +96,14 @@ TEST(SpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
     EXPECT_LT(present(diagnosis, "eccentric_pulley"), 0.3);
 }
 
+// With a loop that closes exponentially, an environment coupling corrected what is left at its reversals.
+TEST(SpentRigs, ALoopOfASensorIsNoEnvironmentCoupling) {
+    const gap::Diagnosis diagnosis = diagnosed(996101, 28);
+    for (const char* effect : {"sensor_hysteresis", "motor_cogging"})
+        EXPECT_GT(present(diagnosis, effect), 0.9) << effect;
+    EXPECT_LT(present(diagnosis, "environment_coupling"), 0.3);
+}
+
 // The coarse model shows an inertia beside it, and a gain with an inertia leaves less.
 TEST(SpentBenches, FrictionThatDiffersByDirectionIsNoGain) {
     const gap::Diagnosis diagnosis = diagnosed_short(996203, 34);
