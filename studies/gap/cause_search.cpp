@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "capstan/effects/known_causes.h"
 #include "capstan/platform/parallel_for.h"
 #include "capstan/rig/channel_names.h"
 
@@ -58,11 +57,6 @@ constexpr double usual_fits = 30.0;
 bool leaves_much(const ScoredFit& fit) {
     constexpr double much = 2.0;
     return fit.misfit > much;
-}
-
-bool has_effect(const ScoredFit& fit, const std::string& effect) {
-    return std::any_of(fit.fit.causes.begin(), fit.fit.causes.end(),
-                       [&](const CandidateCause* cause) { return cause->effect == effect; });
 }
 
 // Of a bench whose numbers float widely, no number can be wrong beyond that.
@@ -448,60 +442,6 @@ CauseSearch::Fits CauseSearch::made_side_by_side(Model& model, std::size_t count
         fits.push_back(std::move(*each));
     }
     return fits;
-}
-
-// Single causes of an undescribed bench, from further numbers of it.
-void CauseSearch::add_from_elsewhere(const Level& level, std::span<const Further> some,
-                                     const SeriesWeights& weights, Fits& singles) {
-    for (const Further& each : some) {
-        if (each.cause->numbers.empty() || is_out_of_time()) continue;
-        std::vector<Hypothesis> starts;
-        const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
-        for (const Eigen::VectorXd& numbers : further_starts(level.bench))
-            starts.push_back(
-                with_cause({{}, numbers, &level.bench}, each.cause, each.start.coordinates.tail(own)));
-        report("fitting " + in_words(starts.front().causes));
-        Fits fits = made_side_by_side(model_of(level), starts.size(), [&](std::size_t k) {
-            CauseFitter::FitOptions options;
-            options.any_size = false;
-            return fit_on(level, roughly_fitted({&starts[k], 1}, weights).hypothesis(), options);
-        });
-        std::move(fits.begin(), fits.end(), std::back_inserter(singles));
-    }
-}
-
-void CauseSearch::add_fits(const Level& level, const std::vector<Hypothesis>& starts, bool any_size,
-                           Fits& fits) {
-    CauseFitter::FitOptions options;
-    options.pruned_sum_of_squares = pruned_at(fits);
-    options.any_size = any_size;
-    Fits made = made_side_by_side(model_of(level), starts.size(),
-                                  [&](std::size_t k) { return fit_on(level, starts[k], options); });
-    std::move(made.begin(), made.end(), std::back_inserter(fits));
-}
-
-// Causes that are easily confused with the best one are fitted whatever the screening says.
-void CauseSearch::add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles) {
-    const std::string best = singles.front().fit.causes.front()->effect;
-    for (const std::string& rival : confusable_causes(best)) {
-        if (std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& fit) {
-                return fit.fit.causes.size() == 1 && has_effect(fit, rival);
-            }))
-            continue;
-        const auto found = std::find_if(screened.begin(), screened.end(),
-                                        [&](const Further& each) { return each.cause->effect == rival; });
-        if (found == screened.end()) continue;
-        Further from_best = *found;
-        if (!level.bench.is_measured()) {
-            const auto own = static_cast<Eigen::Index>(found->cause->numbers.size());
-            const Hypothesis bench =
-                only_causes(singles.front().fit.hypothesis(), [](const CandidateCause&) { return false; });
-            from_best.start = with_cause(bench, found->cause, found->start.coordinates.tail(own));
-        }
-        report("fitting " + in_words({from_best.cause}));
-        add_fits(level, {from_best.start}, level.bench.is_measured(), singles);
-    }
-    sort_by_evidence(singles);
 }
 
 }  // namespace capstan::gap
