@@ -24,9 +24,12 @@ struct FaultKey {
     bool in_channel_unit = false;
     bool may_be_negative = false;
     double SensorFaults::*value = nullptr;
+    std::string effect;  ///< canonical name of the fault that it is a number of
 };
 /// Those of the sizes, in the order of the catalogue, then those of the shapes.
 const std::vector<FaultKey>& fault_keys();
+/// "offset" -> "sensor_offset"; empty where there is no such fault.
+std::string effect_of_fault(const std::string& name);
 
 /// What a number that follows a condition belongs to.
 inline constexpr const char* friction_change = "friction_log";

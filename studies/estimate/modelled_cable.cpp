@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "capstan/bench_model/model_keys.h"
 #include "capstan/bench_model/model_prediction.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/effects/known_causes.h"
@@ -129,10 +130,8 @@ std::vector<std::string> parts_not_used(const BenchModel& model, const UsedParts
             if (fault.name == "time_misalignment" && used.sample_rate_Hz > 0.0 &&
                 std::abs(fault.value) * used.sample_rate_Hz < 1.0)
                 continue;
-            const std::string cause = fault.name == "change_in_100_s"     ? "sensor_offset"
-                                      : find_cause(fault.name) != nullptr ? fault.name
-                                                                          : "sensor_" + fault.name;
-            add(fmt::format("{} ({})", cause_title(cause), channel_words(sensor.channel)));
+            add(fmt::format("{} ({})", cause_title(bench_model::effect_of_fault(fault.name)),
+                            channel_words(sensor.channel)));
         }
     }
     if (used.conditions) return unused;

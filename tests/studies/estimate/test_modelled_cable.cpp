@@ -66,7 +66,8 @@ TEST_F(ModelledCable, IsUncertainWhereTheModelHasAnInterval) {
 }
 
 TEST_F(ModelledCable, NamesWhatTheEstimatorCannotUse) {
-    EXPECT_EQ(modelled.not_used, std::vector<std::string>{"pulley friction"});
+    EXPECT_EQ(modelled.not_used,
+              (std::vector<std::string>{"pulley friction", "sensor hysteresis (load torque)"}));
     EXPECT_EQ(modelled.cables[0].rate_friction.viscous.drag_N_s_per_m2,
               model.numbers().effects.of<ViscousFriction>().drag_N_s_per_m2);
 }
