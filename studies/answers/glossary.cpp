@@ -64,6 +64,9 @@ const GlossaryTerm terms[] = {
     {"recording", "", "term",
      "A log of a bench as capstan reads it: NAME.csv with the channels, and NAME.json, its sidecar, with the bench."},
     {"sidecar", "", "term", "The JSON file beside a recording that describes the bench and the channels."},
+    {"loop exponent", "loop_exponent", "term",
+     "How a sensor with hysteresis reads after a reversal: with 0 it stands still until the loop is crossed (a play), with 0.5 it "
+     "follows a parabola (Rayleigh's law), with 1 an exponential."},
     {"Even", "even", "layout", "A sensor at every p-th node, counted from one end, with p as large as fits."},
     {"Distal", "distal layout", "layout", "Neighbouring sensors at the load end."},
     {"Both", "both", "layout",
