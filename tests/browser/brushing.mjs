@@ -15,7 +15,11 @@ const panel = async (page, figure) => {
   const first = await page.$(rows) ?? await page.$(whole);
   await first.evaluate((each) => each.scrollIntoView({ block: "center", behavior: "instant" }));
   await settled(page);
-  return first.boundingBox();
+  // On a busy machine the charts above may still be drawn, and the panel moves.
+  for (let before = null, box = await first.boundingBox(); ; before = box, box = await first.boundingBox()) {
+    if (before && before.x === box.x && before.y === box.y) return box;
+    await settled(page);
+  }
 };
 
 async function dragged(page, figure, [left, top], [right, bottom]) {
