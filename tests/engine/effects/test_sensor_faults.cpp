@@ -148,13 +148,14 @@ TEST(SensorFaults, HysteresisOfRayleighClosesAlongAParabolaOverTwiceTheLoop) {
 }
 
 TEST(SensorFaults, HysteresisNeverMovesAReadingAgainstTheSignal) {
+    constexpr double rounding = 1e-15;
     for (const double exponent : {0.0, 0.2, 0.5, 1.0, 1.6}) {
         const SensorFaults faults{.hysteresis = 0.5, .loop_exponent = exponent};
         const std::vector<double> cycle = up_and_down(1000);
         const std::vector<double> readings = sensed(cycle, faults, time_step_s);
         for (std::size_t k = 1; k < cycle.size(); ++k) {
             const double moved = readings[k] - readings[k - 1];
-            EXPECT_GE(moved * (cycle[k] - cycle[k - 1]), -1e-15) << exponent << " " << k;
+            EXPECT_GE(moved * (cycle[k] - cycle[k - 1]), -rounding) << exponent << " " << k;
         }
     }
 }

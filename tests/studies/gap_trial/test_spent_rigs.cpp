@@ -97,7 +97,7 @@ TEST(SpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
 }
 
 // With a loop that closes exponentially, an environment coupling corrected what is left at its reversals.
-TEST(SpentRigs, ALoopOfASensorIsNoEnvironmentCoupling) {
+TEST(SpentRigs, ALoopOfASensorIsNotAnEnvironmentCoupling) {
     const gap::Diagnosis diagnosis = diagnosed(996101, 28);
     for (const char* effect : {"sensor_hysteresis", "motor_cogging"})
         EXPECT_GT(present(diagnosis, effect), 0.9) << effect;
@@ -105,7 +105,7 @@ TEST(SpentRigs, ALoopOfASensorIsNoEnvironmentCoupling) {
 }
 
 // The coarse model shows an inertia beside it, and a gain with an inertia leaves less.
-TEST(SpentBenches, FrictionThatDiffersByDirectionIsNoGain) {
+TEST(SpentBenches, FrictionThatDiffersByDirectionIsNotAGain) {
     const gap::Diagnosis diagnosis = diagnosed_short(996203, 34);
     EXPECT_GT(present(diagnosis, "directional_friction"), 0.9);
     EXPECT_LT(present(diagnosis, "sensor_gain"), 0.1);
