@@ -20,15 +20,18 @@ struct PreslidingLaw {
 
     bool is_active() const { return length_m != 0.0; }
     static std::vector<EffectRow<PreslidingLaw>> rows() {
-        return {{.about = {.name = "presliding",
-                           .title = "presliding",
-                           .family = "friction law",
-                           .component = "conduit",
-                           .equation = "E22",
-                           .meaning = "friction that builds up over a small displacement",
-                           .changes_the_cable = true},
-                 .parameters = {{{.name = "length", .unit = "m", .high = 0.1, .typical = 5e-4},
-                                 &PreslidingLaw::length_m}}}};
+        return {
+            {.about = {.name = "presliding",
+                       .title = "presliding",
+                       .family = "friction law",
+                       .component = "conduit",
+                       .equation = "E22",
+                       .meaning = "friction that builds up over a small displacement",
+                       .changes_the_cable = true},
+             .parameters = {
+                 {{.name = "length", .unit = "m", .high = 0.1, .typical = 5e-4}, &PreslidingLaw::length_m},
+                 {{.name = "exponent", .high = 2.0, .typical = 0.5, .role = ParameterRole::shape},
+                  &PreslidingLaw::exponent}}}};
     }
 };
 using Presliding = PreslidingLaw<double>;

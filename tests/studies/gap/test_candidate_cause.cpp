@@ -99,6 +99,20 @@ TEST(CandidateCauses, TheLoopOfASensorHasASizeAndAShape) {
     EXPECT_EQ(numbers.sensor_faults["load_torque"].loop_exponent, 0.7);
 }
 
+TEST(CandidateCauses, PreslidingHasALengthAndAnExponent) {
+    const std::vector<CandidateCause> causes = candidate_causes(driven_session());
+    const auto presliding = std::find_if(causes.begin(), causes.end(), [](const CandidateCause& cause) {
+        return cause.effect == "presliding";
+    });
+    ASSERT_NE(presliding, causes.end());
+    ASSERT_EQ(presliding->numbers.size(), 2u);
+    EXPECT_EQ(presliding->numbers[1].kind, OpenNumber::Kind::shape);
+    BenchNumbers numbers;
+    presliding->apply(numbers, std::vector<double>{2e-4, 0.7});
+    EXPECT_EQ(numbers.effects.of<Presliding>().length_m, 2e-4);
+    EXPECT_EQ(numbers.effects.of<Presliding>().exponent, 0.7);
+}
+
 TEST(CandidateCauses, AreSeenWhereAChannelsValuesLieOnALattice) {
     Recording recording = driven_session();
     const auto load_torque = static_cast<std::size_t>(*recording.channel("load_torque"));

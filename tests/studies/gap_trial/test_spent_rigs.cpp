@@ -104,6 +104,13 @@ TEST(SpentRigs, ALoopOfASensorIsNotAnEnvironmentCoupling) {
     EXPECT_LT(present(diagnosis, "environment_coupling"), 0.3);
 }
 
+// With an exponent of 1, a compliance corrected how its friction builds up.
+TEST(SpentRigs, PreslidingOfADriveIsNoCompliance) {
+    const gap::Diagnosis diagnosis = diagnosed(107101, 30);
+    EXPECT_GT(present(diagnosis, "presliding"), 0.9);
+    EXPECT_LT(present(diagnosis, "conduit_compliance"), 0.3);
+}
+
 // The coarse model shows an inertia beside it, and a gain with an inertia leaves less.
 TEST(SpentBenches, FrictionThatDiffersByDirectionIsNotAGain) {
     const gap::Diagnosis diagnosis = diagnosed_short(996203, 34);
