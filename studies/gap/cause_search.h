@@ -16,9 +16,6 @@
 
 namespace capstan::gap {
 
-/// Half the squared distance of three numbers from what was stated that one bench in a hundred exceeds.
-inline constexpr double tenable_nominal_penalty = 5.67;
-
 struct CauseSearchOptions {
     int segments = 40;  ///< of a cable
     int stride = 1;     ///< samples per step

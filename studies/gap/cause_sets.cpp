@@ -277,7 +277,10 @@ void CauseSearch::add_measured_sets(const ScoredFit& built, Fits& all) {
 // the first cause may have stood for two others.
 CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& smaller) {
     Fits sets;
-    if (!worth_a_further_cause(smaller.front())) return sets;
+    const ScoredFit& best = smaller.front();
+    // A pair is tried whatever a first cause leaves, because that cause may stand for both.
+    const bool seeks_pairs = best.fit.causes.size() == 1 && best.fit.causes.front()->effect != "none";
+    if (!seeks_pairs && !worth_a_further_cause(best)) return sets;
     std::vector<std::string> extended;  // by the cause that was added last
     for (const ScoredFit& each : smaller) {
         const bool is_single = each.fit.causes.size() == 1;
@@ -288,7 +291,7 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
         if (!is_single && !extended.empty() && !is_undescribed_drive(level.bench)) break;
         extended.push_back(added);
         const bool is_wide = extended.size() == 1 && !level.bench.is_measured();
-        if (worth_a_further_cause(each))
+        if (seeks_pairs || worth_a_further_cause(each))
             add_sets(level, each.fit.hypothesis(), each.fit.weights,
                      is_wide ? max_fitted_beside_the_best : max_fitted_further, sets);
     }

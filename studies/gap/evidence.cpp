@@ -361,7 +361,9 @@ bool worth_a_further_cause(const ScoredFit& fit) {
     constexpr double close_when_numbers_float = 0.25;
     if (fit.has_unknown_scales) return true;
     if (!fit.fit.bench->is_measured()) return fit.misfit > close_when_numbers_float;
-    return fit.misfit > std::max(close_to_noise, tenable_mean_square(fit));
+    // A fit can pay for a small misfit with numbers far from those stated.
+    return fit.nominal_penalty > tenable_nominal_penalty ||
+           fit.misfit > std::max(close_to_noise, tenable_mean_square(fit));
 }
 
 std::size_t open_numbers(const CauseFit& fit) {

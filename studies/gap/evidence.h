@@ -128,11 +128,15 @@ class Evidence {
     double below_noise_weight_ = below_noise_weight;
 };
 
+/// Half the squared distance of three numbers from what was stated that one bench in a hundred exceeds.
+inline constexpr double tenable_nominal_penalty = 5.67;
+
 /// How many numbers a fit chose freely, beyond the nominal numbers within their uncertainty.
 std::size_t open_numbers(const CauseFit& fit);
 
 /// True if a fit leaves enough to look for a further cause: more than noise, and more than the law of its
-/// clearest cause may be wrong by; always where the scale of a channel's error is not known (E54).
+/// clearest cause may be wrong by, or numbers that are not tenable; always where the scale of a channel's
+/// error is not known (E54).
 bool worth_a_further_cause(const ScoredFit& fit);
 
 }  // namespace capstan::gap

@@ -129,6 +129,16 @@ TEST(CauseSearch, LooksForAFurtherCauseOnlyWhereMoreThanNoiseAndLawsErrorIsLeft)
     EXPECT_TRUE(worth_a_further_cause(leaving(3.0, 4.0, known.bend)));
 }
 
+// Numbers that one bench in a million would have may stand for a cause.
+TEST(CauseSearch, LooksForAFurtherCauseBesideNumbersThatAreFarFromThoseStated) {
+    const ThreeCauses known;
+    ScoredFit fit = leaving(0.7, 2.0, known.bend);
+    fit.nominal_penalty = 0.5 * tenable_nominal_penalty;
+    EXPECT_FALSE(worth_a_further_cause(fit));
+    fit.nominal_penalty = 20.0;
+    EXPECT_TRUE(worth_a_further_cause(fit));
+}
+
 // Wide numbers take up a part of the floor.
 TEST(CauseSearch, LooksBelowTheFloorWhereTheBenchsNumbersFloat) {
     ThreeCauses known;

@@ -111,6 +111,14 @@ TEST(SpentRigs, PreslidingOfADriveIsNoCompliance) {
     EXPECT_LT(present(diagnosis, "conduit_compliance"), 0.3);
 }
 
+// Creep alone closes 98% of what the two do, and the delay alone with numbers that are far from those stated.
+TEST(SpentBenches, APairIsNamedThoughOneOtherCauseClosesNearlyAll) {
+    const gap::Diagnosis diagnosis = diagnosed_short(107203, 43);
+    for (const char* effect : {"time_misalignment", "cable_stiffness_nonlinear"})
+        EXPECT_GT(present(diagnosis, effect), 0.7) << effect;
+    EXPECT_LT(present(diagnosis, "creep"), 0.2);
+}
+
 // The coarse model shows an inertia beside it, and a gain with an inertia leaves less.
 TEST(SpentBenches, FrictionThatDiffersByDirectionIsNotAGain) {
     const gap::Diagnosis diagnosis = diagnosed_short(996203, 34);
