@@ -102,6 +102,12 @@ double unseen_half_gap_rad(const Recording& recording, const std::string& end) {
     return channel ? 0.5 * recording.channels[static_cast<std::size_t>(*channel)].step.value_or(0.0) : 0.0;
 }
 
+// Of a band whose numbers all float, an exponent that was fitted to one run makes the others worse.
+bool has_given_exponent(const Recording& recording, const std::string& effect) {
+    const bool is_undescribed_band = recording.nominal_is_fitted && recording.mode != BenchMode::pull_pull;
+    return is_undescribed_band && effect == "presliding";
+}
+
 CandidateCause cause_of(const Effect& effect, const Recording& recording, double length_m) {
     const double turned = turned_rad(recording);
     CandidateCause cause = plain(effect.name, effect.component);
@@ -119,6 +125,10 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
             // The reference of a power law and its factor are equivalent, and the factor is the friction
             // itself.
             values[k] = usual_normal_force_N_per_m(recording);
+            cause.given.push_back({parameter.name, parameter.unit, values[k]});
+            continue;
+        }
+        if (parameter.role == ParameterRole::shape && has_given_exponent(recording, effect.name)) {
             cause.given.push_back({parameter.name, parameter.unit, values[k]});
             continue;
         }
