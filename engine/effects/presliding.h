@@ -30,7 +30,7 @@ struct PreslidingLaw {
                        .changes_the_cable = true},
              .parameters = {
                  {{.name = "length", .unit = "m", .high = 0.1, .typical = 5e-4}, &PreslidingLaw::length_m},
-                 {{.name = "exponent", .high = 2.0, .typical = 0.5, .role = ParameterRole::shape},
+                 {{.name = "exponent", .high = 2.0, .typical = 1.0, .role = ParameterRole::shape},
                   &PreslidingLaw::exponent}}}};
     }
 };
