@@ -125,10 +125,9 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
             // The reference of a power law and its factor are equivalent, and the factor is the friction
             // itself.
             values[k] = usual_normal_force_N_per_m(recording);
-            cause.given.push_back({parameter.name, parameter.unit, values[k]});
-            continue;
         }
-        if (parameter.role == ParameterRole::shape && has_given_exponent(recording, effect.name)) {
+        if (parameter.role == ParameterRole::normal_force ||
+            (parameter.role == ParameterRole::shape && has_given_exponent(recording, effect.name))) {
             cause.given.push_back({parameter.name, parameter.unit, values[k]});
             continue;
         }
