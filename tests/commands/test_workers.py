@@ -54,16 +54,17 @@ class Workers(FolderTest):
         self.assert_same_bits(self.tables("complete.db"), self.tables("study/study.db"))
         self.assertEqual(self.states(), ["done"] * SHARDS)
 
-    def units(self, shard):
-        """Of the shard's file: how many are stored, and how many there are."""
+    def has_stored_a_unit(self, shard):
         try:
             with sqlite3.connect(f"file:{self.folder}/study/shard-{shard}-of-{SHARDS}.db?mode=ro", uri=True) as connection:
-                return connection.execute("SELECT ifnull(sum(done), 0), count(*) FROM work_unit").fetchone()
+                return connection.execute("SELECT ifnull(sum(done), 0) FROM work_unit").fetchone()[0] > 0
         except sqlite3.Error:
-            return 0, 0
+            return False
 
     def in_the_middle(self):
-        return next((shard for shard in self.held() if 0 < self.units(shard)[0] < self.units(shard)[1]), None)
+        """A shard with stored units of which some are left; its database lists the units of the other shards, too."""
+        of_shard = self.status()["shards"]
+        return next((shard for shard in self.held() if 0 < of_shard[shard - 1]["units_done"] < of_shard[shard - 1]["units"]), None)
 
     def stopped_in_the_middle(self, *words):
         """A worker that was stopped when it had stored a unit of its first shard and not all, and the shard. A busy machine may stop it too
@@ -71,7 +72,7 @@ class Workers(FolderTest):
         end = time.monotonic() + 120
         while True:
             worker = self.worker(*words)
-            self.wait("a stored unit or the worker's end", lambda: self.in_the_middle() or worker.poll() is not None)
+            self.wait("a stored unit or the worker's end", lambda: any(map(self.has_stored_a_unit, self.held())) or worker.poll() is not None)
             if worker.poll() is None:
                 worker.send_signal(signal.SIGSTOP)
                 os.waitid(os.P_PID, worker.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
