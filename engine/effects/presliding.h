@@ -74,10 +74,12 @@ CAPSTAN_LAW Bristle<Number> bristle_after(const PreslidingLaw<Number>& law, Numb
     // gap^(1 - exponent) falls linearly along the path.
     const Number power = select(is_exponential, one, one - law.exponent);
     const Number left_power = pow(gap, power) - power * path;
-    const Number left = pow(max(left_power, zero), one / power);
     const auto is_left = is_greater(left_power, zero);
+    const Number positive_power = select(is_left, left_power, one);
+    const Number left = pow(positive_power, one / power);
+    const Number left_to_exponent = quotient(left, positive_power);
     const Bristle<Number> general = {select(is_left, way * (one - left), way),
-                                     select(is_left, quotient(pow(left, law.exponent), law.length_m), zero)};
+                                     select(is_left, quotient(left_to_exponent, law.length_m), zero)};
     return choose(either(is_straight, is_exponential), common, general);
 }
 
