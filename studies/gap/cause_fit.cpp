@@ -20,6 +20,8 @@ constexpr int max_iterations = 20;
 // Steps of derivatives. A wide one leads over the ripples that fronts make, towards the right minimum.
 constexpr double fine_step = 0.01;
 constexpr double rough_step = 0.1;
+constexpr int rough_iterations = 5;
+constexpr double not_converged = 1.5;  // a rough search may still come down by this factor
 // A search ends where a further step promises to change the evidence by less than this.
 constexpr double min_gain = 0.02;
 
@@ -208,6 +210,23 @@ Eigen::VectorXd CauseFitter::roughly_sized(const Hypothesis& start, const FitOpt
     return tried.col(best);
 }
 
+// A search with small differences may end at a ripple, and one that begins with wide ones may pass by the
+// minimum: the better of the two, where they end apart.
+CauseFit CauseFitter::fit_over_ripples(const Hypothesis& start, const FitOptions& options) const {
+    CauseFit fit = fit_with({}, start, options, max_iterations, fine_step);
+    if (fit.sum_of_squares > options.pruned_sum_of_squares) return fit;
+    const CauseFit rough = fit_with({}, start, options, rough_iterations, rough_step);
+    int evaluations = fit.evaluations + rough.evaluations;
+    const bool is_apart = (rough.coordinates - fit.coordinates).cwiseAbs().maxCoeff() > rough_step;
+    if (is_apart && rough.sum_of_squares < not_converged * fit.sum_of_squares) {
+        CauseFit other = fit_with({}, rough.hypothesis(), options, max_iterations, fine_step);
+        evaluations += other.evaluations;
+        if (other.sum_of_squares < fit.sum_of_squares) fit = std::move(other);
+    }
+    fit.evaluations = evaluations;
+    return fit;
+}
+
 CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) const {
     int evaluations = 0;
     Hypothesis from = start;
@@ -218,15 +237,16 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
                                            : options.weights,
                           evaluations);
     if (!options.balanced) {
-        CauseFit fit = fit_with(options.weights, from, options, max_iterations, fine_step);
+        // With weights a search begins where another one ended.
+        CauseFit fit = options.weights.empty()
+                           ? fit_over_ripples(from, options)
+                           : fit_with(options.weights, from, options, max_iterations, fine_step);
         fit.evaluations += evaluations;
         return fit;
     }
     // As long as the weights still move, a rough search is enough.
     constexpr int max_rounds = 4;
-    constexpr int rough_iterations = 5;
     constexpr double clearly = 1.3;
-    constexpr double not_converged = 1.5;  // a rough search may still come down by this factor
     CauseFit fit;
     SeriesWeights weights = balancing_weights(data_residuals({&from, 1}, options.left_out));
     bool holds = false;

@@ -171,6 +171,7 @@ class CauseFitter {
     /// Residuals and priors of the causes of `hypothesis` with these weights.
     ResidualFunction weighted(const Hypothesis& hypothesis, const SeriesWeights& weights,
                               std::optional<LeftOut> left_out) const;
+    CauseFit fit_over_ripples(const Hypothesis& start, const FitOptions& options) const;
     CauseFit fit_with(const SeriesWeights& weights, const Hypothesis& start, const FitOptions& options,
                       int iterations, double difference_step) const;
     CauseFit completed(const Hypothesis& hypothesis, const SeriesWeights& weights,

@@ -145,10 +145,12 @@ FoundCauses CauseSearch::run() & {
     found.fits = search_one(described_);
     bool built = is_measured && should_be_taken_as_built(found.fits.front());
     if (built) {
-        // Two causes may look like one that asks for far numbers.
+        // Two causes may look like one that asks for far numbers, and so may one that is sought last.
         Fits pairs = larger_sets(described_, found.fits);
         std::move(pairs.begin(), pairs.end(), std::back_inserter(found.fits));
         sort_by_evidence(found.fits);
+        try_without_idle_causes(described_, found.fits);
+        try_last(described_, found.fits);
     } else {
         search_several(described_, found.fits);
         const ScoredFit& best = found.fits.front();

@@ -121,6 +121,7 @@ class CauseSearch {
     ScoredFit without_cause(const Level& level);
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);
+    void try_without_idle_causes(const Level& level, Fits& all);
     bool try_fewer(const Level& level, Fits& all);
     bool try_more(const Level& level, Fits& all);
     bool replace_the_weakest(const Level& level, Fits& all);

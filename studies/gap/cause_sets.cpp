@@ -85,6 +85,7 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     }
     if (draft_) end_draft(all);
     if (is_undescribed(level.bench)) refine(level, all);
+    if (level.bench.is_measured()) try_without_idle_causes(level, all);
     for (bool changes = true; changes;) {
         const bool is_smaller = try_fewer(level, all);
         changes = is_undescribed_drive(level.bench) &&
@@ -178,6 +179,16 @@ bool CauseSearch::try_fewer(const Level& level, Fits& all) {
         best = all.front().fit.hypothesis();
     }
     return is_better;
+}
+
+// The set that leaves least without each of its causes in turn: one of them may do nothing beside the others.
+void CauseSearch::try_without_idle_causes(const Level& level, Fits& all) {
+    const auto least = std::min_element(
+        all.begin(), all.end(), [](const ScoredFit& a, const ScoredFit& b) { return a.misfit < b.misfit; });
+    if (least == all.begin() || least->fit.causes.size() < 2 || is_out_of_time()) return;
+    report("trying fewer causes");
+    add_fits(level, without_each(least->fit.hypothesis()), false, all);
+    sort_by_evidence(all);
 }
 
 // Further causes beside a set that is better without one: what that cause stood for. Whether one is better.

@@ -133,6 +133,13 @@ TEST(SpentBenches, FrictionOfTheMotorsBearingIsNoBendingStiffness) {
     EXPECT_LT(present(diagnosis, "bending_stiffness"), 0.1);
 }
 
+// Fronts make ripples in the sum of squares, at one of which a search with small differences ended.
+TEST(SpentBenches, BendingStiffnessIsFoundBeyondTheRipplesOfFronts) {
+    const gap::Diagnosis diagnosis = diagnosed_short(107203, 41);
+    EXPECT_GT(present(diagnosis, "bending_stiffness"), 0.9);
+    EXPECT_LT(present(diagnosis, "local_bend"), 0.1);
+}
+
 // The stiffness alone, 6.5% off, leaves less than half of noise and floor.
 TEST(SpentBenches, AStiffnessThatIsFarOffIsNoAbsenceOfAGap) {
     const gap::Diagnosis diagnosis = diagnosed_short(885203, 91);
