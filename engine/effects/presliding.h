@@ -77,7 +77,7 @@ CAPSTAN_LAW Bristle<Number> bristle_after(const PreslidingLaw<Number>& law, Numb
     const auto is_left = is_greater(left_power, zero);
     const Number positive_power = select(is_left, left_power, one);
     const Number left = pow(positive_power, one / power);
-    const Number left_to_exponent = quotient(left, positive_power);
+    const Number left_to_exponent = quotient(left, positive_power);  // of left and left^(1 - exponent)
     const Bristle<Number> general = {select(is_left, way * (one - left), way),
                                      select(is_left, quotient(left_to_exponent, law.length_m), zero)};
     return choose(either(is_straight, is_exponential), common, general);
