@@ -5,7 +5,8 @@
 namespace capstan {
 
 /// Lost motion between a pulley and what it is fixed to (E29): no torque while they are less than half the
-/// gap apart.
+/// gap apart. A single cable only pulls: it keeps the joint on one side of the gap, which is the shift of an
+/// angle.
 struct Backlash {
     /// Stiffness of the closed contact: far above any cable's.
     static constexpr double contact_Nm_per_rad = 5e3;
@@ -28,7 +29,8 @@ struct Backlash {
                            .component = "motor",
                            .end = "motor",
                            .equation = "E29",
-                           .meaning = "lost motion between motor and motor pulley"},
+                           .meaning = "lost motion between motor and motor pulley",
+                           .needs_pair = true},
                  .parameters = {{{.name = "half_gap", .unit = "rad", .high = 1.0, .typical = 0.01},
                                  &Backlash::motor_half_gap_rad}}},
                 {.about = {.name = "backlash",

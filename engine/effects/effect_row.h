@@ -20,8 +20,8 @@ struct EffectDescription {
     std::string meaning{};
     /// The name that an answer gives it where its own is none of the canonical ones; empty: its own.
     std::string answered_as{};
-    bool needs_pair = false;         ///< cannot be seen on a single cable with its far end held
-    bool is_rare = false;            ///< parts are made to be without it
+    bool needs_pair = false;  ///< cannot be seen on a single cable, which only pulls, with its far end held
+    bool is_rare = false;     ///< parts are made to be without it
     bool changes_the_cable = false;  ///< can be part of a placement study's true cable
     /// Causes with almost the same residuals (a cosine of 0.95 and more over all protocols); each pair is
     /// stated in one of the two rows.

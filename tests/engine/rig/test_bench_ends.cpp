@@ -112,6 +112,22 @@ TEST(MotorBacklash, BeyondTheGapEqualsAMotorWithoutBacklashShiftedByTheGap) {
     }
 }
 
+// A cable only pulls, so that its pulley rests on one side of the gap wherever it turns.
+TEST(MotorBacklash, IsNotCrossedByASingleCable) {
+    BenchEffects effects;
+    effects.of<Backlash>().motor_half_gap_rad = 0.05;
+    const BenchDescription single = {cable_with(30), CableArrangement::single, pulleys, {}};
+    BenchSimulation with(single, effects);
+    BenchSimulation without(single, {});
+    for (int step = 1; step <= 400; ++step) {
+        const double turned_rad = 0.3 * swing(step);
+        with.advance({MotorAngle{turned_rad + 0.05}, LoadAngle{0.0}, time_step_s, 0.0});
+        without.advance({MotorAngle{turned_rad}, LoadAngle{0.0}, time_step_s, 0.0});
+        ASSERT_NEAR(with.motor_torque_Nm(), without.motor_torque_Nm(), 1e-3) << step;
+        ASSERT_NEAR(with.load_torque_Nm(), without.load_torque_Nm(), 1e-3) << step;
+    }
+}
+
 TEST(LoadBacklash, BeyondTheGapEqualsALoadWithoutBacklashShiftedByTheGap) {
     BenchEffects effects;
     effects.of<Backlash>().load_half_gap_rad = 0.02;

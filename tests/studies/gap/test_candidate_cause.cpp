@@ -43,6 +43,19 @@ TEST(CandidateCauses, HoldNoLostMotionOfLessThanHalfAStepOfTheEncoderAtItsEnd) {
     EXPECT_EQ(ends, 2);
 }
 
+// A cable only pulls, so that its joints are loaded on one side.
+TEST(CandidateCauses, HoldNoLostMotionOfASingleCable) {
+    Recording recording = driven_session();
+    const auto has_backlash = [&] {
+        const std::vector<CandidateCause> causes = candidate_causes(recording);
+        return std::any_of(causes.begin(), causes.end(),
+                           [](const CandidateCause& cause) { return cause.effect == "backlash"; });
+    };
+    EXPECT_TRUE(has_backlash());
+    recording.mode = BenchMode::single_cable;
+    EXPECT_FALSE(has_backlash());
+}
+
 const CandidateCause& the_one(const std::vector<CandidateCause>& causes, const std::string& effect) {
     return *std::find_if(causes.begin(), causes.end(),
                          [&](const CandidateCause& cause) { return cause.effect == effect; });
