@@ -140,6 +140,12 @@ TEST(SpentBenches, BendingStiffnessIsFoundBeyondTheRipplesOfFronts) {
     EXPECT_LT(present(diagnosis, "local_bend"), 0.1);
 }
 
+// A friction that does nothing was in every set with the hysteresis that left little.
+TEST(SpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
+    const gap::Diagnosis diagnosis = diagnosed_short(107203, 40);
+    EXPECT_GT(present(diagnosis, "sensor_hysteresis"), 0.9);
+}
+
 // The stiffness alone, 6.5% off, leaves less than half of noise and floor.
 TEST(SpentBenches, AStiffnessThatIsFarOffIsNoAbsenceOfAGap) {
     const gap::Diagnosis diagnosis = diagnosed_short(885203, 91);
