@@ -358,6 +358,14 @@ std::string in_words(const std::vector<const CandidateCause*>& causes) {
     return words;
 }
 
+bool is_slowness_of_one_sensor(const std::string& effect, const std::string& variant,
+                               const CandidateCause& cause) {
+    const auto is_slowness = [](const std::string& each) {
+        return each == "sensor_lag" || each == "time_misalignment";
+    };
+    return is_slowness(effect) && is_slowness(cause.effect) && variant == cause.variant;
+}
+
 std::vector<CandidateCause> candidate_causes(const Recording& recording) {
     double length_m = 0.0;
     for (const CurvaturePiece& piece : recording.nominal->curvature) length_m += piece.length_m;

@@ -92,6 +92,11 @@ struct CandidateCause {
 /// The titles of causes that act together, for a message.
 std::string in_words(const std::vector<const CandidateCause*>& causes);
 
+/// Whether an effect at a place is the lag or the delay of a sensor that the cause makes slow as well. A
+/// filter of several stages shows both.
+bool is_slowness_of_one_sensor(const std::string& effect, const std::string& variant,
+                               const CandidateCause& cause);
+
 /// Every cause that this recording could show: none, wrong parameters, the effects of the catalogue, and the
 /// sensor faults of each predicted channel. Those that are sought last come last.
 std::vector<CandidateCause> candidate_causes(const Recording& recording);

@@ -395,6 +395,10 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         const double coordinate = scored.fit.coordinates[static_cast<Eigen::Index>(k)];
         if (visibility.of_the_bench[k] <= visible || number.effect.empty()) continue;
         scored.visible_numbers.push_back(k);
+        const auto is_one_with = [&](const CandidateCause* cause) {
+            return is_slowness_of_one_sensor(number.effect, number.variant, *cause);
+        };
+        if (std::any_of(scored.fit.causes.begin(), scored.fit.causes.end(), is_one_with)) continue;
         const double far =
             number.far_probability(coordinate, scored.fit.deviations[static_cast<Eigen::Index>(k)]);
         if (far > 0.0) scored.far_numbers.push_back({k, far});

@@ -34,14 +34,6 @@ bool has_effect(const ScoredFit& fit, const std::string& effect) {
                        [&](const CandidateCause* cause) { return cause->effect == effect; });
 }
 
-// A sensor that is slow in two stages looks slow and late at once.
-bool is_slowness_of_one_sensor(const CandidateCause& cause, const CandidateCause& other) {
-    const auto is_slowness = [](const CandidateCause& each) {
-        return each.effect == "sensor_lag" || each.effect == "time_misalignment";
-    };
-    return is_slowness(cause) && is_slowness(other) && cause.variant == other.variant;
-}
-
 // Those without a cause, whose misfit limits how visible one can be, and the best others: of several starts
 // with the same causes the best. The best single cause is one of them, because another model may show that
 // those beside it do nothing.
@@ -380,7 +372,8 @@ void CauseSearch::add_sets(const Level& level, std::span<const CandidateCause> c
         const bool known =
             std::any_of(hypothesis.causes.begin(), hypothesis.causes.end(), [&](const CandidateCause* cause) {
                 return (cause->effect == each.cause->effect && cause->variant == each.cause->variant) ||
-                       is_part_of(*each.cause, *cause) || is_slowness_of_one_sensor(*each.cause, *cause);
+                       is_part_of(*each.cause, *cause) ||
+                       is_slowness_of_one_sensor(each.cause->effect, each.cause->variant, *cause);
             });
         if (known) continue;
         ++further;

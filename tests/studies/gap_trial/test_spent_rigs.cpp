@@ -111,6 +111,13 @@ TEST(SlowSpentRigs, PreslidingOfADriveIsNoCompliance) {
     EXPECT_LT(present(diagnosis, "conduit_compliance"), 0.3);
 }
 
+// The lag has several stages. What a lag of first order gets wrong of them looked like a delay besides.
+TEST(SlowSpentRigs, ALagOfSeveralStagesIsNoDelayBesides) {
+    const gap::Diagnosis diagnosis = diagnosed(774501, 33);
+    EXPECT_GT(present(diagnosis, "sensor_lag"), 0.9);
+    EXPECT_LT(present(diagnosis, "time_misalignment"), 0.1);
+}
+
 // Creep alone closes 98% of what the two do, and the delay alone with numbers that are far from those stated.
 TEST(SpentBenches, APairIsNamedThoughOneOtherCauseClosesNearlyAll) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 43);
