@@ -28,9 +28,9 @@ std::vector<Bend> bends_of(const py::sequence& given) {
     return bends;
 }
 
-PythonCable make_cable(const Real& length_m, const Bends& bends, const Real& axial_stiffness_N,
-                       const Real& friction, const OptionalReal& static_friction, const Real& pretension_N,
-                       const Whole& segments) {
+PythonCable make_cable(const Number& length_m, const Bends& bends, const Number& axial_stiffness_N,
+                       const Number& friction, const OptionalNumber& static_friction,
+                       const Number& pretension_N, const Integer& segments) {
     CableSpecification cable;
     cable.curvature = pieces_of(bends_of(bends), number_of(length_m, "length_m"));
     cable.segments = static_cast<int>(integer_of(segments, "segments", {1, 100000}));
@@ -61,9 +61,9 @@ CableDraws draws_alike(CableDraws draws) {
 
 // Tension and displacement, and the number of steps that passed no check.
 std::tuple<py::array_t<double>, py::array_t<double>, std::int64_t> simulate(
-    const PythonCable& held, const Reals& motor_m, const std::string& load_kind,
-    const OptionalReals& load_number, const OptionalReals& friction, const OptionalReals& axial_stiffness_N,
-    const OptionalReals& pretension_N, const Whole& jobs) {
+    const PythonCable& held, const Numbers& motor_m, const std::string& load_kind,
+    const OptionalNumbers& load_number, const OptionalNumbers& friction,
+    const OptionalNumbers& axial_stiffness_N, const OptionalNumbers& pretension_N, const Integer& jobs) {
     struct Work {
         Cable cable;
         CableMotion motion;

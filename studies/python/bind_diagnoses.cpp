@@ -17,8 +17,8 @@ namespace {
 std::shared_ptr<PythonDiagnosis> diagnose(const std::shared_ptr<PythonRecording>& held,
                                           const std::vector<int>& runs, const std::vector<int>& calibrate_on,
                                           const std::vector<int>& fit, const std::vector<int>& hold,
-                                          bool with_simple_models, const OptionalReal& time_limit_s,
-                                          const Whole& jobs, const Progress& on_progress) {
+                                          bool with_simple_models, const OptionalNumber& time_limit_s,
+                                          const Integer& jobs, const Progress& on_progress) {
     gap::DiagnosisOptions options;
     options.threads = jobs_of(jobs);
     if (!time_limit_s.is_none()) options.time_limit_s = number_of(time_limit_s, "time_limit_s");

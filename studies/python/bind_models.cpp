@@ -44,8 +44,8 @@ using FrictionNumbers =
 
 // A cable of the model, its friction that depends on the speed, and what an observer of it leaves out.
 std::tuple<CableNumbers, FrictionNumbers, std::vector<std::string>> observed_cable(
-    const BenchModel& model, const std::string& name, const OptionalReal& pretension_N, const Real& session_s,
-    const std::map<std::string, double>& conditions, bool speed_dependent) {
+    const BenchModel& model, const std::string& name, const OptionalNumber& pretension_N,
+    const Number& session_s, const std::map<std::string, double>& conditions, bool speed_dependent) {
     if (name != "A" && name != "B")
         throw InvalidInput({fmt::format("cable: is '{}', but must be 'A' or 'B'", name)});
     const estimate::ObservedCable cable = estimate::observed_cable(
@@ -74,7 +74,7 @@ std::tuple<CableNumbers, FrictionNumbers, std::vector<std::string>> observed_cab
 
 std::shared_ptr<PythonPrediction> predict(const BenchModel& model,
                                           const std::shared_ptr<PythonRecording>& held,
-                                          const std::vector<int>& runs, const Whole& jobs) {
+                                          const std::vector<int>& runs, const Integer& jobs) {
     auto predicted = std::make_shared<PythonPrediction>();
     const int threads = jobs_of(jobs);
     run_long_call(py::none(), [=](CallWatch&) {

@@ -62,9 +62,9 @@ RateFriction rate_friction_of(const py::sequence& given) {
 }
 
 std::unique_ptr<Observer> make_observer(const PythonCable& held, const Sensors& sensors_given,
-                                        const Real& noise_N, const Real& load_wander_m,
-                                        const Real& motor_wander_m, const Whole& members, const Whole& seed,
-                                        const FourReals& rate_friction) {
+                                        const Number& noise_N, const Number& load_wander_m,
+                                        const Number& motor_wander_m, const Integer& members,
+                                        const Integer& seed, const FourNumbers& rate_friction) {
     std::vector<ObserverSensor> sensors;
     const py::sequence given = sensors_given;
     for (std::size_t k = 0; k < given.size(); ++k) sensors.push_back(sensor_of(given[k], k));
@@ -102,7 +102,7 @@ bool take_plainly(const py::handle& given, std::span<double> readings) {
 
 using Row = py::array_t<double>;
 
-std::tuple<Row, Row, Row> update(Observer& observer, const Real& time_s, const Reals& given) {
+std::tuple<Row, Row, Row> update(Observer& observer, const Number& time_s, const Numbers& given) {
     constexpr std::size_t few = 16;
     double plain[few];
     const double at_s =

@@ -26,7 +26,7 @@ namespace {
 
 using config::ReadConfig;
 
-ReadConfig with_settings(ReadConfig config, const OptionalWhole& seed, const OptionalWhole& repetitions) {
+ReadConfig with_settings(ReadConfig config, const OptionalInteger& seed, const OptionalInteger& repetitions) {
     constexpr IntegerRange seeds{0, 9200000000000000000};
     constexpr IntegerRange counts{2, 10000000};
     if (!seed.is_none()) config.plan.seed = static_cast<std::uint64_t>(integer_of(seed, "seed", seeds));
@@ -60,8 +60,8 @@ TableOptions table_options(int jobs, CallWatch& watch) {
 
 // The studies of a configuration, each stored with its number.
 std::vector<std::int64_t> run(const ReadConfig& config, const std::filesystem::path& file,
-                              const OptionalWhole& seed, const OptionalWhole& repetitions, const Whole& jobs,
-                              const Progress& on_progress) {
+                              const OptionalInteger& seed, const OptionalInteger& repetitions,
+                              const Integer& jobs, const Progress& on_progress) {
     const auto ids = std::make_shared<std::vector<std::int64_t>>();
     const ReadConfig asked = with_settings(config, seed, repetitions);
     const int threads = jobs_of(jobs);
@@ -154,9 +154,9 @@ std::optional<DiagnosedWorld> world_about(const std::shared_ptr<PythonDiagnosis>
 
 std::shared_ptr<reports::Answer> place(const ReadConfig& config,
                                        const std::optional<std::shared_ptr<PythonDiagnosis>>& found,
-                                       const std::optional<std::string>& noise, const Whole& runners_up,
-                                       const OptionalReal& resolve_to_N, const OptionalWhole& seed,
-                                       const OptionalWhole& repetitions, const Whole& jobs,
+                                       const std::optional<std::string>& noise, const Integer& runners_up,
+                                       const OptionalNumber& resolve_to_N, const OptionalInteger& seed,
+                                       const OptionalInteger& repetitions, const Integer& jobs,
                                        const Progress& on_progress) {
     auto answer = std::make_shared<reports::Answer>();
     const ReadConfig asked = with_settings(config, seed, repetitions);

@@ -20,22 +20,22 @@ class Typed : public py::object {
 
 namespace meaning {
 
-struct Real {
+struct Number {
     static constexpr auto name = py::detail::const_name("float");
 };
-struct OptionalReal {
+struct OptionalNumber {
     static constexpr auto name = py::detail::const_name("Optional[float]");
 };
-struct Whole {
+struct Integer {
     static constexpr auto name = py::detail::const_name("int");
 };
-struct OptionalWhole {
+struct OptionalInteger {
     static constexpr auto name = py::detail::const_name("Optional[int]");
 };
-struct Reals {
+struct Numbers {
     static constexpr auto name = py::detail::const_name("numpy.typing.ArrayLike");
 };
-struct OptionalReals {
+struct OptionalNumbers {
     static constexpr auto name = py::detail::const_name("Optional[numpy.typing.ArrayLike]");
 };
 struct Bends {
@@ -44,7 +44,7 @@ struct Bends {
 struct Sensors {
     static constexpr auto name = py::detail::const_name("Sequence[Tuple[str, Union[float, str]]]");
 };
-struct FourReals {
+struct FourNumbers {
     static constexpr auto name = py::detail::const_name("Tuple[float, float, float, float]");
 };
 struct Progress {
@@ -59,15 +59,15 @@ struct Rows {
 
 }  // namespace meaning
 
-using Real = Typed<meaning::Real>;
-using OptionalReal = Typed<meaning::OptionalReal>;
-using Whole = Typed<meaning::Whole>;
-using OptionalWhole = Typed<meaning::OptionalWhole>;
-using Reals = Typed<meaning::Reals>;  ///< one number, an array or a sequence of them
-using OptionalReals = Typed<meaning::OptionalReals>;
+using Number = Typed<meaning::Number>;
+using OptionalNumber = Typed<meaning::OptionalNumber>;
+using Integer = Typed<meaning::Integer>;
+using OptionalInteger = Typed<meaning::OptionalInteger>;
+using Numbers = Typed<meaning::Numbers>;  ///< one number, an array or a sequence of them
+using OptionalNumbers = Typed<meaning::OptionalNumbers>;
 using Bends = Typed<meaning::Bends>;      ///< of each its angle in degrees, radius and place in m
 using Sensors = Typed<meaning::Sensors>;  ///< ("tension", place in m) or ("displacement", "load")
-using FourReals = Typed<meaning::FourReals>;
+using FourNumbers = Typed<meaning::FourNumbers>;
 using Progress = Typed<meaning::Progress>;  ///< called with the activity and the fraction done
 using Units = Typed<meaning::Units>;        ///< by the names of channels
 using Rows = Typed<meaning::Rows>;          ///< of a table
