@@ -1,6 +1,6 @@
 // Recordings from spent seeds of the trial, each of which a diagnosis once missed: rigs, drives of unknown
 // geometry, and benches with one or two protocols and nominal numbers 1% off.
-// The simulator knows nothing of the engine. A rig that takes more than a minute is labelled slow.
+// The simulator knows nothing of the engine. What takes more than a minute is labelled slow.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -54,7 +54,7 @@ TEST(SlowSpentRigs, LargeLostMotionIsNamedBesideAStiffeningCable) {
 }
 
 // Without what follows the bending of the drive, the zero of its load torque makes up for it.
-TEST(SpentRigs, FrictionThatFollowsAConditionIsNamedBesideCreepAndARipple) {
+TEST(SlowSpentRigs, FrictionThatFollowsAConditionIsNamedBesideCreepAndARipple) {
     const gap::Diagnosis diagnosis = diagnosed(77341, 4);
     for (const char* effect : {"param_mu", "creep", "motor_cogging"})
         EXPECT_GT(present(diagnosis, effect), 0.9) << effect;
@@ -90,7 +90,7 @@ TEST(SlowSpentRigs, ARippleOfFivePeriodsIsNoTorqueOverThePosition) {
 }
 
 // Where the ratio of the pulleys does not float, a pulley that is not round corrects it.
-TEST(SpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
+TEST(SlowSpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
     const gap::Diagnosis diagnosis = diagnosed(118903, 5);
     EXPECT_GT(present(diagnosis, "creep"), 0.9);
     EXPECT_LT(present(diagnosis, "eccentric_pulley"), 0.3);
@@ -127,7 +127,7 @@ TEST(SpentBenches, APairIsNamedThoughOneOtherCauseClosesNearlyAll) {
 }
 
 // The coarse model shows an inertia beside it, and a gain with an inertia leaves less.
-TEST(SpentBenches, FrictionThatDiffersByDirectionIsNotAGain) {
+TEST(SlowSpentBenches, FrictionThatDiffersByDirectionIsNotAGain) {
     const gap::Diagnosis diagnosis = diagnosed_short(996203, 34);
     EXPECT_GT(present(diagnosis, "directional_friction"), 0.9);
     EXPECT_LT(present(diagnosis, "sensor_gain"), 0.1);
