@@ -5,8 +5,8 @@
 namespace capstan {
 
 /// Lost motion between a pulley and what it is fixed to (E29): no torque while they are less than half the
-/// gap apart. A single cable only pulls: it keeps the joint on one side of the gap, which is the shift of an
-/// angle.
+/// gap apart. A single cable only pulls and keeps the joint on one side of the gap, so that the gap only
+/// shifts the motor's angle.
 struct Backlash {
     /// Stiffness of the closed contact: far above any cable's.
     static constexpr double contact_Nm_per_rad = 5e3;

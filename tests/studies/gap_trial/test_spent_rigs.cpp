@@ -112,7 +112,7 @@ TEST(SlowSpentRigs, PreslidingOfADriveIsNoCompliance) {
 }
 
 // The lag has several stages. What a lag of first order gets wrong of them looked like a delay besides.
-TEST(SlowSpentRigs, ALagOfSeveralStagesIsNoDelayBesides) {
+TEST(SlowSpentRigs, ALagOfSeveralStagesIsNotNamedADelayToo) {
     const gap::Diagnosis diagnosis = diagnosed(774501, 33);
     EXPECT_GT(present(diagnosis, "sensor_lag"), 0.9);
     EXPECT_LT(present(diagnosis, "time_misalignment"), 0.1);
@@ -147,7 +147,7 @@ TEST(SpentBenches, BendingStiffnessIsFoundBeyondTheRipplesOfFronts) {
     EXPECT_LT(present(diagnosis, "local_bend"), 0.1);
 }
 
-// A friction that does nothing was in every set with the hysteresis that left little.
+// The set that left least also held a cause that does nothing. The hysteresis was not named then.
 TEST(SpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 40);
     EXPECT_GT(present(diagnosis, "sensor_hysteresis"), 0.9);
