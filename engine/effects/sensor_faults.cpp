@@ -1,6 +1,7 @@
 #include "capstan/effects/sensor_faults.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "capstan/effects/presliding.h"
@@ -23,18 +24,70 @@ void add_hysteresis(std::vector<double>& signal, double half_width, double expon
     }
 }
 
-// Exact for a signal that is straight between its samples.
-void add_lag(std::vector<double>& signal, double lag_s, double time_step_s) {
-    const double settled = -std::expm1(-time_step_s / lag_s);
-    const double of_ramp = lag_s / time_step_s * settled;
-    double before = signal.front();
-    double reading = before;
-    for (double& value : signal) {
-        const double now = value;
-        reading += settled * (before - reading) + (1.0 - of_ramp) * (now - before);
-        before = now;
-        value = reading;
+// A signal between two of its samples: the cubic that passes through both, with the slopes that the
+// neighbours give (Catmull and Rom). Straight lines would make a lag and a delay of less than a sample the
+// same filter.
+class BetweenSamples {
+  public:
+    BetweenSamples(const std::vector<double>& signal, std::size_t sample)
+        : BetweenSamples(signal[sample], signal[sample + 1], slope(signal, sample),
+                         slope(signal, sample + 1)) {}
+
+    double at(double fraction) const {
+        return first_ + fraction * (linear_ + fraction * (square_ + fraction * cube_));
     }
+    /// The mean with weights: moments[i] is that of fraction^i.
+    double mean(const std::array<double, 4>& moments) const {
+        return moments[0] * first_ + moments[1] * linear_ + moments[2] * square_ + moments[3] * cube_;
+    }
+
+  private:
+    BetweenSamples(double first, double second, double first_slope, double second_slope)
+        : first_(first), linear_(first_slope) {
+        const double rise = second - first;
+        square_ = 3.0 * rise - 2.0 * first_slope - second_slope;
+        cube_ = first_slope + second_slope - 2.0 * rise;
+    }
+
+    // Per sample.
+    static double slope(const std::vector<double>& signal, std::size_t sample) {
+        const std::size_t before = sample == 0 ? 0 : sample - 1;
+        const std::size_t after = std::min(sample + 1, signal.size() - 1);
+        return (signal[after] - signal[before]) / static_cast<double>(after - before);
+    }
+
+    double first_;
+    double linear_;
+    double square_;
+    double cube_;
+};
+
+// What a first-order low-pass makes of fraction^i by the end of a sample of `ratio` time constants:
+// the integral of ratio exp(-ratio (1 - fraction)) fraction^i.
+std::array<double, 4> low_passed_powers(double ratio) {
+    std::array<double, 4> moments{};
+    moments[0] = -std::expm1(-ratio);
+    if (ratio > 1.0) {
+        for (std::size_t i = 1; i < moments.size(); ++i)
+            moments[i] = 1.0 - static_cast<double>(i) / ratio * moments[i - 1];
+        return moments;
+    }
+    // Upwards the rounding would grow by 1 / ratio each time; downwards it shrinks.
+    double term = ratio / 4.0;
+    for (int n = 1; std::abs(term) > 1e-18; ++n) {
+        moments[3] += term;
+        term *= -ratio / (n + 4.0);
+    }
+    for (std::size_t i = 3; i > 1; --i) moments[i - 1] = (1.0 - moments[i]) * ratio / static_cast<double>(i);
+    return moments;
+}
+
+void add_lag(std::vector<double>& signal, double lag_s, double time_step_s) {
+    const std::vector<double> original = signal;
+    const std::array<double, 4> moments = low_passed_powers(time_step_s / lag_s);
+    const double kept = 1.0 - moments[0];
+    for (std::size_t sample = 1; sample < signal.size(); ++sample)
+        signal[sample] = kept * signal[sample - 1] + BetweenSamples(original, sample - 1).mean(moments);
 }
 
 std::vector<double> delayed(const std::vector<double>& signal, double delay_s, double time_step_s) {
@@ -43,8 +96,7 @@ std::vector<double> delayed(const std::vector<double>& signal, double delay_s, d
     for (std::size_t sample = 0; sample < signal.size(); ++sample) {
         const double at = std::clamp(static_cast<double>(sample) - delay_s / time_step_s, 0.0, last);
         const auto below = std::min(static_cast<std::size_t>(at), signal.size() - 2);
-        const double fraction = at - static_cast<double>(below);
-        shifted[sample] = (1.0 - fraction) * signal[below] + fraction * signal[below + 1];
+        shifted[sample] = BetweenSamples(signal, below).at(at - static_cast<double>(below));
     }
     return shifted;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "capstan/effects/sensor_faults.h"
 
@@ -63,7 +64,7 @@ TEST(SensorFaults, QuantisedReadingsAreTheNearestMultiples) {
               (std::vector<double>{0.0, 0.25, -0.25, 1.0}));
 }
 
-// Of a first-order sensor whose signal is straight between its samples: r - rate * lag * (1 - exp(-t / lag)).
+// Of a first-order sensor: r - rate * lag * (1 - exp(-t / lag)).
 TEST(SensorFaults, ALagTrailsARampByTheRampOverItsTimeConstant) {
     for (const double lag_s : {0.2 * time_step_s, 3.0 * time_step_s, 0.05}) {
         SensorFaults faults;
@@ -85,7 +86,8 @@ TEST(SensorFaults, ALagForgetsAJumpExponentially) {
     std::vector<double> jump(40, 1.0);
     jump[0] = 0.0;
     const std::vector<double> readings = sensed(jump, faults, time_step_s);
-    for (std::size_t k = 2; k < jump.size(); ++k) {
+    // From the sample before it to the one after it the jump bends the signal.
+    for (std::size_t k = 3; k < jump.size(); ++k) {
         EXPECT_NEAR((1.0 - readings[k]) / (1.0 - readings[k - 1]), std::exp(-time_step_s / 0.05), 1e-12) << k;
     }
 }
@@ -100,6 +102,41 @@ TEST(SensorFaults, ADelayedRampIsTheRampLater) {
     for (int k = 0; k < 10; ++k) {
         EXPECT_NEAR(after[static_cast<std::size_t>(k)], 2.0 * std::max(k - 2.5, 0.0), 1e-12) << k;
         EXPECT_NEAR(before[static_cast<std::size_t>(k)], 2.0 * std::min(k + 2.5, 9.0), 1e-12) << k;
+    }
+}
+
+// Of x = t^2 / 2 a lag T makes x - T t + T^2, a delay T makes x - T t + T^2 / 2.
+TEST(SensorFaults, AShortLagAndAShortDelayDifferWhereTheSignalIsCurved) {
+    std::vector<double> parabola;
+    for (int k = 0; k < 40; ++k) parabola.push_back(0.5 * std::pow(k * time_step_s, 2.0));
+    for (const double samples : {0.05, 1.0 / 3.0, 0.8, 1.3}) {
+        const double late_s = samples * time_step_s;
+        const std::vector<double> lagged = sensed(parabola, {.lag_s = late_s}, time_step_s);
+        const std::vector<double> delayed = sensed(parabola, {.delay_s = late_s}, time_step_s);
+        // By the 35th sample the longest lag has forgotten where it began; the last sample has one neighbour.
+        for (std::size_t k = 35; k < 39; ++k) {
+            const double straight = parabola[k] - late_s * static_cast<double>(k) * time_step_s;
+            EXPECT_NEAR(lagged[k], straight + late_s * late_s, 1e-12) << samples;
+            EXPECT_NEAR(delayed[k], straight + 0.5 * late_s * late_s, 1e-12) << samples;
+        }
+    }
+}
+
+// 1 / (1 + i w T), once the beginning is forgotten.
+TEST(SensorFaults, ALagOfASwingIsThatOfAFirstOrderLowPass) {
+    constexpr double samples_a_period = 12.0;
+    const double speed_rad_per_s = 2.0 * std::numbers::pi / (samples_a_period * time_step_s);
+    std::vector<double> swing;
+    for (int k = 0; k < 2000; ++k) swing.push_back(std::sin(speed_rad_per_s * k * time_step_s));
+    for (const double samples : {0.3, 1.0, 5.0, 50.0}) {
+        const double turned_rad = speed_rad_per_s * samples * time_step_s;
+        const std::vector<double> readings = sensed(swing, {.lag_s = samples * time_step_s}, time_step_s);
+        for (std::size_t k = 1900; k < 1999; ++k) {
+            const double time_s = static_cast<double>(k) * time_step_s;
+            const double expected =
+                std::sin(speed_rad_per_s * time_s - std::atan(turned_rad)) / std::hypot(1.0, turned_rad);
+            EXPECT_NEAR(readings[k], expected, 0.005) << samples << " " << k;
+        }
     }
 }
 
