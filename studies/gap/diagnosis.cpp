@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "capstan/gap/next_experiment.h"
 
@@ -46,16 +48,7 @@ class Diagnoser {
             nothing.misfit < misfit_without_gap && nothing.nominal_penalty < tenable_nominal_penalty)
             put_nothing_first(fits, unproven_penalty);
         describe(diagnosis, fits);
-        if (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap)) {
-            if (nothing_in(fits).misfit < tenable_misfit) {
-                put_nothing_first(fits, Evidence::overstated);
-            } else {
-                fits.front().charge_unproven(unproven_penalty);
-                sort_by_evidence(fits);
-            }
-            diagnosis = {};
-            describe(diagnosis, fits);
-        }
+        replace_what_closes_nothing(diagnosis, fits);
         const std::vector<WeighedHypothesis> weighed = search_.evidence().weigh(fits);
         diagnosis.ranked = Evidence::rank(search_.causes(), weighed);
         report("comparing possible experiments", 0.97);
@@ -91,6 +84,34 @@ class Diagnoser {
     // `ahead`: of the evidence of the best cause.
     static void put_nothing_first(std::vector<ScoredFit>& fits, double ahead) {
         nothing_in(fits).evidence = fits.front().evidence + ahead;
+        sort_by_evidence(fits);
+    }
+
+    // Causes that close nothing on held-out data give way to the next best, which may close nothing, either.
+    void replace_what_closes_nothing(Diagnosis& diagnosis, std::vector<ScoredFit>& fits) {
+        constexpr std::size_t most_replaced = 4;
+        std::set<std::vector<const CandidateCause*>> unproven;
+        while (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap) &&
+               unproven.size() < most_replaced && unproven.insert(fits.front().fit.causes).second) {
+            const bool may_be_nothing = nothing_in(fits).misfit < tenable_misfit;
+            if (may_be_nothing) {
+                put_nothing_first(fits, Evidence::overstated);
+            } else {
+                charge_unproven(fits, fits.front().fit.causes);
+            }
+            diagnosis = {};
+            describe(diagnosis, fits);
+            if (may_be_nothing) return;
+        }
+    }
+
+    // Several searches may have ended with these causes.
+    static void charge_unproven(std::vector<ScoredFit>& fits, std::vector<const CandidateCause*> causes) {
+        for (ScoredFit& each : fits) {
+            if (std::is_permutation(each.fit.causes.begin(), each.fit.causes.end(), causes.begin(),
+                                    causes.end()))
+                each.charge_unproven(unproven_penalty);
+        }
         sort_by_evidence(fits);
     }
 

@@ -153,6 +153,13 @@ TEST(SpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
     EXPECT_GT(present(diagnosis, "sensor_hysteresis"), 0.9);
 }
 
+// Without the run that moves, the other one does not tell how slow the sensor is, so that a lag closes
+// nothing on held-out data. Nor does a delay, which took the place of the lag.
+TEST(SpentBenches, ALagThatOnlyOneRunTellsIsNoDelay) {
+    const gap::Diagnosis diagnosis = diagnosed_short(162203, 47);
+    EXPECT_GT(present(diagnosis, "sensor_lag"), 0.5);
+}
+
 // The stiffness alone, 6.5% off, leaves less than half of noise and floor.
 TEST(SpentBenches, AStiffnessThatIsFarOffIsNoAbsenceOfAGap) {
     const gap::Diagnosis diagnosis = diagnosed_short(885203, 91);
