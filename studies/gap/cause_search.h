@@ -58,7 +58,7 @@ class CauseSearch {
   private:
     static constexpr std::size_t max_fitted_further = 3;  // causes that get a full fit beside others
     static constexpr std::size_t max_causes = 5;          // of a set
-    static constexpr std::size_t max_fitted_finely = 5;   // sets
+    static constexpr std::size_t max_fitted_finely = 7;   // sets
     static constexpr std::size_t max_after_draft = 9;     // sets that are fitted again
     // Where the numbers of an undescribed bench leave more than this, they lead nowhere without its causes.
     static constexpr double leads_nowhere = 10.0;

@@ -36,15 +36,18 @@ bool has_effect(const ScoredFit& fit, const std::string& effect) {
 
 // Those without a cause, whose misfit limits how visible one can be, and the best others: of several starts
 // with the same causes the best. The best single cause is one of them, because another model may show that
-// those beside it do nothing.
-std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_sets) {
+// those beside it do nothing. A set that is `far_behind` the best one in evidence stays behind it.
+std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_sets, double far_behind) {
+    const double tenable = fits.front().evidence - far_behind;
     std::stable_partition(fits.begin(), fits.end(),
                           [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
     std::vector<Hypothesis> best;
     bool has_single = false;
     for (auto each = fits.begin(); each != fits.end(); ++each) {
-        const bool is_single = each->fit.causes.size() == 1 && each->fit.causes.front()->effect != "none";
-        if (best.size() >= max_sets && (has_single || !is_single)) continue;
+        const bool is_nothing = each->fit.causes.front()->effect == "none";
+        const bool is_single = each->fit.causes.size() == 1 && !is_nothing;
+        const bool is_needed = is_nothing || (is_single && !has_single);
+        if (!is_needed && (best.size() >= max_sets || each->evidence < tenable)) continue;
         has_single |= is_single;
         const auto has_same_causes = [&](const ScoredFit& other) {
             return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
@@ -95,7 +98,10 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
 // The best sets, from where another model led them. Out of time the best one is still fitted.
 CauseSearch::Fits CauseSearch::fitted_again(Model& model, const Fits& fits, std::size_t max_sets) {
     constexpr std::size_t at_least = 2;  // without a cause, and the best
-    const std::vector<Hypothesis> best = best_sets(fits, max_sets);
+    constexpr double far_behind = 10.0;
+    // From the draft to the coarse model the evidence changes more.
+    const std::vector<Hypothesis> best =
+        best_sets(fits, max_sets, &model == &fine_ ? far_behind : std::numeric_limits<double>::infinity());
     report("fitting the best explanations again");
     CauseFitter::FitOptions options;
     options.any_size = false;

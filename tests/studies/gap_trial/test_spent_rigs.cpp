@@ -75,11 +75,12 @@ TEST(SpentRigs, PreslidingIsNamedBesideNumbersThatAreFarFromThoseStated) {
     EXPECT_LT(present(diagnosis, "sensor_hysteresis"), 0.3);
 }
 
-// An encoder is read when its count is latched: a lag of a sample and a half is not what every encoder has.
-TEST(SpentRigs, ALagOfAnAngleIsNamedBesideACauseThatIsFaintBesideTheNumbersOfTheBench) {
+// An encoder is read when its count is latched: a lag of a sample and a half is not what every encoder has. A
+// delay does much the same to so slow a motion.
+TEST(SpentRigs, ASlowAngleIsToldBesideACauseThatIsFaintBesideTheNumbersOfTheBench) {
     const gap::Diagnosis diagnosis = diagnosed(90731, 22);
-    for (const char* effect : {"sensor_lag", "cable_stiffness_nonlinear"})
-        EXPECT_GT(present(diagnosis, effect), 0.5) << effect;
+    EXPECT_GT(present(diagnosis, "sensor_lag") + present(diagnosis, "time_misalignment"), 0.9);
+    EXPECT_GT(present(diagnosis, "cable_stiffness_nonlinear"), 0.3);
 }
 
 // A ripple of seven periods and a torque over the position fit almost as well.
