@@ -49,6 +49,7 @@ Data causes_data(const gap_trial::CausesScore& causes) {
     data["varies"] = fraction_data(causes.varies);
     data["false_varies"] = fraction_data(causes.false_varies);
     data["calibration_error"] = causes.calibration_error;
+    data["calibration_error_by_chance"] = causes.calibration_error_by_chance;
     data["reliability"] = reliability_data(causes.reliability);
     return data;
 }
@@ -80,6 +81,7 @@ Data values_of(const gap_trial::TrialOptions& options, const std::string& seal, 
     data["median_place_error_m"] = score.median_place_error_m;
     data["brier"] = score.calibration.brier;
     data["ece"] = score.calibration.ece;
+    data["ece_by_chance"] = score.calibration.ece_by_chance;
     data["reliability"] = reliability_data(score.calibration.bins);
     data["causes"] = causes_data(score.causes);
     data["shrinkage"] = {{"load_torque", shrinkage_data(score.load_torque)},
@@ -169,9 +171,9 @@ reports::Answer trial_score_answer(const gap_trial::TrialOptions& options, const
         {.id = "reliability",
          .heading = "Stated probabilities",
          .prose = fmt::format(
-             "Brier score {:.3f}, expected calibration error {:.3f}. A verdict of several effects is right if "
-             "all of them are there.",
-             score.calibration.brier, score.calibration.ece),
+             "Brier score {:.3f}, expected calibration error {:.3f} ({:.3f} by chance alone if every probability "
+             "is right). A verdict of several effects is right if all of them are there.",
+             score.calibration.brier, score.calibration.ece, score.calibration.ece_by_chance),
          .tables = {reliability_table("reliability", answer.values["reliability"])}},
         {.id = "causes",
          .heading = "Causes by name",
@@ -194,8 +196,11 @@ reports::Answer trial_score_answer(const gap_trial::TrialOptions& options, const
                     fractions_table("conditions", conditions)}},
         {.id = "presence",
          .heading = "Stated probabilities that an effect is present",
-         .prose = fmt::format("Of every effect stated with at least {}; expected calibration error {:.3f}.",
-                              gap_trial::stated_from, score.causes.calibration_error),
+         .prose = fmt::format(
+             "Of every effect stated with at least {}; expected calibration error {:.3f} ({:.3f} by "
+             "chance alone if every probability is right).",
+             gap_trial::stated_from, score.causes.calibration_error,
+             score.causes.calibration_error_by_chance),
          .tables = {reliability_table("presence", answer.values["causes"]["reliability"])}},
         {.id = "shrinkage",
          .heading =

@@ -94,6 +94,16 @@ void count_conditions(const Said& said, const CaseLabel& label, CausesScore& sco
     }
 }
 
+// The mean distance of a binomial number from its mean (de Moivre 1730).
+double mean_deviation(int of, double probability) {
+    if (probability <= 0.0 || probability >= 1.0) return 0.0;
+    const double n = of;
+    const double above = std::floor(n * probability) + 1.0;  // the least number above the mean
+    return 2.0 * std::exp(above * std::log(probability) + (n - above + 1.0) * std::log1p(-probability) +
+                          std::log(above) + std::lgamma(n + 1.0) - std::lgamma(above + 1.0) -
+                          std::lgamma(n - above + 1.0));
+}
+
 }  // namespace
 
 CaseTruth truth_of(const CaseLabel& label) {
@@ -144,6 +154,16 @@ double Reliability::calibration_error() const {
     return statements > 0.0 ? sum / statements : 0.0;
 }
 
+double Reliability::calibration_error_by_chance() const {
+    double statements = 0.0;
+    double sum = 0.0;
+    for (const ReliabilityBin& bin : bins()) {
+        statements += bin.right.of;
+        sum += mean_deviation(bin.right.of, bin.mean_probability);
+    }
+    return statements > 0.0 ? sum / statements : 0.0;
+}
+
 CausesScore score_causes(const std::vector<NamedCase>& cases) {
     CausesScore score;
     Groups groups;
@@ -170,6 +190,7 @@ CausesScore score_causes(const std::vector<NamedCase>& cases) {
     score.groups = groups.take();
     score.reliability = reliability.bins();
     score.calibration_error = reliability.calibration_error();
+    score.calibration_error_by_chance = reliability.calibration_error_by_chance();
     return score;
 }
 

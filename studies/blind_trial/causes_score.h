@@ -43,6 +43,8 @@ class Reliability {
     std::vector<ReliabilityBin> bins() const;
     /// Mean gap between stated and found, weighted by statements.
     double calibration_error() const;
+    /// Its mean if every probability is right: few statements of a bin are seldom right as often as stated.
+    double calibration_error_by_chance() const;
 
   private:
     std::vector<ReliabilityBin> sums_ = std::vector<ReliabilityBin>(10);
@@ -66,6 +68,7 @@ struct CausesScore {
     Fraction false_varies;           ///< named effects that do not vary: a condition is stated all the same
     std::vector<ReliabilityBin> reliability;  ///< of every effect with `present` of at least 0.05
     double calibration_error = 0.0;
+    double calibration_error_by_chance = 0.0;
 };
 
 struct NamedCase {

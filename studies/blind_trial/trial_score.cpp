@@ -133,6 +133,7 @@ Calibration calibrate(const std::vector<ScoredCase>& cases) {
     }
     calibration.bins = reliability.bins();
     calibration.ece = reliability.calibration_error();
+    calibration.ece_by_chance = reliability.calibration_error_by_chance();
     return calibration;
 }
 

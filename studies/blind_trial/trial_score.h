@@ -27,6 +27,7 @@ struct Calibration {
     /// Expected calibration error: mean gap between stated and found, weighted by cases, in ten bins. The
     /// stated probability is that of all effects named together, and all of them must be there.
     double ece = 0.0;
+    double ece_by_chance = 0.0;        ///< its mean if every probability is right
     std::vector<ReliabilityBin> bins;  ///< those that hold a case
 };
 

@@ -128,5 +128,26 @@ TEST(Reliability, WeighsTheGapOfEachBinByItsStatements) {
     EXPECT_EQ(Reliability().calibration_error(), 0.0);
 }
 
+// Of n statements of p, k are right with the binomial's probability.
+TEST(Reliability, AFewRightProbabilitiesAreOffByChance) {
+    for (const double stated : {0.05, 0.5, 0.72, 0.95}) {
+        for (const int statements : {1, 2, 7, 40}) {
+            Reliability reliability;
+            for (int k = 0; k < statements; ++k) reliability.add(stated, false);
+            double off = 0.0;
+            double probability = std::pow(1.0 - stated, statements);
+            for (int right = 0; right <= statements; ++right) {
+                off += probability * std::abs(static_cast<double>(right) / statements - stated);
+                probability *= (statements - right) / (right + 1.0) * stated / (1.0 - stated);
+            }
+            EXPECT_NEAR(reliability.calibration_error_by_chance(), off, 1e-12) << stated << " " << statements;
+        }
+    }
+    Reliability certain;
+    certain.add(1.0, true);
+    EXPECT_EQ(certain.calibration_error_by_chance(), 0.0);
+    EXPECT_EQ(Reliability().calibration_error_by_chance(), 0.0);
+}
+
 }  // namespace
 }  // namespace capstan::gap_trial
