@@ -19,7 +19,7 @@ struct Simulations {
     double max = 0.0;
 };
 constexpr Simulations measured_bench{600.0, 9000.0};
-constexpr Simulations floating_bench{8000.0, 45000.0};
+constexpr Simulations floating_bench{8000.0, 90000.0};
 
 int threads_of(const gap::DiagnosisOptions& options) {
     return std::max(
