@@ -89,10 +89,10 @@ class Diagnoser {
 
     // Causes that close nothing on held-out data give way to the next best, which may close nothing, either.
     void replace_what_closes_nothing(Diagnosis& diagnosis, std::vector<ScoredFit>& fits) {
-        constexpr std::size_t most_replaced = 4;
+        constexpr std::size_t max_replaced = 4;
         std::set<std::vector<const CandidateCause*>> unproven;
-        while (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap) &&
-               unproven.size() < most_replaced && unproven.insert(fits.front().fit.causes).second) {
+        while (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap) && unproven.size() < max_replaced &&
+               unproven.insert(fits.front().fit.causes).second) {
             const bool may_be_nothing = nothing_in(fits).misfit < tenable_misfit;
             if (may_be_nothing) {
                 put_nothing_first(fits, Evidence::overstated);
