@@ -24,7 +24,7 @@ void add_hysteresis(std::vector<double>& signal, double half_width, double expon
     }
 }
 
-// A signal between two of its samples: the cubic that passes through both, with the slopes that the
+// E66. A signal between two of its samples: the cubic that passes through both, with the slopes that the
 // neighbours give (Catmull and Rom). Straight lines would make a lag and a delay of less than a sample the
 // same filter.
 class BetweenSamples {

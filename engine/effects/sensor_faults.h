@@ -12,8 +12,8 @@ struct SensorFaults {
     /// How the loop closes after a reversal: 0 a play, which moves nothing until it is crossed; 0.5
     /// Rayleigh's law; 1 exponentially (E65).
     double loop_exponent = 0.5;
-    double lag_s = 0.0;    ///< time constant of a first-order low-pass
-    double delay_s = 0.0;  ///< time misalignment; negative: the reading comes early
+    double lag_s = 0.0;    ///< time constant of a first-order low-pass (E66)
+    double delay_s = 0.0;  ///< time misalignment; negative: the reading comes early (E66)
     double gain = 1.0;
     double offset = 0.0;
     double drift_by_100_s = 0.0;  ///< how far the offset has moved 100 s after the session began
