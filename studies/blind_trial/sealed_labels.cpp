@@ -151,6 +151,7 @@ TrialLabels read_labels(const std::string& text, const std::string& place) {
             labels.options.visibility = {json.at("visibility").at(0), json.at("visibility").at(1)};
         labels.options.nuisances = json.value("nuisances", false);
         labels.options.mixtures = json.value("mixtures", TrialOptions().mixtures);
+        if (json.contains("only")) labels.options.only = group_named(json.at("only"));
         for (const auto& [name, label] : json.at("cases").items())
             labels.cases.push_back(case_of(name, label));
         labels.options.cases = static_cast<int>(labels.cases.size());

@@ -114,12 +114,12 @@ void add_options(nlohmann::ordered_json& json, const TrialOptions& options) {
     if (options.visibility) json["visibility"] = {options.visibility->low, options.visibility->high};
     if (options.nuisances) json["nuisances"] = true;
     if (options.mixtures != TrialOptions().mixtures) json["mixtures"] = options.mixtures;
+    if (options.only) json["only"] = truth_group_name(*options.only);
 }
 
 std::string options_text(const TrialOptions& options) {
     nlohmann::ordered_json json = {{"cases", options.cases}};
     add_options(json, options);
-    if (options.only) json["only"] = truth_group_name(*options.only);
     return json.dump(1) + "\n";
 }
 

@@ -47,7 +47,7 @@ struct TrialOptions {
     std::optional<TruthGroup> only = std::nullopt;
 };
 
-/// Adds what decides the recordings, but for the number of cases and `only`.
+/// Adds what decides the recordings, but for the number of cases.
 void add_options(nlohmann::ordered_json& json, const TrialOptions& options);
 /// The options as trial.json states them.
 std::string options_text(const TrialOptions& options);

@@ -52,6 +52,13 @@ TEST(SealedLabels, AreReadAsTheyWereWritten) {
     EXPECT_EQ(bytes_of(folder.path() / "labels.sha256"), seal + "  labels.json\n");
 }
 
+TEST(SealedLabels, TellWhatKindAllCasesAre) {
+    TrialLabels labels = sample_labels();
+    EXPECT_FALSE(read_labels(labels_text(labels), "labels.json").options.only);
+    labels.options.only = TruthGroup::catalogue;
+    EXPECT_EQ(read_labels(labels_text(labels), "labels.json").options.only, TruthGroup::catalogue);
+}
+
 TEST(SealedLabels, KeepTheNuisancesAndConditionsOfARig) {
     TrialLabels labels = sample_labels();
     labels.options.kind = TrialKind::rigs;
