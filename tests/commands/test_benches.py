@@ -154,9 +154,8 @@ class PapersGap(CapstanTest):
         answer = json.loads(self.run_capstan("diagnose", "fig6.csv", "--json", "--progress", "none").stdout)
         self.assertEqual(answer["ranked"][0]["effect"], "viscous_friction")
         self.assertAlmostEqual(answer["causes"][0]["numbers"]["drag"]["value"], 4.0, delta=0.1)
-        for jobs in (1, 5):
-            again = self.run_capstan("diagnose", "fig6.csv", "--json", "--progress", "none", "--jobs", jobs)
-            self.assertEqual(answer, json.loads(again.stdout), f"{jobs} threads")
+        again = self.run_capstan("diagnose", "fig6.csv", "--json", "--progress", "none", "--jobs", 5)
+        self.assertEqual(answer, json.loads(again.stdout))
         # At least half of the energy goes, as in the paper's Fig. 6; its bench had more that no model has.
         self.assertLess(answer["rms_after"], answer["rms_before"] / 2**0.5)
 

@@ -59,7 +59,7 @@ class Help(CapstanTest):
                 self.assertIsNotNone(event["seconds_left"], (words, event))
 
     def test_a_search_of_causes_states_its_time_left_as_a_range(self):
-        said = self.run_capstan("diagnose", CONFIGS / "recordings" / "lumped-drive.csv", "--progress", "json", "-o", "answer").stderr
+        said = self.run_capstan("diagnose", CONFIGS / "recordings" / "viscous-pair.csv", "--progress", "json", "-o", "answer").stderr
         events = [json.loads(line) for line in said.splitlines() if '"progress"' in line]
         fractions = [event["fraction"] for event in events]
         self.assertEqual(fractions, sorted(fractions))
