@@ -7,21 +7,29 @@ namespace capstan::units {
 
 namespace {
 
-// Removes the lease of a dead worker. Between the look at a lease and its removal another worker may have
-// taken it over; so it is moved aside first, where nobody else touches it, and put back if it turns out to be
-// alive.
-void remove_stale(SharedFolder& folder, const std::string& name, double now_s) {
-    const std::string aside = name + ".stale-" + folder.worker();
-    if (!folder.rename(name, aside)) return;  // another worker was first
-    if (is_held(folder, aside, now_s)) folder.link(aside, name);
-    folder.remove(aside);
-}
-
 std::string lease_text(const SharedFolder& folder, double begun_s) {
     std::ostringstream text;
     text.precision(17);
     text << folder.worker() << ' ' << begun_s << '\n';
     return text.str();
+}
+
+// Removes the lease of a dead worker. Only the worker that has made "<name>.takeover" may: one that saw the
+// dead worker's lease long ago would otherwise remove that of a worker which has taken it over since. The
+// lock of a worker that dies here gets stale as a lease does. Where the disk shows an old time, as NFS may,
+// the lease is seen to be alive once it is moved aside; it is put back then.
+void remove_stale(SharedFolder& folder, const std::string& name, double now_s) {
+    const std::string lock = name + ".takeover";
+    if (!folder.create(lock, lease_text(folder, now_s))) {
+        if (!is_held(folder, lock, now_s)) folder.remove(lock);
+        return;
+    }
+    const std::string aside = name + ".stale-" + folder.worker();
+    if (!is_held(folder, name, now_s) && folder.rename(name, aside)) {
+        if (is_held(folder, aside, now_s)) folder.link(aside, name);
+        folder.remove(aside);
+    }
+    folder.remove(lock);
 }
 
 }  // namespace
@@ -43,7 +51,7 @@ bool is_held(SharedFolder& folder, const std::string& name, double now_s) {
 
 std::optional<Lease> Lease::claim(SharedFolder& folder, const std::string& name) {
     const double now_s = folder.now_s();
-    for (int attempt = 0; attempt < 2; ++attempt) {
+    for (int attempt = 0; attempt < 3; ++attempt) {  // a dead worker may have left a lock and a lease
         if (folder.create(name, lease_text(folder, now_s))) return Lease(folder, name, now_s);
         if (is_held(folder, name, now_s)) return std::nullopt;
         remove_stale(folder, name, now_s);
