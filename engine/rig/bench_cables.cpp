@@ -157,7 +157,7 @@ double BenchCables::rest_displacement_m(int bench, double tension_N) const {
     return -rest.load_compliance_m_per_N * tension_N - (group_.nodes - 1) * stretched_m(rest, tension_N);
 }
 
-void BenchCables::begin(const LaneFlags& active, const CablesMoment& moment, double time_step_s) {
+void BenchCables::begin(const LaneFlags& active, const CablesMoment& moment, const LaneValues& time_step_s) {
     group_.time_step_s = time_step_s;
     begin_cables(group_, active, moment);
 }

@@ -27,7 +27,7 @@ class BenchCables {
     /// Where a cable's motor end rests under a tension [m].
     double rest_displacement_m(int bench, double tension_N) const;
 
-    void begin(const LaneFlags& active, const CablesMoment& moment, double time_step_s);
+    void begin(const LaneFlags& active, const CablesMoment& moment, const LaneValues& time_step_s);
     /// The pulleys that find their angle in any bench; the turns of the others are not solved for.
     void set_free(const FreePulleys& free) { group_.free = free; }
 

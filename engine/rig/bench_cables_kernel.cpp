@@ -287,8 +287,7 @@ HWY_INLINE void keep_lanes(const CablesGroup& group, int lane, LaneValues* motor
         for (int node = 0; node <= last; ++node) {
             const Lanes now_m = load(cable.displacement_m[node], lane);
             if (group.any_varying_friction) {
-                const Lanes speed =
-                    hn::Abs(now_m - load(cable.before_m[node], lane)) / lanes_of(group.time_step_s);
+                const Lanes speed = hn::Abs(now_m - load(cable.before_m[node], lane)) / mechanics.time_step_s;
                 const Lanes lagging = load(cable.lagging_speed_m_per_s[node], lane);
                 store(laws::lagging_speed<Lanes>(mechanics, lagging, speed, mechanics.time_step_s),
                       cable.lagging_speed_m_per_s[node], lane);

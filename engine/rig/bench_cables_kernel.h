@@ -101,7 +101,7 @@ struct CablesGroup {
     int nodes = 0;
     int cables = 0;
     double segment_m = 0.0;
-    double time_step_s = 0.0;
+    LaneValues time_step_s;
     CableLawParameters laws;
     LaneValues stretch_m_per_N;  ///< of a segment, by its own elasticity
     LaneValues dynamic_friction;

@@ -26,7 +26,7 @@ constexpr double step_fractions[] = {1.0, 0.5, 0.25, 0.125, 1.0};
 constexpr int iterations_with_each = 15;
 constexpr int max_iterations = iterations_with_each * static_cast<int>(std::size(step_fractions));
 
-void demand_motion(const BenchInputs& inputs, double time_step_s, bool pull_pull) {
+void demand_motion(const BenchInputs& inputs, bool pull_pull) {
     std::vector<std::string> problems;
     const auto demand_finite = [&](double value, const char* what) {
         if (!std::isfinite(value)) problems.push_back(std::string("the ") + what + " is not a finite number");
@@ -49,8 +49,6 @@ void demand_motion(const BenchInputs& inputs, double time_step_s, bool pull_pull
             problems.push_back("the load spring's stiffness is not positive");
     }
     if (!(inputs.time_step_s > 0.0)) problems.push_back("the time step is not positive");
-    if (inputs.time_step_s != time_step_s)
-        problems.push_back("benches that move side by side have different time steps");
     if (!pull_pull && !std::holds_alternative<LoadAngle>(inputs.load))
         problems.push_back("a single cable's load end is held: prescribe a load angle");
     if (!problems.empty()) throw InvalidInput(problems);
@@ -90,14 +88,17 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
 
 void BenchSimulations::begin(EachInputs inputs, const LaneFlags& active) {
     CablesMoment moment;
+    LaneValues time_step_s;
+    std::fill(std::begin(time_step_s.of), std::end(time_step_s.of), inputs.front().time_step_s);
     for (int lane = 0; lane < count_; ++lane) {
         const BenchInputs& its = inputs[static_cast<std::size_t>(lane)];
         const auto* given = std::get_if<LoadAngle>(&its.load);
         moment.load_angle_rad.of[lane] =
             given != nullptr ? given->angle_rad : pulleys(lane).angles().load_rad;
         moment.session_time_s.of[lane] = its.session_time_s;
+        time_step_s.of[lane] = its.time_step_s;
     }
-    cables_.begin(active, moment, inputs.front().time_step_s);
+    cables_.begin(active, moment, time_step_s);
 }
 
 // Where the motor end of a bench's cables rests follows the pretension (E33).
@@ -344,8 +345,7 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(EachInputs inputs
     if (static_cast<int>(inputs.size()) != count_)
         throw InvalidInput({std::to_string(inputs.size()) + " sets of inputs for " + std::to_string(count_) +
                             " benches; give one to each"});
-    for (const BenchInputs& each : inputs)
-        demand_motion(each, inputs.front().time_step_s, cables_.count() == 2);
+    for (const BenchInputs& each : inputs) demand_motion(each, cables_.count() == 2);
     EachReport reports;
     EachAngles angles;
     LaneFlags all;

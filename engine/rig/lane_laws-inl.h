@@ -202,7 +202,7 @@ struct FrictionFactor {
 struct LaneCable : LaneLaws<CableLaws> {
     HWY_INLINE LaneCable(const CablesGroup& group, int lane)
         : LaneLaws<CableLaws>(group.laws, lane),
-          time_step_s(lanes_of(group.time_step_s)),
+          time_step_s(load(group.time_step_s, lane)),
           dynamic_friction(load(group.dynamic_friction, lane)),
           varies(hn::Ne(load(group.varying_friction, lane), lanes_of(0.0))),
           creeps(group.laws.is_active<CreepLaw>()),
