@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "capstan/cable/invalid_input.h"
 #include "capstan/rig/channel_names.h"
@@ -70,6 +72,12 @@ void check_driven(const Recording& recording) {
                 {recording.name + ": run " + std::to_string(run.number) +
                  ": the driven channels determine no motion; drive motor_torque or motor_angle, and load_angle"});
     }
+}
+
+std::vector<int> all_samples(const RecordedRun& run) {
+    std::vector<int> samples(static_cast<std::size_t>(run.samples()));
+    std::iota(samples.begin(), samples.end(), 0);
+    return samples;
 }
 
 }  // namespace
@@ -167,8 +175,9 @@ std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) co
     std::vector<BenchEffects> effects;
     std::vector<TwinRun> twins(moved.size());
     std::map<std::size_t, std::vector<Reader>> readers;  // of each run
-    int longest = 0;
-    bool rings = false;
+    const bool rings = std::any_of(moved.begin(), moved.end(),
+                                   [](const MovedBench& bench) { return bench.numbers.rings(); });
+    std::map<std::size_t, std::vector<int>> stops;  // of each run
     for (std::size_t bench = 0; bench < moved.size(); ++bench) {
         const auto& [run_index, numbers] = moved[bench];
         const RecordedRun& run = recording_.runs[run_index];
@@ -180,23 +189,27 @@ std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) co
         twins[bench].values.resize(recording_.channels.size());
         for (const Reader& reader : its_readers->second)
             twins[bench].values[reader.channel].reserve(static_cast<std::size_t>(samples(run_index)));
-        longest = std::max(longest, run.samples());
-        rings = rings || numbers.rings();
+        stops.try_emplace(run_index, rings ? all_samples(run) : stops_of(run_index));
     }
     BenchSimulations benches(descriptions, effects);
-    const int step = rings ? 1 : options_.stride;
     std::vector<BenchInputs> inputs(moved.size());
     std::array<long, bench_lanes> iterations{};
     long steps = 0;
-    for (int sample = 0; sample < longest; sample += step) {
+    const std::size_t longest =
+        std::max_element(stops.begin(), stops.end(), [](const auto& a, const auto& b) {
+            return a.second.size() < b.second.size();
+        })->second.size();
+    for (std::size_t stop = 0; stop < longest; ++stop) {
         for (std::size_t bench = 0; bench < moved.size(); ++bench) {
             const std::size_t run = moved[bench].run;
-            if (sample >= recording_.runs[run].samples()) {
+            const std::vector<int>& of_run = stops.at(run);
+            if (stop >= of_run.size()) {
                 benches.stop(static_cast<int>(bench));
             } else if (bench > 0 && run == moved[bench - 1].run) {
                 inputs[bench] = inputs[bench - 1];
             } else {
-                inputs[bench] = inputs_at(run, sample, step);
+                const int before = stop > 0 ? of_run[stop - 1] : -(rings ? 1 : options_.stride);
+                inputs[bench] = inputs_at(run, of_run[stop], of_run[stop] - before);
             }
         }
         const auto reports = benches.advance(inputs);
@@ -206,9 +219,9 @@ std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) co
             if (iterations[bench] > spare_iterations + usual_iterations * steps)
                 benches.stop(static_cast<int>(bench));
         }
-        if (sample % options_.stride != 0) continue;
         for (std::size_t bench = 0; bench < moved.size(); ++bench) {
-            if (sample >= recording_.runs[moved[bench].run].samples()) continue;
+            const std::vector<int>& of_run = stops.at(moved[bench].run);
+            if (stop >= of_run.size() || of_run[stop] % options_.stride != 0) continue;
             if (!reports[bench].converged) ++twins[bench].unsolved_steps;
             if (options_.reports_sliding_fraction)
                 twins[bench].sliding_fraction.push_back(
@@ -226,6 +239,32 @@ std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) co
             align_load_angle(moved[bench].run, twins[bench]);
     }
     return twins;
+}
+
+// Where a driven channel turns between two predicted samples, friction remembers how far it went. What lies
+// within noise may be no turn.
+std::vector<int> EffectsTwin::stops_of(std::size_t run_index) const {
+    constexpr double clearly = 1.0;  // standard deviation; the inputs are smoothed
+    const RecordedRun& run = recording_.runs[run_index];
+    const int samples = run.samples();
+    std::vector<int> stops;
+    for (int sample = 0; sample < samples; sample += options_.stride) {
+        stops.push_back(sample);
+        const int next = sample + options_.stride;
+        if (next >= samples) break;
+        std::set<int> turns;
+        for (std::size_t channel = 0; channel < recording_.channels.size(); ++channel) {
+            if (!run.drives(recording_.channels[channel].name)) continue;
+            const auto begin = inputs_[run_index].values[channel].begin();
+            const auto [low, high] = std::minmax(begin[sample], begin[next]);
+            const double noise = clearly * recording_.channels[channel].noise_std.value_or(0.0);
+            const auto [lowest, highest] = std::minmax_element(begin + sample, begin + next + 1);
+            if (*lowest < low - noise) turns.insert(static_cast<int>(lowest - begin));
+            if (*highest > high + noise) turns.insert(static_cast<int>(highest - begin));
+        }
+        stops.insert(stops.end(), turns.begin(), turns.end());
+    }
+    return stops;
 }
 
 // The zero of the load angle is not known, so its mean is set to the measured one.

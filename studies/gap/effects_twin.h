@@ -73,7 +73,8 @@ struct EffectsTwinOptions {
     /// Of each cable of a pair. A single cable gets twice as many, because the tension at its held end
     /// collects the error of every segment. E18 has no stiction rule that would need more.
     int segments = 50;
-    int stride = 1;  ///< samples per step
+    /// From one predicted sample to the next. In between a step ends where a driven channel turns.
+    int stride = 1;
     bool reports_sliding_fraction = false;
 };
 
@@ -115,6 +116,8 @@ class EffectsTwin {
         std::function<double(const BenchSimulations&, int bench)> read;
     };
     std::vector<Reader> readers_of(const RecordedRun& run) const;
+    /// The samples to which a run is simulated: those predicted, and where a driven channel turns between.
+    std::vector<int> stops_of(std::size_t run) const;
     BenchInputs inputs_at(std::size_t run, int sample, int step_samples) const;
     void align_load_angle(std::size_t run, TwinRun& twin) const;
 
