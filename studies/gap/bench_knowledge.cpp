@@ -1,6 +1,9 @@
 #include "capstan/gap/bench_knowledge.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "capstan/platform/statistics.h"
@@ -205,6 +208,72 @@ void add_undescribed_parts(const NominalBench& nominal, double prior_std, BenchK
              }});
 }
 
+// Sets of the three stated numbers, a bit for each.
+constexpr int sets_of_numbers = 1 << nominal_coordinates;
+
+bool is_in(int set, int number) {
+    return ((set >> number) & 1) != 0;
+}
+
+// Half of all benches were measured; there one stated number of fifty is wrong, as any one cause is as
+// probable. On the others any number may have been measured. One of which no value was stated is not
+// measured.
+double prior_probability(const BenchKnowledge& bench, int wrong) {
+    constexpr double wrong_though_measured = 0.02;
+    double if_measured = 1.0;
+    double if_not = 1.0;
+    for (int k = 0; k < nominal_coordinates; ++k) {
+        if (bench.numbers[static_cast<std::size_t>(k)].measured_std == 0.0) {
+            if (!is_in(wrong, k)) return 0.0;
+            continue;
+        }
+        if_measured *= is_in(wrong, k) ? wrong_though_measured : 1.0 - wrong_though_measured;
+        if_not *= 0.5;
+    }
+    return 0.5 * (if_measured + if_not);
+}
+
+// Of the numbers' logarithms before the recording, in units of the variances of their priors.
+Eigen::Vector3d variance_where(const BenchKnowledge& bench, int wrong) {
+    Eigen::Vector3d variance = Eigen::Vector3d::Ones();
+    for (int k = 0; k < nominal_coordinates; ++k) {
+        const FloatingNumber& number = bench.numbers[static_cast<std::size_t>(k)];
+        if (!is_in(wrong, k)) variance[k] = std::pow(number.measured_std / number.prior_std, 2);
+    }
+    return variance;
+}
+
+// What a recording tells of the three numbers beside their priors, in units of these: A and b of E63.
+struct Told {
+    Eigen::Matrix3d information;
+    Eigen::Vector3d shown;
+};
+
+// With that unit a covariance has eigenvalues of at most 1.
+Told told_beside_priors(const BenchKnowledge& bench, const Eigen::Vector3d& coordinates,
+                        const Eigen::Matrix3d& covariance) {
+    constexpr double least = 1e-12;
+    Eigen::Vector3d widths;
+    for (int k = 0; k < nominal_coordinates; ++k)
+        widths[k] = bench.numbers[static_cast<std::size_t>(k)].prior_std;
+    const Eigen::Matrix3d per_width = widths.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(per_width * covariance * per_width);
+    const Eigen::Vector3d inverse = solver.eigenvalues().cwiseMax(least).cwiseMin(1.0).cwiseInverse();
+    const Eigen::Matrix3d& axes = solver.eigenvectors();
+    const Eigen::Vector3d told = inverse - Eigen::Vector3d::Ones();
+    return {axes * told.asDiagonal() * axes.transpose(),
+            axes * inverse.asDiagonal() * axes.transpose() * per_width * coordinates};
+}
+
+// The logarithm, up to a constant, of the evidence of numbers with these variances beforehand.
+double log_evidence(const Told& told, const Eigen::Vector3d& variance) {
+    const Eigen::Vector3d deviations = variance.cwiseSqrt();
+    const Eigen::LLT<Eigen::Matrix3d> factor(
+        Eigen::Matrix3d::Identity() + deviations.asDiagonal() * told.information * deviations.asDiagonal());
+    const Eigen::Vector3d shown = deviations.asDiagonal() * told.shown;
+    return 0.5 * shown.dot(factor.solve(shown)) - factor.matrixLLT().diagonal().array().log().sum();
+}
+
 }  // namespace
 
 double FloatingNumber::value(double coordinate) const {
@@ -217,20 +286,6 @@ double FloatingNumber::value(double coordinate) const {
             return scale * coordinate;
     }
     return 0.0;
-}
-
-// E63.
-double FloatingNumber::far_probability(double coordinate, double deviation) const {
-    if (std::abs(coordinate) <= usual) return 0.0;
-    if (measured_std == 0.0) return 1.0;
-    const double prior = prior_std * prior_std;
-    const double posterior = std::min(deviation * deviation, 0.999 * prior);
-    const double told = 1.0 / (1.0 / posterior - 1.0 / prior);
-    const double shown = coordinate * (told + prior) / prior;
-    const auto log_density = [&](double variance) {
-        return -0.5 * (std::log(told + variance) + shown * shown / (told + variance));
-    };
-    return 1.0 / (1.0 + std::exp(log_density(measured_std * measured_std) - log_density(prior)));
 }
 
 bool FloatingNumber::is_at_bound(double coordinate) const {
@@ -261,6 +316,26 @@ BenchKnowledge built_bench(const Recording& recording) {
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
     bench.numbers.push_back(presliding_of_bearings());
     return bench;
+}
+
+StatedNumbers weigh_stated_numbers(const BenchKnowledge& bench, const Eigen::Vector3d& coordinates,
+                                   const Eigen::Matrix3d& covariance) {
+    const Told told = told_beside_priors(bench, coordinates, covariance);
+    std::array<double, sets_of_numbers> log_weights{};
+    for (int wrong = 0; wrong < sets_of_numbers; ++wrong)
+        log_weights[static_cast<std::size_t>(wrong)] =
+            std::log(prior_probability(bench, wrong)) + log_evidence(told, variance_where(bench, wrong));
+    const double most = *std::max_element(log_weights.begin(), log_weights.end());
+    StatedNumbers stated{Eigen::Vector3d::Zero()};
+    double sum = 0.0;
+    for (int wrong = 0; wrong < sets_of_numbers; ++wrong) {
+        const double weight = std::exp(log_weights[static_cast<std::size_t>(wrong)] - most);
+        sum += weight;
+        for (int k = 0; k < nominal_coordinates; ++k) stated.wrong[k] += is_in(wrong, k) ? weight : 0.0;
+    }
+    stated.wrong /= sum;
+    stated.log_gain = most + std::log(sum) - log_evidence(told, Eigen::Vector3d::Ones());
+    return stated;
 }
 
 BenchKnowledge undescribed_bench(const Recording& recording) {

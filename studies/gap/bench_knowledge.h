@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -35,9 +36,7 @@ struct FloatingNumber {
     std::function<void(BenchNumbers&, double value)> apply;
 
     double value(double coordinate) const;
-    /// The probability that it is not what was stated, if a fit left it here with this standard deviation
-    /// (E63).
-    double far_probability(double coordinate, double deviation) const;
+    bool is_far(double coordinate) const { return std::abs(coordinate) > usual; }
     /// Whether the search ended at the end of its range: the true number may lie beyond it.
     bool is_at_bound(double coordinate) const;
 };
@@ -70,6 +69,19 @@ BenchKnowledge measured_bench(const NominalSpread& stated);
 /// set by hand (15%), torque and tension sensors with a zero error (10% of half of their recorded span), and
 /// bearings with Coulomb friction. Numbers that the sidecar states as ranges are known as it says.
 BenchKnowledge built_bench(const Recording& recording);
+
+/// What a fit tells of the numbers that a sidecar states (E63).
+struct StatedNumbers {
+    /// The probability that each is not what was stated; 1 where none was.
+    Eigen::Vector3d wrong = Eigen::Vector3d::Ones();
+    /// What it adds to the evidence that they may be as stated: the logarithm of a ratio.
+    double log_gain = 0.0;
+};
+
+/// `coordinates` and `covariance`: of the first three numbers, as a fit left them with their priors in
+/// `bench`.
+StatedNumbers weigh_stated_numbers(const BenchKnowledge& bench, const Eigen::Vector3d& coordinates,
+                                   const Eigen::Matrix3d& covariance);
 
 /// A drive or band whose numbers nobody stated: `recording` is its equivalent bench, whose numbers were
 /// fitted. All of them float by factors, and of a drive where its conduit bends.

@@ -267,6 +267,10 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     return fit;
 }
 
+CauseFit CauseFitter::fit_close_to(const Hypothesis& start, const FitOptions& options) const {
+    return fit_with({}, start, options, max_iterations, fine_step);
+}
+
 CauseFit CauseFitter::rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights) const {
     constexpr int few_iterations = 3;
     constexpr std::size_t max_continued = 2;

@@ -71,7 +71,8 @@ struct CauseFit {
     /// How much of what was probable of the numbers beforehand the recording leaves: the logarithm of the
     /// posterior's volume over the prior's (E57), at most 0.
     double log_volume_ratio = 0.0;
-    Eigen::VectorXd deviations{};  ///< standard deviations of the coordinates, by the same method
+    /// Of the first three numbers of the bench, by the same method.
+    Eigen::Matrix3d nominal_covariance = Eigen::Matrix3d::Zero();
     int evaluations = 0;
     bool converged = false;
 
@@ -112,6 +113,8 @@ class CauseFitter {
         bool balanced = false;
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
+    /// The same without weights, from where a fit with a coarser model ended.
+    CauseFit fit_close_to(const Hypothesis& start, const FitOptions& options) const;
     /// The same causes with the same weights, fitted without each part in turn, from the numbers of `all`.
     std::vector<CauseFit> fits_without(const CauseFit& all, std::span<const LeftOut> parts) const;
     /// A few rough steps of a search, everything free, with these weights, from the more promising of the

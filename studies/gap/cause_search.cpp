@@ -28,13 +28,13 @@ int samples_skipped(const Recording& recording, double enough_Hz) {
 // segments are enough; a band, whose tension falls by a factor round its drum, needs as many as a described
 // cable. But both are moved by recorded channels: what is left of their noise moves them to and fro, and
 // friction remembers it, so samples are skipped only of what was recorded faster than a hand moves, or for
-// long.
+// long. A described bench is moved by its true motion, of which the turns matter, and the twin keeps those.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
     constexpr double enough_Hz = 100.0;
     constexpr double enough_of_a_long_recording_Hz = 50.0;
     constexpr double long_s = 80.0;
     constexpr int segments = 24;
-    if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 2 * stride};
+    if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 4 * stride};
     const bool is_drive = recording.mode == BenchMode::pull_pull;
     const bool is_long = is_drive && recording.samples() > long_s * recording.sample_rate_Hz;
     return {
@@ -163,6 +163,7 @@ FoundCauses CauseSearch::run() & {
         Fits rougher = search_one(built_);
         search_several(built_, rougher);
         rougher = fitted_again(fine_, rougher, max_fitted_finely);
+        try_fewer_finely(rougher);
         const ScoredFit best = rougher.front();
         std::move(rougher.begin(), rougher.end(), std::back_inserter(found.fits));
         sort_by_evidence(found.fits);
@@ -362,8 +363,17 @@ void CauseSearch::report(const std::string& activity) {
 }
 
 // A bench with many floating numbers is searched with the coarse model, and its best sets are fitted again.
+// On a measured bench the coarse model leads every fit close to its minimum.
 CauseFit CauseSearch::fit_on(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options) {
-    options.balanced = !level.bench.is_measured();
+    if (level.bench.is_measured()) {
+        CauseFitter::FitOptions coarsely = options;
+        coarsely.pruned_sum_of_squares *= coarse_.fitter.determined_rows() / fine_.fitter.determined_rows();
+        const CauseFit close = coarse_.fitter.fit(start, coarsely);
+        CauseFit fit = fine_.fitter.fit_close_to(close.hypothesis(), options);
+        fit.evaluations += close.evaluations;
+        return fit;
+    }
+    options.balanced = true;
     // There each channel has a scale of its own, and the sum of squares decides nothing.
     if (is_undescribed(level.bench)) options.pruned_sum_of_squares = std::numeric_limits<double>::infinity();
     return model_of(level).fitter.fit(start, options);
@@ -387,6 +397,12 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
     scored.misfit = model.fitter.misfit(scored.fit);
     scored.nominal_penalty = model.fitter.nominal_penalty(scored.fit);
     scored.shape_penalty = model.fitter.shape_penalty(scored.fit);
+    const StatedNumbers stated =
+        scored.fit.bench->is_measured()
+            ? StatedNumbers{}
+            : weigh_stated_numbers(*scored.fit.bench, scored.fit.coordinates.head<nominal_coordinates>(),
+                                   scored.fit.nominal_covariance);
+    scored.stated_gain = stated.log_gain;
     const Visibility visibility = model.fitter.visibility(scored.fit);
     scored.visibility = visibility.of_causes;
     constexpr double visible = 2.0;
@@ -399,9 +415,8 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
             return is_slowness_of_one_sensor(number.effect, number.variant, *cause);
         };
         if (std::any_of(scored.fit.causes.begin(), scored.fit.causes.end(), is_one_with)) continue;
-        const double far =
-            number.far_probability(coordinate, scored.fit.deviations[static_cast<Eigen::Index>(k)]);
-        if (far > 0.0) scored.far_numbers.push_back({k, far});
+        const double far = k < nominal_coordinates ? stated.wrong[static_cast<Eigen::Index>(k)] : 1.0;
+        if (number.is_far(coordinate)) scored.far_numbers.push_back({k, far});
     }
     scored.has_unknown_scales = is_undescribed(*scored.fit.bench);
     if (!scored.has_unknown_scales) {

@@ -123,6 +123,7 @@ class CauseSearch {
     void search_several(const Level& level, Fits& all);
     void try_without_idle_causes(const Level& level, Fits& all);
     bool try_fewer(const Level& level, Fits& all);
+    void try_fewer_finely(Fits& all);
     bool try_more(const Level& level, Fits& all);
     bool replace_the_weakest(const Level& level, Fits& all);
     void refine(const Level& level, Fits& all);

@@ -50,8 +50,7 @@ std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_s
         if (!is_needed && (best.size() >= max_sets || each->evidence < tenable)) continue;
         has_single |= is_single;
         const auto has_same_causes = [&](const ScoredFit& other) {
-            return std::is_permutation(other.fit.causes.begin(), other.fit.causes.end(),
-                                       each->fit.causes.begin(), each->fit.causes.end());
+            return are_same_causes(other.fit.causes, each->fit.causes);
         };
         if (std::none_of(fits.begin(), each, has_same_causes)) best.push_back(each->fit.hypothesis());
     }
@@ -110,6 +109,29 @@ CauseSearch::Fits CauseSearch::fitted_again(Model& model, const Fits& fits, std:
         model, best.size(), [&](std::size_t k) { return model.fitter.fit(best[k], options); }, at_least);
     sort_by_evidence(again);
     return again;
+}
+
+// The best set without each of its causes, where the fine model has not seen that. The coarse model skips
+// samples, except where an inertia rings, so that a little inertia may stand for what the others miss.
+void CauseSearch::try_fewer_finely(Fits& all) {
+    while (all.front().fit.causes.size() > 1 && !is_out_of_time()) {
+        const double before = all.front().evidence;
+        std::vector<Hypothesis> fewer = without_each(all.front().fit.hypothesis());
+        std::erase_if(fewer, [&](const Hypothesis& set) {
+            return std::any_of(all.begin(), all.end(), [&](const ScoredFit& each) {
+                return are_same_causes(each.fit.causes, set.causes);
+            });
+        });
+        report("trying fewer causes");
+        CauseFitter::FitOptions options;
+        options.any_size = false;
+        options.balanced = true;
+        Fits made = made_side_by_side(fine_, fewer.size(),
+                                      [&](std::size_t k) { return fine_.fitter.fit(fewer[k], options); });
+        std::move(made.begin(), made.end(), std::back_inserter(all));
+        sort_by_evidence(all);
+        if (all.front().evidence == before) return;
+    }
 }
 
 // Others in the place of a single cause, from where it led the bench's own numbers: where these float widely,
@@ -386,10 +408,7 @@ void CauseSearch::add_sets(const Level& level, std::span<const CandidateCause> c
         std::vector<const CandidateCause*> set = hypothesis.causes;
         set.push_back(each.cause);
         // Where the bench's numbers float widely, a set leads elsewhere from another start.
-        const auto same = [&](const ScoredFit& other) {
-            return other.fit.causes.size() == set.size() &&
-                   std::is_permutation(set.begin(), set.end(), other.fit.causes.begin());
-        };
+        const auto same = [&](const ScoredFit& other) { return are_same_causes(other.fit.causes, set); };
         if (level.bench.is_measured() && std::any_of(sets.begin(), sets.end(), same)) continue;
         starts.push_back(each.start);
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -90,9 +89,11 @@ class Diagnoser {
     // Causes that close nothing on held-out data give way to the next best, which may close nothing, either.
     void replace_what_closes_nothing(Diagnosis& diagnosis, std::vector<ScoredFit>& fits) {
         constexpr std::size_t max_replaced = 4;
-        std::set<std::vector<const CandidateCause*>> unproven;
+        std::vector<std::vector<const CandidateCause*>> unproven;
         while (!diagnosis.causes.empty() && closes_nothing(diagnosis.gap) && unproven.size() < max_replaced &&
-               unproven.insert(fits.front().fit.causes).second) {
+               std::none_of(unproven.begin(), unproven.end(),
+                            [&](const auto& set) { return are_same_causes(set, fits.front().fit.causes); })) {
+            unproven.push_back(fits.front().fit.causes);
             const bool may_be_nothing = nothing_in(fits).misfit < tenable_misfit;
             if (may_be_nothing) {
                 put_nothing_first(fits, Evidence::overstated);
@@ -108,9 +109,7 @@ class Diagnoser {
     // Several searches may have ended with these causes.
     static void charge_unproven(std::vector<ScoredFit>& fits, std::vector<const CandidateCause*> causes) {
         for (ScoredFit& each : fits) {
-            if (std::is_permutation(each.fit.causes.begin(), each.fit.causes.end(), causes.begin(),
-                                    causes.end()))
-                each.charge_unproven(unproven_penalty);
+            if (are_same_causes(each.fit.causes, causes)) each.charge_unproven(unproven_penalty);
         }
         sort_by_evidence(fits);
     }

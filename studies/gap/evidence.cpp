@@ -217,7 +217,7 @@ double Evidence::marginal(const ScoredFit& fit, const std::function<double(doubl
 }
 
 double Evidence::priors(const ScoredFit& fit) const {
-    double evidence = -fit.nominal_penalty - fit.shape_penalty - fit.unproven_penalty;
+    double evidence = -fit.nominal_penalty - fit.shape_penalty + fit.stated_gain - fit.unproven_penalty;
     double inferred = 0.0;  // causes
     double faintest = 1.0;  // of the inferred causes, relative to the clearest law beside it
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {

@@ -38,6 +38,7 @@ struct ScoredFit {
     double misfit = 0.0;  ///< mean square residual, in units of noise and floor
     double nominal_penalty = 0.0;
     double shape_penalty = 0.0;
+    double stated_gain = 0.0;        ///< because stated numbers may be as stated (E63)
     double unproven_penalty = 0.0;   ///< for causes that close nothing in held-out data
     std::vector<double> visibility;  ///< of each cause: its rms change of the clearest channel, in units of
                                      ///< noise and floor

@@ -62,7 +62,8 @@ void CauseFitter::integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) cons
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
     const Eigen::LLT<Eigen::MatrixXd> factor(identity + information);
     fit.log_volume_ratio = log_ratio - factor.matrixLLT().diagonal().array().log().sum();
-    fit.deviations = (factor.solve(identity).diagonal().array().sqrt() * widths.array().abs()).matrix();
+    fit.nominal_covariance = (widths.asDiagonal() * factor.solve(identity) * widths.asDiagonal())
+                                 .topLeftCorner<nominal_coordinates, nominal_coordinates>();
 }
 
 Visibility CauseFitter::visibility(const CauseFit& fit) const {

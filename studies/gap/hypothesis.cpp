@@ -36,6 +36,11 @@ Mechanics mechanics_of(const Hypothesis& hypothesis, const BenchNumbers& in_run)
 
 }  // namespace
 
+bool are_same_causes(const std::vector<const CandidateCause*>& one,
+                     const std::vector<const CandidateCause*>& other) {
+    return std::is_permutation(one.begin(), one.end(), other.begin(), other.end());
+}
+
 Hypothesis nominal_hypothesis(const BenchKnowledge& bench) {
     return {{}, Eigen::VectorXd::Zero(bench.size()), &bench};
 }

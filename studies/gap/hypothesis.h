@@ -9,6 +9,10 @@
 
 namespace capstan::gap {
 
+/// Whether two sets hold the same causes, in whichever order these were found.
+bool are_same_causes(const std::vector<const CandidateCause*>& one,
+                     const std::vector<const CandidateCause*>& other);
+
 /// Causes with their numbers, to be simulated together.
 struct Hypothesis {
     std::vector<const CandidateCause*> causes;
