@@ -175,10 +175,16 @@ TrialLabels unseal_labels(const std::filesystem::path& labels_file, const std::s
     const std::string text = read_input_file(labels_file);
     const std::string hash = sha256(text);
     const std::filesystem::path hash_file = labels_file.parent_path() / hash_name;
+    if (!std::filesystem::exists(hash_file))
+        throw InvalidInput(
+            {fmt::format("{}: has no {} beside it, which says what they were before any diagnosis; "
+                         "score them in the folder that gap-trial --keep made",
+                         labels_file.string(), hash_name)});
     const std::string sealed = read_input_file(hash_file).substr(0, hash.size());
+    const std::string printed = expected_hash.empty() ? hash : expected_hash;
     for (const auto& [said, by] :
-         {std::pair(sealed, hash_file.string()), std::pair(expected_hash, std::string("what was printed"))}) {
-        if (!said.empty() && said != hash)
+         {std::pair(sealed, hash_file.string()), std::pair(printed, std::string("what was printed"))}) {
+        if (said != hash)
             throw InvalidInput({fmt::format(
                 "{}: hashes to {}, but {} says {}: the labels were changed after they were sealed; score with "
                 "the file as it was written",

@@ -78,6 +78,21 @@ TEST(SealedLabels, KeepTheNuisancesAndConditionsOfARig) {
     EXPECT_EQ(back.cases.front().conditions, std::vector<std::string>{"roll_deg"});
 }
 
+TEST(SealedLabels, AreNotScoredWithoutTheirSeal) {
+    const ScratchFolder folder;
+    seal_labels(folder.path(), sample_labels());
+    const std::filesystem::path file = folder.path() / "labels.json";
+    write_file(folder.path() / "labels.sha256", "");
+    EXPECT_THROW(unseal_labels(file, ""), InvalidInput);
+    std::filesystem::remove(folder.path() / "labels.sha256");
+    try {
+        unseal_labels(file, "");
+        FAIL() << "labels without a seal were scored";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("gap-trial --keep"), std::string::npos) << error.what();
+    }
+}
+
 TEST(SealedLabels, AChangeIsDetected) {
     const ScratchFolder folder;
     const std::string seal = seal_labels(folder.path(), sample_labels());
