@@ -10,6 +10,12 @@ namespace capstan::gap {
 
 namespace {
 
+double wrap_rad(const NominalBench& bench) {
+    double wrap_rad = 0.0;
+    for (const CurvaturePiece& piece : bench.curvature) wrap_rad += piece.length_m / piece.bend_radius_m;
+    return wrap_rad;
+}
+
 // The error of the quasi-static model itself, for a channel that varies by `spread` in a run: oscillation
 // after a motion has passed, breakaway, discretisation. Measured on recordings without a gap: about 1% of a
 // torque or tension, 2% of the torque at a load that is held, and 2% of a motor angle that only stretches the
@@ -26,6 +32,17 @@ double standard_deviation(const std::vector<double>& values) {
     double squares = 0.0;
     for (const double value : values) squares += (value - mean) * (value - mean);
     return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+// E67. What the motor torque's variation would be at the load if the cables slid all the way. A held load may
+// feel little of it, but the error of where sliding ends goes with all of it. 0 where no motor torque was
+// recorded.
+double spread_brought_to_load(const Recording& recording, const RecordedRun& run) {
+    const auto motor = recording.channel(channel::motor_torque);
+    if (!motor) return 0.0;
+    const NominalBench& bench = *recording.nominal;
+    return standard_deviation(run.values[static_cast<std::size_t>(*motor)]) * bench.load_radius_m /
+           bench.motor_radius_m * std::exp(-bench.dynamic_friction * wrap_rad(bench));
 }
 
 double rms_difference(std::span<const double> a, std::span<const double> b) {
@@ -102,12 +119,8 @@ double mean_size(const std::vector<double>& values) {
 // motion: turned = change^2 / (4 q T EA). A long motion stretches the complete cable (E55).
 double change_at_reversal_N(const NominalBench& bench, double tension_N, double turned_m) {
     double length_m = 0.0;
-    double wrap_rad = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) {
-        length_m += piece.length_m;
-        wrap_rad += piece.length_m / piece.bend_radius_m;
-    }
-    const double friction_per_m = bench.dynamic_friction * wrap_rad / length_m;
+    for (const CurvaturePiece& piece : bench.curvature) length_m += piece.length_m;
+    const double friction_per_m = bench.dynamic_friction * wrap_rad(bench) / length_m;
     return std::max(bench.axial_stiffness_N / length_m * turned_m,
                     std::sqrt(4.0 * friction_per_m * tension_N * bench.axial_stiffness_N * turned_m));
 }
@@ -195,8 +208,11 @@ std::vector<ResidualSeries> residual_series(const Recording& recording, const Ef
             const auto later = [&](const TwinRun& moved) {
                 return std::span(moved.values[channel]).subspan(static_cast<std::size_t>(first));
             };
-            const double floor = model_floor(described.name, recording.runs[run].output == OutputKind::locked,
-                                             standard_deviation(recording.runs[run].values[channel]));
+            const bool load_is_held = recording.runs[run].output == OutputKind::locked;
+            double spread = standard_deviation(recording.runs[run].values[channel]);
+            if (described.name == channel::load_torque && load_is_held)
+                spread = std::max(spread, spread_brought_to_load(recording, recording.runs[run]));
+            const double floor = model_floor(described.name, load_is_held, spread);
             std::vector<double> of_inputs;
             for (const TwinRun& each : moved_again)
                 of_inputs.push_back(rms_difference(later(nominal), later(each)));

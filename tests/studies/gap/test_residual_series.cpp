@@ -119,5 +119,36 @@ TEST(ResidualSeries, NoiseOfADrivenAngleIsPartOfTheScaleOfWhatItMoves) {
     EXPECT_NEAR(left[4], 1.0, 0.4);
 }
 
+// Friction may stop a motion before it reaches a held load. How far it gets is known to a part of all that it
+// would bring there (E67), so that a load that feels nothing has a floor, too.
+TEST(ResidualSeries, TheFloorOfAHeldLoadGoesWithTheMotorsTorque) {
+    Recording recording = exact_session({}, coarse_twin);
+    std::erase_if(recording.runs, [](const RecordedRun& run) { return run.output != OutputKind::locked; });
+    recording.runs.resize(1);
+    for (Channel& channel : recording.channels) channel.noise_std.reset();
+    std::vector<double>& load_Nm =
+        recording.runs.front().values[static_cast<std::size_t>(*recording.channel("load_torque"))];
+    std::fill(load_Nm.begin(), load_Nm.end(), 0.4);
+    const auto floor_Nm = [&] {
+        const EffectsTwin twin(recording, coarse_twin);
+        return series_of(residual_series(recording, twin), recording, "load_torque").scale;
+    };
+
+    const NominalBench& bench = *recording.nominal;
+    double wrap_rad = 0.0;
+    for (const CurvaturePiece& piece : bench.curvature) wrap_rad += piece.length_m / piece.bend_radius_m;
+    const std::vector<double>& motor_Nm =
+        recording.runs.front().values[static_cast<std::size_t>(*recording.channel("motor_torque"))];
+    const auto samples = static_cast<double>(motor_Nm.size());
+    const double mean_Nm = std::accumulate(motor_Nm.begin(), motor_Nm.end(), 0.0) / samples;
+    const double square = std::inner_product(motor_Nm.begin(), motor_Nm.end(), motor_Nm.begin(), 0.0) / samples;
+    const double brought_Nm = std::sqrt(square - mean_Nm * mean_Nm) * bench.load_radius_m /
+                              bench.motor_radius_m * std::exp(-bench.dynamic_friction * wrap_rad);
+    EXPECT_NEAR(floor_Nm(), 0.02 * brought_Nm, 1e-6 * brought_Nm);
+
+    recording.runs.front().output = OutputKind::handle;
+    EXPECT_LT(floor_Nm(), 1e-3 * brought_Nm);
+}
+
 }  // namespace
 }  // namespace capstan::gap
