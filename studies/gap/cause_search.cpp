@@ -20,6 +20,11 @@ constexpr std::size_t max_fitted = 8;
 constexpr std::size_t fits_at_once = 4;
 constexpr int segments_of_a_drive = 9;
 
+// Of unknown geometry, with a cable that pulls each way.
+bool is_drive(const Recording& recording) {
+    return recording.nominal_is_fitted && recording.mode == BenchMode::pull_pull;
+}
+
 int samples_skipped(const Recording& recording, double enough_Hz) {
     return std::max(1, static_cast<int>(recording.sample_rate_Hz / enough_Hz));
 }
@@ -30,16 +35,23 @@ int samples_skipped(const Recording& recording, double enough_Hz) {
 // friction remembers it, so samples are skipped only of what was recorded faster than a hand moves, or for
 // long. A described bench is moved by its true motion, of which the turns matter, and the twin keeps those.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
-    constexpr double enough_Hz = 100.0;
-    constexpr double enough_of_a_long_recording_Hz = 50.0;
+    constexpr double enough_Hz = 50.0;
+    constexpr double enough_of_a_long_recording_Hz = 25.0;
+    constexpr double enough_of_a_band_Hz = 100.0;
     constexpr double long_s = 80.0;
     constexpr int segments = 24;
     if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 4 * stride};
-    const bool is_drive = recording.mode == BenchMode::pull_pull;
-    const bool is_long = is_drive && recording.samples() > long_s * recording.sample_rate_Hz;
+    if (!is_drive(recording))
+        return {.segments = segments, .stride = stride * samples_skipped(recording, enough_of_a_band_Hz)};
+    const bool is_long = recording.samples() > long_s * recording.sample_rate_Hz;
     return {
-        .segments = is_drive ? segments_of_a_drive : segments,
+        .segments = segments_of_a_drive,
         .stride = stride * samples_skipped(recording, is_long ? enough_of_a_long_recording_Hz : enough_Hz)};
+}
+
+EffectsTwinOptions fine_options(const Recording& recording, const CauseSearchOptions& options) {
+    const int segments = is_drive(recording) ? 2 * segments_of_a_drive : options.segments;
+    return {.segments = std::min(options.segments, segments), .stride = options.stride};
 }
 
 // Where much more than noise is left, what noise does to friction does not matter, and a hand's motion is
@@ -109,7 +121,7 @@ CauseSearch::Model::Model(const Recording& recording, const EffectsTwinOptions& 
 CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& options)
     : recording_(recording),
       options_(options),
-      fine_(recording, {options.segments, options.stride}, options.threads),
+      fine_(recording, fine_options(recording, options), options.threads),
       coarse_(recording, coarse_options(recording, options.stride), options.threads),
       evidence_(fine_.fitter.independent_samples()),
       described_{recording.nominal_is_fitted ? undescribed_bench(recording)
