@@ -95,9 +95,7 @@ std::vector<KeyProblem> problems_of(const CableSpecification& s) {
     demand(not_negative(s.pretension_N), "pretension_N", s.pretension_N, ", but must be 0 or more");
     if (!problems.empty()) return problems;
 
-    double wrap_angle_rad = 0.0;
-    for (const CurvaturePiece& piece : s.curvature) wrap_angle_rad += piece.length_m / piece.bend_radius_m;
-    const double exponent = s.static_friction * wrap_angle_rad;
+    const double exponent = s.static_friction * wrap_rad(s.curvature);
     if (!(exponent <= largest_friction_exponent)) {
         problems.push_back(
             {"curvature", "static_friction times the wrap angle is " + number(exponent) +

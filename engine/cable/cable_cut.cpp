@@ -12,6 +12,12 @@ double length_m(const std::vector<CurvaturePiece>& pieces) {
     return length;
 }
 
+double wrap_rad(const std::vector<CurvaturePiece>& pieces) {
+    double wrap = 0.0;
+    for (const CurvaturePiece& piece : pieces) wrap += piece.length_m / piece.bend_radius_m;
+    return wrap;
+}
+
 std::vector<double> bend_ends_m(const std::vector<CurvaturePiece>& pieces) {
     std::vector<double> places_m;
     double at_m = 0.0;

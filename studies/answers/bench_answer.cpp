@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capstan/answers/paper_answers.h"
+#include "capstan/cable/cable_cut.h"
 #include "capstan/config/config_writer.h"
 
 namespace capstan::answers {
@@ -86,11 +87,7 @@ void BenchAnswer::add_curves(const BenchInstant& now) {
 }
 
 void BenchAnswer::add_tensions(const BenchInstant& now) {
-    const double segment_m = [&] {
-        double length_m = 0.0;
-        for (const CurvaturePiece& piece : plan_.cable.curvature) length_m += piece.length_m;
-        return length_m / plan_.cable.segments;
-    }();
+    const double segment_m = length_m(plan_.cable.curvature) / plan_.cable.segments;
     const double until_s = now.time_s + static_cast<double>(profile_every_) / plan_.sample_rate_Hz;
     for (const auto& [cable, tension_N] :
          {std::pair{"cable A", &now.tension_a_N}, std::pair{"cable B", &now.tension_b_N}}) {

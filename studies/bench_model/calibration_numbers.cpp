@@ -1,5 +1,7 @@
 #include "capstan/bench_model/calibration_numbers.h"
 
+#include "capstan/cable/cable_cut.h"
+
 namespace capstan::bench_model {
 
 namespace {
@@ -23,14 +25,10 @@ std::vector<FittedNumber> calibration_numbers(const BenchModel& model) {
                 scaled("axial_stiffness", "N", bench.axial_stiffness_N, model.stiffness_ratio),
                 scaled("pretension", "", 1.0, model.pretension_ratio)};
     // The equivalent bench back to the drive as its shafts show it.
-    double wrap_rad = 0.0;
-    double length_m = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) {
-        wrap_rad += piece.length_m / piece.bend_radius_m;
-        length_m += piece.length_m;
-    }
+    const double length_m = capstan::length_m(bench.curvature);
     const double radius_m = bench.motor_radius_m;
-    return {scaled("friction_exponent", "", bench.dynamic_friction * wrap_rad, model.friction_ratio),
+    return {scaled("friction_exponent", "", bench.dynamic_friction * wrap_rad(bench.curvature),
+                   model.friction_ratio),
             scaled("stiffness", "N m/rad", bench.axial_stiffness_N * radius_m * radius_m / length_m,
                    model.stiffness_ratio),
             scaled("pretension", "N m", model.description.pretension_N * radius_m, model.pretension_ratio),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/cable/cable_state.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/recording/driven_inputs.h"
@@ -13,12 +14,6 @@
 namespace capstan::estimate {
 
 namespace {
-
-double length_of(const NominalBench& bench) {
-    double length_m = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) length_m += piece.length_m;
-    return length_m;
-}
 
 // Where a channel's tension is its value times `newtons_per_unit`.
 struct Source {
@@ -74,7 +69,7 @@ std::vector<Source> sources_of(const Recording& recording, CableName cable) {
     };
     if (free_everywhere(channel::motor_torque)) add(channel::motor_torque, 0.0, 1.0 / bench.motor_radius_m);
     if (free_everywhere(channel::load_torque))
-        add(channel::load_torque, length_of(bench), 1.0 / bench.load_radius_m);
+        add(channel::load_torque, length_m(bench.curvature), 1.0 / bench.load_radius_m);
     return sources;
 }
 

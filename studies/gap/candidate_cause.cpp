@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/effects/effect_catalogue.h"
 #include "capstan/effects/known_causes.h"
 #include "capstan/recording/channel_range.h"
@@ -367,8 +368,7 @@ bool is_slowness_of_one_sensor(const std::string& effect, const std::string& var
 }
 
 std::vector<CandidateCause> candidate_causes(const Recording& recording) {
-    double length_m = 0.0;
-    for (const CurvaturePiece& piece : recording.nominal->curvature) length_m += piece.length_m;
+    const double length_m = capstan::length_m(recording.nominal->curvature);
 
     std::vector<CandidateCause> causes = {plain("none", "none")};
     CandidateCause friction = plain("param_mu", "parameter");

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/rig/channel_names.h"
 
@@ -20,12 +21,6 @@ constexpr double max_prediction = 1e3;
 // its simulation ends there.
 constexpr int usual_iterations = 20;
 constexpr int spare_iterations = 3000;
-
-double wrap_rad(const std::vector<CurvaturePiece>& path) {
-    double wrap_rad = 0.0;
-    for (const CurvaturePiece& piece : path) wrap_rad += piece.length_m / piece.bend_radius_m;
-    return wrap_rad;
-}
 
 // The friction of a bench that can be built: a search may ask for a number that follows a condition far
 // beyond it.
@@ -134,8 +129,7 @@ BenchNumbers BenchNumbers::in_other_runs() const {
 
 std::vector<CurvaturePiece> BenchNumbers::routing(const std::vector<CurvaturePiece>& described) const {
     if (bend_at_motor_ratio == 1.0 && bend_at_load_ratio == 1.0) return described;
-    double length_m = 0.0;
-    for (const CurvaturePiece& piece : described) length_m += piece.length_m;
+    const double length_m = capstan::length_m(described);
     const double third_m = length_m / 3.0;
     const double middle_per_m =
         wrap_rad(described) / (third_m * (bend_at_motor_ratio + 1.0 + bend_at_load_ratio));

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/gap/next_experiment.h"
 #include "capstan/rig/channel_names.h"
 
@@ -140,7 +141,7 @@ class Planner {
 
     // The longest run again with one additional sensor.
     void add_sensor(CableName cable, double fraction) {
-        const double length_m = length_of(recording_.nominal->curvature);
+        const double length_m = capstan::length_m(recording_.nominal->curvature);
         const double position_m = fraction * length_m;
         constexpr double close_fraction = 0.08;
         for (const TensionSensor& sensor : recording_.tension_sensors) {
@@ -164,12 +165,6 @@ class Planner {
         run.values.emplace_back(static_cast<std::size_t>(run.samples()), 0.0);
         plan.recording.runs = {run};
         plans_.push_back(plan);
-    }
-
-    static double length_of(const std::vector<CurvaturePiece>& curvature) {
-        double length_m = 0.0;
-        for (const CurvaturePiece& piece : curvature) length_m += piece.length_m;
-        return length_m;
     }
 
     const Recording& recording_;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <span>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/gap/cause_fit.h"
 #include "capstan/platform/statistics.h"
 #include "capstan/rig/channel_names.h"
@@ -9,12 +10,6 @@
 namespace capstan::gap {
 
 namespace {
-
-double wrap_rad(const NominalBench& bench) {
-    double wrap_rad = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) wrap_rad += piece.length_m / piece.bend_radius_m;
-    return wrap_rad;
-}
 
 // The error of the quasi-static model itself, for a channel that varies by `spread` in a run: oscillation
 // after a motion has passed, breakaway, discretisation. Measured on recordings without a gap: about 1% of a
@@ -42,7 +37,7 @@ double spread_brought_to_load(const Recording& recording, const RecordedRun& run
     if (!motor) return 0.0;
     const NominalBench& bench = *recording.nominal;
     return standard_deviation(run.values[static_cast<std::size_t>(*motor)]) * bench.load_radius_m /
-           bench.motor_radius_m * std::exp(-bench.dynamic_friction * wrap_rad(bench));
+           bench.motor_radius_m * std::exp(-bench.dynamic_friction * wrap_rad(bench.curvature));
 }
 
 double rms_difference(std::span<const double> a, std::span<const double> b) {
@@ -118,9 +113,8 @@ double mean_size(const std::vector<double>& values) {
 // length that it reaches by twice the friction, 2 q T per metre, and its strain over that length is the
 // motion: turned = change^2 / (4 q T EA). A long motion stretches the complete cable (E55).
 double change_at_reversal_N(const NominalBench& bench, double tension_N, double turned_m) {
-    double length_m = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) length_m += piece.length_m;
-    const double friction_per_m = bench.dynamic_friction * wrap_rad(bench) / length_m;
+    const double length_m = capstan::length_m(bench.curvature);
+    const double friction_per_m = bench.dynamic_friction * wrap_rad(bench.curvature) / length_m;
     return std::max(bench.axial_stiffness_N / length_m * turned_m,
                     std::sqrt(4.0 * friction_per_m * tension_N * bench.axial_stiffness_N * turned_m));
 }

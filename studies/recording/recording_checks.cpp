@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/platform/wrapped_text.h"
 #include "capstan/recording/channel_range.h"
 #include "capstan/recording/recording_reader.h"
@@ -83,10 +84,8 @@ void check_torque_units(const Recording& recording, const std::string& place, Pr
     const double ideal = recording.nominal->load_radius_m / recording.nominal->motor_radius_m;
     // Friction can keep a torque from the load altogether, but nothing makes it larger than exp(mu wrap)
     // allows.
-    double wrap_rad = 0.0;
-    for (const CurvaturePiece& piece : recording.nominal->curvature)
-        wrap_rad += piece.length_m / piece.bend_radius_m;
-    const double most = ideal * std::exp(recording.nominal->dynamic_friction * wrap_rad) * implausible_factor;
+    const double exponent = recording.nominal->dynamic_friction * wrap_rad(recording.nominal->curvature);
+    const double most = ideal * std::exp(exponent) * implausible_factor;
     if (*ratio > most)
         problems.add(place,
                      fmt::format("load_torque spans {:.3g} times what motor_torque does, friction explains "

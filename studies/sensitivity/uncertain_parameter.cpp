@@ -4,15 +4,14 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "capstan/cable/cable_cut.h"
+
 namespace capstan::sensitivity {
 
 namespace {
 
 double wrap_angle_rad(const StudyPlan& plan, int) {
-    double angle_rad = 0.0;
-    for (const auto& piece : plan.transmission.cable.curvature)
-        angle_rad += piece.length_m / piece.bend_radius_m;
-    return angle_rad;
+    return wrap_rad(plan.transmission.cable.curvature);
 }
 
 double noise_at_pretension_N(const StudyPlan& plan, int noise_index) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "capstan/cable/cable_cut.h"
+
 namespace capstan::fuzz {
 
 namespace {
@@ -46,9 +48,7 @@ std::string spoil(CableSpecification& s, Choices& choices) {
 }
 
 double friction_exponent(const CableSpecification& s) {
-    double wrap_rad = 0.0;
-    for (const CurvaturePiece& piece : s.curvature) wrap_rad += piece.length_m / piece.bend_radius_m;
-    return s.static_friction * wrap_rad;
+    return s.static_friction * wrap_rad(s.curvature);
 }
 
 double any_displacement_m(Choices& choices, double now_m, double rest_m, double stretch_m) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/estimate/modelled_cable.h"
 #include "capstan/estimate/tracking.h"
@@ -11,29 +12,17 @@
 namespace capstan::estimate {
 namespace {
 
-double wrap_rad(const std::vector<CurvaturePiece>& path) {
-    double angle_rad = 0.0;
-    for (const CurvaturePiece& piece : path) angle_rad += piece.length_m / piece.bend_radius_m;
-    return angle_rad;
-}
-
-double path_length_m(const std::vector<CurvaturePiece>& path) {
-    double sum_m = 0.0;
-    for (const CurvaturePiece& piece : path) sum_m += piece.length_m;
-    return sum_m;
-}
-
 TEST(WithBend, AddsItsAngleAndKeepsTheLength) {
     const std::vector<CurvaturePiece> path = {{0.5, straight}, {1.5, 0.6}};
     const std::vector<CurvaturePiece> bent = with_bend(path, 0.4, 0.7, 0.9);
     EXPECT_EQ(bent.size(), 4u);  // straight, bent, bent more, as before
-    EXPECT_NEAR(path_length_m(bent), 2.0, 1e-12);
+    EXPECT_NEAR(length_m(bent), 2.0, 1e-12);
     EXPECT_NEAR(wrap_rad(bent), wrap_rad(path) + 0.9, 1e-12);
 }
 
 TEST(WithBend, LeavesOutWhatLiesBeyondTheEnd) {
     const std::vector<CurvaturePiece> bent = with_bend({{1.0, straight}}, -0.1, 0.1, 1.0);
-    EXPECT_NEAR(path_length_m(bent), 1.0, 1e-12);
+    EXPECT_NEAR(length_m(bent), 1.0, 1e-12);
     EXPECT_NEAR(wrap_rad(bent), 0.5, 1e-12);
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/gap/cause_fit.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "lumped_session.h"
@@ -135,15 +136,13 @@ TEST(ResidualSeries, TheFloorOfAHeldLoadGoesWithTheMotorsTorque) {
     };
 
     const NominalBench& bench = *recording.nominal;
-    double wrap_rad = 0.0;
-    for (const CurvaturePiece& piece : bench.curvature) wrap_rad += piece.length_m / piece.bend_radius_m;
     const std::vector<double>& motor_Nm =
         recording.runs.front().values[static_cast<std::size_t>(*recording.channel("motor_torque"))];
     const auto samples = static_cast<double>(motor_Nm.size());
     const double mean_Nm = std::accumulate(motor_Nm.begin(), motor_Nm.end(), 0.0) / samples;
     const double square = std::inner_product(motor_Nm.begin(), motor_Nm.end(), motor_Nm.begin(), 0.0) / samples;
     const double brought_Nm = std::sqrt(square - mean_Nm * mean_Nm) * bench.load_radius_m /
-                              bench.motor_radius_m * std::exp(-bench.dynamic_friction * wrap_rad);
+                              bench.motor_radius_m * std::exp(-bench.dynamic_friction * wrap_rad(bench.curvature));
     EXPECT_NEAR(floor_Nm(), 0.02 * brought_Nm, 1e-6 * brought_Nm);
 
     recording.runs.front().output = OutputKind::handle;

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/gap/effects_twin.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "lumped_session.h"
 
 namespace capstan::gap {
 namespace {
-
-double wrap_rad(const std::vector<CurvaturePiece>& path) {
-    double wrap = 0.0;
-    for (const CurvaturePiece& piece : path) wrap += piece.length_m / piece.bend_radius_m;
-    return wrap;
-}
 
 TEST(Routing, KeepsLengthAndWrapWhereverTheBendsAre) {
     const std::vector<CurvaturePiece> described = {{0.4, 0.2}, {0.8, straight}};
