@@ -35,17 +35,14 @@ int samples_skipped(const Recording& recording, double enough_Hz) {
 // friction remembers it, so samples are skipped only of what was recorded faster than a hand moves, or for
 // long. A described bench is moved by its true motion, of which the turns matter, and the twin keeps those.
 EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
-    constexpr double enough_Hz = 50.0;
-    constexpr double enough_of_a_long_recording_Hz = 25.0;
-    constexpr double enough_of_a_band_Hz = 100.0;
+    constexpr double enough_Hz = 100.0;
+    constexpr double enough_of_a_long_recording_Hz = 50.0;
     constexpr double long_s = 80.0;
     constexpr int segments = 24;
     if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 4 * stride};
-    if (!is_drive(recording))
-        return {.segments = segments, .stride = stride * samples_skipped(recording, enough_of_a_band_Hz)};
-    const bool is_long = recording.samples() > long_s * recording.sample_rate_Hz;
+    const bool is_long = is_drive(recording) && recording.samples() > long_s * recording.sample_rate_Hz;
     return {
-        .segments = segments_of_a_drive,
+        .segments = is_drive(recording) ? segments_of_a_drive : segments,
         .stride = stride * samples_skipped(recording, is_long ? enough_of_a_long_recording_Hz : enough_Hz)};
 }
 
