@@ -46,6 +46,7 @@ EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
         .stride = stride * samples_skipped(recording, is_long ? enough_of_a_long_recording_Hz : enough_Hz)};
 }
 
+// More segments than these change nothing of what is found on a drive.
 EffectsTwinOptions fine_options(const Recording& recording, const CauseSearchOptions& options) {
     const int segments = is_drive(recording) ? 2 * segments_of_a_drive : options.segments;
     return {.segments = std::min(options.segments, segments), .stride = options.stride};

@@ -120,8 +120,8 @@ TEST(ResidualSeries, NoiseOfADrivenAngleIsPartOfTheScaleOfWhatItMoves) {
     EXPECT_NEAR(left[4], 1.0, 0.4);
 }
 
-// Friction may stop a motion before it reaches a held load. How far it gets is known to a part of all that it
-// would bring there (E67), so that a load that feels nothing has a floor, too.
+// Friction may stop a motion before it reaches a held load. The error of how far it gets is a fraction of what
+// it would bring there (E67), so that a load that feels nothing has a floor, too.
 TEST(ResidualSeries, TheFloorOfAHeldLoadGoesWithTheMotorsTorque) {
     Recording recording = exact_session({}, coarse_twin);
     std::erase_if(recording.runs, [](const RecordedRun& run) { return run.output != OutputKind::locked; });
