@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace capstan::gap_trial {
 
@@ -117,10 +116,17 @@ CaseTruth truth_of(const CaseLabel& label) {
 
 std::vector<AnsweredEffect> judged(const CaseAnswer& answer, const CaseTruth& truth) {
     std::vector<AnsweredEffect> ranked;
-    std::copy_if(answer.ranked.begin(), answer.ranked.end(), std::back_inserter(ranked),
-                 [&](const AnsweredEffect& each) {
-                     return truth.nuisances.count(each.effect) == 0 || !each.varies.empty();
-                 });
+    double of_nuisances = 0.0;
+    for (const AnsweredEffect& each : answer.ranked) {
+        if (truth.nuisances.count(each.effect) > 0 && each.varies.empty()) {
+            of_nuisances += each.probability;
+        } else {
+            ranked.push_back({each.effect, each.probability, each.presence(), each.varies});
+        }
+    }
+    if (of_nuisances > 0.0 && of_nuisances < 1.0) {
+        for (AnsweredEffect& each : ranked) each.probability /= 1.0 - of_nuisances;
+    }
     return ranked;
 }
 

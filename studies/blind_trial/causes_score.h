@@ -24,7 +24,7 @@ struct CaseTruth {
 CaseTruth truth_of(const CaseLabel& label);
 
 /// The ranked effects without those that are neither right nor wrong. A nuisance that is said to follow a
-/// condition is a statement, and stays.
+/// condition is a statement, and stays. The probabilities are those of the others alone: they sum to 1 again.
 std::vector<AnsweredEffect> judged(const CaseAnswer& answer, const CaseTruth& truth);
 
 /// Stated probabilities of one bin against how often they were right, with Wilson's interval.

@@ -69,6 +69,17 @@ TEST(CausesScore, NuisancesAreNeitherRightNorWrong) {
     EXPECT_EQ(score_of(varying, said({{"sensor_offset", 0.9}})).varies.hits, 0);
 }
 
+TEST(CausesScore, NuisancesTakeNoProbabilityFromCauses) {
+    const CaseLabel label = rig({{"creep", 6.0}});
+    const auto ranked =
+        judged(said({{"sensor_offset", 0.5, 1.0}, {"creep", 0.4, 0.9}, {"inertia", 0.1}}), truth_of(label));
+    ASSERT_EQ(ranked.size(), 2U);
+    EXPECT_NEAR(ranked[0].probability, 0.8, 1e-12);
+    EXPECT_NEAR(ranked[1].probability, 0.2, 1e-12);
+    EXPECT_EQ(ranked[0].presence(), 0.9);
+    EXPECT_EQ(ranked[1].presence(), 0.1);
+}
+
 TEST(CausesScore, ANuisanceThatIsSaidToFollowAConditionIsAFalseName) {
     const CausesScore score =
         score_of(rig({{"creep", 6.0}}), said({{"creep", 0.5, 0.9}, {"param_mu", 0.5, 0.8, "roll_deg"}}));
