@@ -129,8 +129,12 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     constexpr double likely = 0.5;
     const gap::RankedEffect& first = diagnosis.ranked.front();
     if (first.effect == "none")
-        return fmt::format("There is no gap beyond noise and the floor of the model (probability {:.2f}).",
-                           first.probability);
+        return fmt::format(
+            "There is no gap beyond noise and the floor of the model (probability {:.2f}{}).",
+            first.probability,
+            diagnosis.bench.empty()
+                ? ""
+                : "; a cause that is too faint to show beside the bench's own numbers may act");
     if (first.effect == "unknown") {
         std::vector<std::string> beside;
         for (const gap::FittedCause& cause : diagnosis.causes) {
@@ -146,17 +150,24 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
     }
     std::vector<std::string> causes;
     for (const gap::FittedCause& cause : diagnosis.causes) causes.push_back(words_of(cause));
-    const double nothing_beside = present_probability(diagnosis, "none");
+    // Several explanations may share the effect that leads, none of which is the most probable one by itself.
+    if (causes.empty())
+        return fmt::format(
+            "The most probable cause is {} (probability {:.2f}). The numbers below are those of "
+            "the bench without a cause.",
+            cause_words(first.effect, ""), first.present);
+    const double unknown = present_probability(diagnosis, "unknown");
+    const bool only_numbers = diagnosis.candidates.front().effects == std::vector<std::string>{"none"};
     std::string text =
-        nothing_beside > likely
+        only_numbers && unknown < likely
             ? fmt::format(
-                  "The bench's own numbers explain the gap: {}. Nothing acts beside them (probability {:.2f}).",
-                  fmt::join(causes, ", "), nothing_beside)
+                  "The bench's own numbers explain the gap: {}. Nothing else is visible; a cause that is too "
+                  "faint to show may act beside them.",
+                  fmt::join(causes, ", "))
         : causes.size() == 1
             ? fmt::format("The cause is {} (probability {:.2f}).", causes.front(), first.present)
             : fmt::format("{} causes act together: {} and {}.", causes.size(),
                           fmt::join(causes.begin(), causes.end() - 1, ", "), causes.back());
-    const double unknown = present_probability(diagnosis, "unknown");
     if (unknown > likely)
         text += fmt::format(" {} a part that no known effect explains (probability {:.2f}).",
                             causes.size() == 1 ? "It leaves" : "They leave", unknown);

@@ -326,14 +326,21 @@ StatedNumbers weigh_stated_numbers(const BenchKnowledge& bench, const Eigen::Vec
         log_weights[static_cast<std::size_t>(wrong)] =
             std::log(prior_probability(bench, wrong)) + log_evidence(told, variance_where(bench, wrong));
     const double most = *std::max_element(log_weights.begin(), log_weights.end());
-    StatedNumbers stated{Eigen::Vector3d::Zero()};
+    StatedNumbers stated{.wrong = Eigen::Vector3d::Zero()};
     double sum = 0.0;
     for (int wrong = 0; wrong < sets_of_numbers; ++wrong) {
         const double weight = std::exp(log_weights[static_cast<std::size_t>(wrong)] - most);
         sum += weight;
-        for (int k = 0; k < nominal_coordinates; ++k) stated.wrong[k] += is_in(wrong, k) ? weight : 0.0;
+        int count = 0;
+        for (int k = 0; k < nominal_coordinates; ++k) {
+            if (!is_in(wrong, k)) continue;
+            stated.wrong[k] += weight;
+            ++count;
+        }
+        if (count == 1) stated.one_alone += weight;
     }
     stated.wrong /= sum;
+    stated.one_alone /= sum;
     stated.log_gain = most + std::log(sum) - log_evidence(told, Eigen::Vector3d::Ones());
     return stated;
 }

@@ -74,6 +74,8 @@ BenchKnowledge built_bench(const Recording& recording);
 struct StatedNumbers {
     /// The probability that each is not what was stated; 1 where none was.
     Eigen::Vector3d wrong = Eigen::Vector3d::Ones();
+    /// That exactly one of them is wrong.
+    double one_alone = 0.0;
     /// What it adds to the evidence that they may be as stated: the logarithm of a ratio.
     double log_gain = 0.0;
 };

@@ -425,8 +425,11 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
             return is_slowness_of_one_sensor(number.effect, number.variant, *cause);
         };
         if (std::any_of(scored.fit.causes.begin(), scored.fit.causes.end(), is_one_with)) continue;
-        const double far = k < nominal_coordinates ? stated.wrong[static_cast<Eigen::Index>(k)] : 1.0;
-        if (number.is_far(coordinate)) scored.far_numbers.push_back({k, far});
+        if (!number.is_far(coordinate)) continue;
+        const bool is_stated = k < nominal_coordinates;
+        scored.far_numbers.push_back({k, is_stated ? stated.wrong[static_cast<Eigen::Index>(k)] : 1.0});
+        const double is_a_cause = is_stated ? stated.one_alone : number.usual > 0.0 ? 1.0 : 0.0;
+        scored.far_numbers_are_usual = std::min(scored.far_numbers_are_usual, 1.0 - is_a_cause);
     }
     scored.has_unknown_scales = is_undescribed(*scored.fit.bench);
     if (!scored.has_unknown_scales) {

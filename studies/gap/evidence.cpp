@@ -60,6 +60,9 @@ constexpr double anything_fraction = 0.05;
 // acts beside such numbers comes after them, and before every cause that would.
 constexpr double bench_fraction = 0.25;
 constexpr double none_beside_numbers_fraction = 0.1;
+// Numbers that float take up a part of what a cause does. Where nothing shows beside them, a cause that is
+// too faint to be told from none is as probable as none. It may be any effect.
+constexpr double faint_cause_fraction = 0.5;
 
 // What it costs to name something, in the list or outside it, that changes a channel by this rms.
 double invisible(const ScoredFit& fit, double change) {
@@ -120,8 +123,15 @@ double unknown_fraction(const ScoredFit& fit, double without_cause) {
     return left + closed > 0.0 ? left / (left + closed) : neither_leaves;
 }
 
+// The probability that there is no cause at all where a hypothesis has none.
+double is_nothing(const ScoredFit& fit) {
+    const double faint = fit.fit.bench->is_measured() ? 0.0 : faint_cause_fraction;
+    return (1.0 - faint) * fit.far_numbers_are_usual;
+}
+
 // The probability that an effect of a hypothesis is there, if the hypothesis holds.
 double is_there(const WeighedHypothesis& hypothesis, const std::string& effect) {
+    if (effect == "none") return is_nothing(*hypothesis.fit);
     const auto far = hypothesis.of_the_bench.find(effect);
     const bool is_cause =
         std::find(hypothesis.effects.begin(), hypothesis.effects.end(), effect) != hypothesis.effects.end();
@@ -288,6 +298,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         double visibility = 0.0;
     };
     std::map<std::string, Best> best;
+    double of_faint_causes = 0.0;
     for (const WeighedHypothesis& each : weighed) {
         std::map<std::string, double> shares;
         for (const std::string& effect : each.effects) shares[effect] = 1.0;
@@ -296,22 +307,31 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
             shares.emplace(effect, bench_fraction * probability);
             any_far = std::max(any_far, probability);
         }
-        if (shares.count("none") > 0) shares["none"] = 1.0 - (1.0 - none_beside_numbers_fraction) * any_far;
+        if (shares.count("none") > 0)
+            shares["none"] =
+                each.fit->far_numbers_are_usual * (1.0 - (1.0 - none_beside_numbers_fraction) * any_far);
         if (each.with_unknown) give_unknown_its_fraction(shares, each.unknown_fraction);
         double sum = 0.0;
         for (const auto& [effect, share] : shares) sum += share;
         for (const auto& [effect, share] : shares) {
             RankedEffect& ranked = ranked_by_name[effect];
             ranked.effect = effect;
-            ranked.probability += each.probability * share / sum;
+            const double probability = each.probability * share / sum;
+            const double faint = effect == "none" && !each.fit->fit.bench->is_measured()
+                                     ? faint_cause_fraction * probability
+                                     : 0.0;
+            of_faint_causes += faint;
+            ranked.probability += probability - faint;
             ranked.present += each.probability * is_there(each, effect);
             if (best.emplace(effect, Best{each.evidence, visibility_in(each, effect)}).second)
                 ranked.varies = varies_in(each, effect);
         }
     }
     std::vector<RankedEffect> ranked;
-    const double anything = anything_fraction / static_cast<double>(ranked_by_name.size());
+    const auto effects = static_cast<double>(ranked_by_name.size());
+    const double faint = (1.0 - anything_fraction) * of_faint_causes / (effects - 1.0);
     for (auto& [effect, each] : ranked_by_name) {
+        const double anything = anything_fraction / effects + (effect == "none" ? 0.0 : faint);
         each.probability = (1.0 - anything_fraction) * each.probability + anything;
         each.present = (1.0 - anything_fraction) * each.present + anything;
         ranked.push_back(each);

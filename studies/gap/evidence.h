@@ -57,6 +57,9 @@ struct ScoredFit {
         double probability = 0.0;
     };
     std::vector<FarNumber> far_numbers{};
+    /// The probability that none of them is a cause. A zero, a bearing's friction and numbers from tables are
+    /// usual on a bench as built; one wrong number among right ones and a sensor that is late are causes.
+    double far_numbers_are_usual = 1.0;
 
     /// The effects that they stand for, each by its most probable number.
     std::map<std::string, double> of_the_bench() const;

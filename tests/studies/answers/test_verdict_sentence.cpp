@@ -13,16 +13,38 @@ gap::Diagnosis verdict(const std::vector<gap::RankedEffect>& ranked, const std::
     gap::Diagnosis diagnosis;
     diagnosis.ranked = ranked;
     for (const std::string& cause : causes) diagnosis.causes.push_back({cause, "", "", "", {}, {}});
+    diagnosis.candidates = {{.effects = causes}};
     return diagnosis;
 }
 
-TEST(VerdictSentence, SaysThatNothingActsBesideNumbersOfTheBench) {
-    const std::string text = verdict_sentence(verdict(
-        {{"param_K", 0.4, 0.98}, {"param_T0", 0.4, 0.98}, {"none", 0.15, 0.95}}, {"param_K", "param_T0"}));
+TEST(VerdictSentence, SaysThatNothingIsVisibleBesideNumbersOfTheBench) {
+    gap::Diagnosis numbers = verdict({{"param_K", 0.4, 0.98}, {"param_T0", 0.4, 0.98}, {"none", 0.15, 0.48}},
+                                     {"param_K", "param_T0"});
+    numbers.candidates = {{.effects = {"none"}}};
     EXPECT_EQ(
-        text,
-        "The bench's own numbers explain the gap: wrong cable stiffness, wrong pretension. Nothing acts "
-        "beside them (probability 0.95).");
+        verdict_sentence(numbers),
+        "The bench's own numbers explain the gap: wrong cable stiffness, wrong pretension. Nothing else "
+        "is visible; a cause that is too faint to show may act beside them.");
+}
+
+TEST(VerdictSentence, SaysWhereNoneMayBeACauseTooFaintToShow) {
+    gap::Diagnosis nothing = verdict({{"none", 0.93, 0.95}}, {});
+    EXPECT_EQ(verdict_sentence(nothing),
+              "There is no gap beyond noise and the floor of the model (probability 0.93).");
+    nothing.bench = {{"zero of load_torque", "N m", 0.01, {}, false}};
+    EXPECT_EQ(
+        verdict_sentence(nothing),
+        "There is no gap beyond noise and the floor of the model (probability 0.93; a cause that is too "
+        "faint to show beside the bench's own numbers may act).");
+}
+
+TEST(VerdictSentence, NamesTheMostProbableCauseOfSeveralExplanations) {
+    gap::Diagnosis shared = verdict({{"stribeck", 0.4, 0.6}, {"none", 0.3, 0.3}}, {});
+    shared.candidates = {{.effects = {"none"}}};
+    EXPECT_EQ(
+        verdict_sentence(shared),
+        "The most probable cause is Stribeck friction (probability 0.60). The numbers below are those of "
+        "the bench without a cause.");
 }
 
 TEST(VerdictSentence, NamesACauseBesideWhichNoneIsImprobable) {

@@ -57,6 +57,13 @@ double probability(const std::vector<RankedEffect>& ranked, const std::string& e
     return 0.0;
 }
 
+double present(const std::vector<RankedEffect>& ranked, const std::string& effect) {
+    for (const RankedEffect& each : ranked) {
+        if (each.effect == effect) return each.present;
+    }
+    return 0.0;
+}
+
 const Evidence evidence(200.0);
 
 TEST(Evidence, FavoursNoneWhereNothingIsLeftToExplain) {
@@ -242,10 +249,7 @@ TEST(Evidence, ALawMayBeWrongByATenthOfWhatItsCauseDoes) {
             with_channels(evidence, fitted(evidence, {&known.none}, 200.0, {0.0}), 1, 200.0);
         const ScoredFit drag =
             with_channels(evidence, fitted(evidence, {&known.drag}, 5.0, {visibility}), 1, 5.0);
-        for (const RankedEffect& each : ranked_by(evidence, {known.none, known.drag}, {nothing, drag})) {
-            if (each.effect == "unknown") return each.present;
-        }
-        return 0.0;
+        return present(ranked_by(evidence, {known.none, known.drag}, {nothing, drag}), "unknown");
     };
     EXPECT_LT(unknown_is_present(20.0), 0.03);
     // That the noise is wrongly stated is about as probable as a further cause.
@@ -293,112 +297,63 @@ TEST(Evidence, AnAnswerCountsCausesOutsideTheCanonicalListAsUnknown) {
     EXPECT_EQ(answered[2].effect, "none");
 }
 
-// A fit of the bench as built, which left the friction far off with this probability.
-TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
+const BenchKnowledge& bench_with_a_zero() {
     static const BenchKnowledge bench = [] {
         BenchKnowledge built = measured_bench();
         built.numbers.push_back({.name = "zero", .effect = "sensor_offset"});
         return built;
     }();
+    return bench;
+}
+
+// A fit of the bench as built, which left the friction far off with this probability.
+TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
     const Known known;
     const auto ranked_where_far = [&](double probability) {
         ScoredFit nothing = fitted(evidence, {&known.none}, 1.0, {0.0});
-        nothing.fit.bench = &bench;
+        nothing.fit.bench = &bench_with_a_zero();
         nothing.far_numbers = {{0, probability}};
         return ranked_by(evidence, {known.none, known.drag}, {nothing});
     };
-    const auto present = [](const std::vector<RankedEffect>& ranked, const std::string& effect) {
-        for (const RankedEffect& each : ranked) {
-            if (each.effect == effect) return each.present;
-        }
-        return 0.0;
-    };
     EXPECT_GT(present(ranked_where_far(1.0), "param_mu"), 0.9);
-    EXPECT_NEAR(present(ranked_where_far(0.3), "param_mu"), 0.3, 0.05);
+    EXPECT_NEAR(present(ranked_where_far(0.3), "param_mu") - present(ranked_where_far(0.0), "param_mu"), 0.3,
+                0.05);
     EXPECT_GT(probability(ranked_where_far(0.3), "none"), probability(ranked_where_far(0.9), "none"));
     EXPECT_EQ(ranked_where_far(0.3).front().effect, "none");
 }
 
-// A bench of which three numbers are stated, and known to a fifth if they were not measured.
-BenchKnowledge stated_bench() {
-    BenchKnowledge bench = measured_bench();
-    for (FloatingNumber& number : bench.numbers) {
-        number.prior_std = 0.2;
-        number.measured_std = nominal_log_std;
+TEST(Evidence, BesideFloatingNumbersACauseTooFaintToShowIsAsProbableAsNone) {
+    const Known known;
+    const std::vector<CandidateCause> causes = {known.none, known.drag, known.gain};
+    ScoredFit nothing = fitted(evidence, {&known.none}, 1.0, {0.0});
+    const auto measured = ranked_by(evidence, causes, {nothing});
+    nothing.fit.bench = &bench_with_a_zero();
+    const auto built = ranked_by(evidence, causes, {nothing});
+    EXPECT_GT(present(measured, "none"), 0.9);
+    EXPECT_NEAR(present(built, "none"), 0.5 * present(measured, "none"), 0.02);
+    EXPECT_EQ(built.front().effect, "none");
+    EXPECT_NEAR(probability(built, "viscous_friction"), probability(built, "sensor_gain"), 1e-12);
+    double sum = 0.0;
+    for (const RankedEffect& each : built) {
+        EXPECT_LE(each.probability, each.present + 1e-12) << each.effect;
+        sum += each.probability;
     }
-    return bench;
+    EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-Eigen::Matrix3d independent(const Eigen::Vector3d& deviations) {
-    return deviations.cwiseAbs2().asDiagonal();
-}
-
-TEST(StatedNumbers, AreWrongOnlyAsProbablyAsTheRecordingTells) {
-    const BenchKnowledge bench = stated_bench();
-    const auto friction_is_wrong = [&](double coordinate, double deviation) {
-        return weigh_stated_numbers(bench, {coordinate, 0.0, 0.0}, independent({deviation, 0.2, 0.2}))
-            .wrong[0];
+TEST(Evidence, NoneIsNotThereWhereANumberOfTheBenchIsTheCause) {
+    const Known known;
+    const auto none_where_usual = [&](double usual) {
+        ScoredFit nothing = fitted(evidence, {&known.none}, 1.0, {0.0});
+        nothing.fit.bench = &bench_with_a_zero();
+        nothing.far_numbers = {{2, 1.0}};
+        nothing.far_numbers_are_usual = usual;
+        return ranked_by(evidence, {known.none, known.drag}, {nothing});
     };
-    EXPECT_GT(friction_is_wrong(0.1, 0.005), 0.99);  // told precisely, a tenth off
-    EXPECT_LT(friction_is_wrong(0.01, 0.005), 0.1);  // within what a measurement may be off by
-    EXPECT_LT(friction_is_wrong(0.05, 0.07), 0.2);   // as stated, for all that is told
-    EXPECT_GT(friction_is_wrong(0.2, 0.05), friction_is_wrong(0.1, 0.05));
-    const StatedNumbers untold =
-        weigh_stated_numbers(bench, Eigen::Vector3d::Zero(), independent({0.2, 0.2, 0.2}));
-    EXPECT_NEAR(untold.wrong[0], 0.26, 1e-6);  // half of 0.02 and half of 0.5
-    EXPECT_NEAR(untold.log_gain, 0.0, 1e-6);
-}
-
-TEST(StatedNumbers, AreJudgedTogether) {
-    const BenchKnowledge bench = stated_bench();
-    const auto pretension_is_wrong = [&](double others) {
-        return weigh_stated_numbers(bench, {others, others, 0.05}, independent({0.005, 0.005, 0.07}))
-            .wrong[2];
-    };
-    EXPECT_LT(pretension_is_wrong(0.0), 0.1);   // on a bench that was evidently measured
-    EXPECT_GT(pretension_is_wrong(0.15), 0.3);  // on one that was not
-}
-
-// Of independent numbers the density of what is shown is a product of normal densities.
-TEST(StatedNumbers, HaveTheEvidenceOfIndependentNormalDensities) {
-    const BenchKnowledge bench = stated_bench();
-    const Eigen::Vector3d coordinates(0.03, -0.01, 0.12);
-    const Eigen::Vector3d deviations(0.02, 0.05, 0.04);
-    double measured = 1.0;
-    double any = 1.0;
-    double prior = 1.0;
-    for (Eigen::Index k = 0; k < 3; ++k) {
-        const double wide = 0.2 * 0.2;
-        const double told = 1.0 / (1.0 / std::pow(deviations[k], 2) - 1.0 / wide);
-        const double shown = coordinates[k] * (told + wide) / wide;
-        const auto density = [&](double variance) {
-            return std::exp(-0.5 * shown * shown / (told + variance)) / std::sqrt(told + variance);
-        };
-        const double right = density(nominal_log_std * nominal_log_std);
-        measured *= 0.98 * right + 0.02 * density(wide);
-        any *= 0.5 * right + 0.5 * density(wide);
-        prior *= density(wide);
-    }
-    EXPECT_NEAR(weigh_stated_numbers(bench, coordinates, independent(deviations)).log_gain,
-                std::log(0.5 * (measured + any) / prior), 1e-9);
-}
-
-// Friction and pretension make the same loop: where only their sum is told, it is as stated or not.
-TEST(StatedNumbers, ThatCompensateOneAnotherAreAsStatedTogether) {
-    const BenchKnowledge bench = stated_bench();
-    Eigen::Matrix3d covariance = independent({0.14, 0.01, 0.14});
-    covariance(0, 2) = covariance(2, 0) = -0.139 * 0.14;
-    const auto wrong = [&](double friction, double pretension) {
-        return weigh_stated_numbers(bench, {friction, 0.0, pretension}, covariance).wrong;
-    };
-    EXPECT_LT(wrong(0.1, -0.1)[0], 0.1);  // as little as (0, 0)
-    EXPECT_GT(wrong(0.1, 0.1)[0] + wrong(0.1, 0.1)[2], 0.9);
-}
-
-TEST(StatedNumbers, ThatWereStatedAsRangesAreNotWrong) {
-    const BenchKnowledge bench = measured_bench({0.3, 0.3, 0.3});
-    EXPECT_NEAR(weigh_stated_numbers(bench, {0.1, 0.2, 0.3}, independent({0.05, 0.05, 0.05})).log_gain, 0.0,
-                1e-9);
+    const auto alone = none_where_usual(0.0);
+    EXPECT_EQ(alone.front().effect, "param_T0");
+    EXPECT_LT(present(alone, "none"), 0.05);
+    EXPECT_NEAR(present(none_where_usual(0.5), "none"), 0.5 * present(none_where_usual(1.0), "none"), 0.02);
 }
 
 TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
