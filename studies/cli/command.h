@@ -40,6 +40,8 @@ inline constexpr std::string_view stores_nothing =
     "stopped by Ctrl-C or a request to terminate; nothing is stored";
 inline constexpr std::string_view can_be_resumed = exit_code_meanings[4].meaning;
 
+class Invocation;
+
 enum class OptionKind { string, integer, number };
 
 /// The values of a number that are allowed, both ends included.
@@ -58,6 +60,9 @@ struct Option {
     std::string_view default_value{};  ///< empty: none
     std::vector<std::string> choices{};
     Limits limits{};  ///< of numbers
+    /// Throws where the option's value cannot be used. Called before the command begins, so that no work is
+    /// lost by it; null: nothing to check.
+    void (*check)(const Invocation&, const Option&) = nullptr;
 
     bool is_flag() const { return value.empty() && choices.empty(); }
 };
@@ -70,8 +75,6 @@ struct Argument {
     ArgumentNeed need = ArgumentNeed::required;
     std::string_view default_value{};
 };
-
-class Invocation;
 
 /// One command. Dispatch, --help, completion and man page all read the table of these.
 struct Command {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "capstan/answers/recording_answers.h"
 #include "capstan/bench_model/model_file.h"
@@ -39,8 +40,8 @@ model_comparison::DiagnosisRequest asked_runs(const Invocation& invocation) {
     return request;
 }
 
-void store(const Invocation& invocation, const Recording& recording, const Diagnosis& diagnosis) {
-    storage::Database database = storage::Database::open_or_create(invocation.text("db"));
+void store(const Invocation& invocation, storage::Database& database, const Recording& recording,
+           const Diagnosis& diagnosis) {
     const std::int64_t id = storage::write_diagnosis(
         database, answers::diagnosis_record(recording, diagnosis, invocation.argument("LOG")));
     if (invocation.text("progress") != "none")
@@ -54,12 +55,22 @@ void save_model(const std::filesystem::path& file, const model_comparison::Diagn
     bench_model::write_model(file, bench_model::model_of(diagnosed, left, origin, options));
 }
 
-// The channels that the corrected model predicts.
-void write_prediction(const std::filesystem::path& file, const Recording& recording,
-                      const Diagnosis& diagnosis) {
+void check_prediction_file(const Invocation& invocation, const Option& option) {
+    const std::filesystem::path file = invocation.text(option.name);
     if (!exports::is_series_file(file) && file.extension() != ".csv")
         throw UsageError(fmt::format("capstan diagnose: --prediction {} should end in .csv, .mat or .mcap",
                                      file.string()));
+    check_writable(invocation, option);
+}
+
+void check_model_file(const Invocation& invocation, const Option& option) {
+    bench_model::require_model_name(invocation.text(option.name));
+    check_writable(invocation, option);
+}
+
+// The channels that the corrected model predicts.
+void write_prediction(const std::filesystem::path& file, const Recording& recording,
+                      const Diagnosis& diagnosis) {
     std::vector<std::vector<std::vector<double>>> values;  // runs x channels x samples
     for (const gap::TwinRun& run : diagnosis.gap.leading) values.push_back(run.values);
     const Recording predicted = with_values(recording, std::move(values));
@@ -96,7 +107,6 @@ class DiagnosisProgress {
 
 ExitCode run_diagnose(const Invocation& invocation) {
     keep_freed_memory();
-    if (invocation.has("save")) bench_model::require_model_name(invocation.text("save"));
     const Recording recorded = read_recording(invocation.argument("LOG"));
     gap::DiagnosisOptions options;
     options.threads = invocation.count("jobs");
@@ -112,16 +122,21 @@ ExitCode run_diagnose(const Invocation& invocation) {
     options.on_progress = [&](const std::string& activity, double) {
         display.show(progress.event(activity));
     };
-    const model_comparison::DiagnosedRuns diagnosed = model_comparison::diagnose_runs(
-        recorded, asked_runs(invocation), options,
-        [&](const model_comparison::DiagnosisCost& cost) { progress = DiagnosisProgress(cost); });
+    std::optional<storage::Database> database;
+    const auto begin = [&](const model_comparison::DiagnosisCost& cost) {
+        // Before the work whose result it takes.
+        if (invocation.has("db")) database.emplace(storage::Database::open_or_create(invocation.text("db")));
+        progress = DiagnosisProgress(cost);
+    };
+    const model_comparison::DiagnosedRuns diagnosed =
+        model_comparison::diagnose_runs(recorded, asked_runs(invocation), options, begin);
     const Recording& recording = diagnosed.split.diagnosed;
     const Diagnosis& diagnosis = diagnosed.split.diagnosis;
     display.show({.activity = "the answer", .fraction = 1.0});
     display.end_line();
     if (diagnosis.cut_short)
         say("The time limit ended the search: further causes were not tried, and the answer is the best so far.");
-    if (invocation.has("db")) store(invocation, recording, diagnosis);
+    if (database) store(invocation, *database, recording, diagnosis);
     if (invocation.has("corrected"))
         write_file(invocation.text("corrected"), answers::corrected_model_text(recording, diagnosis));
     if (invocation.has("prediction")) write_prediction(invocation.text("prediction"), recording, diagnosis);
@@ -166,16 +181,19 @@ const Option save_model_option{
     .value = "FILE",
     .meaning =
         "Write what was found as a model (TOML): the bench, its effects and sensors with intervals, and the law of what "
-        "is left. `capstan simulate LOG --model FILE` judges it on other runs."};
+        "is left. `capstan simulate LOG --model FILE` judges it on other runs.",
+    .check = check_model_file};
 const Option corrected_option{
     .name = "corrected",
     .value = "FILE",
-    .meaning = "Write the corrected model of the cable to FILE, for `capstan study run --truth FILE`."};
+    .meaning = "Write the corrected model of the cable to FILE, for `capstan study run --truth FILE`.",
+    .check = check_writable};
 
 const Option prediction_option{
     .name = "prediction",
     .value = "FILE",
-    .meaning = "Write what the corrected model predicts to FILE: .csv, .mat (MATLAB) or .mcap."};
+    .meaning = "Write what the corrected model predicts to FILE: .csv, .mat (MATLAB) or .mcap.",
+    .check = check_prediction_file};
 
 const Option time_limit_option{
     .name = "time-limit",
@@ -205,8 +223,8 @@ Command diagnose_command() {
         .arguments = {log_argument},
         .options = {runs_option, calibrate_on_option, fit_option, hold_option, baselines_option, keep_option,
                     save_model_option, corrected_option, prediction_option, time_limit_option, cost_option,
-                    jobs_option, output_option, format_option, json_option, page_option, progress_option,
-                    help_option},
+                    jobs_option, answer_output_option, format_option, json_option, page_option,
+                    progress_option, help_option},
         .examples = {"capstan diagnose bench.csv", "capstan diagnose bench.csv --cost",
                      "capstan diagnose bench.csv --json -o verdict.json",
                      "capstan diagnose bench.csv --html bench.html",

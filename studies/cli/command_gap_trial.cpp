@@ -235,7 +235,7 @@ Command gap_trial_command() {
                      "Check FILE (a kept labels.json) against its hash and score the stored answers beside it "
                      "again."},
              jobs_option,
-             output_option,
+             answer_output_option,
              json_option,
              progress_option,
              help_option},

@@ -63,7 +63,7 @@ Command sensitivity_command() {
                      .limits = {1, 64}},
                     seed_option,
                     jobs_option,
-                    output_option,
+                    answer_output_option,
                     page_option,
                     json_option,
                     progress_option,

@@ -185,7 +185,8 @@ const Option judged_runs_option{
 const Option predicted_csv_option{
     .name = "csv",
     .value = "FILE",
-    .meaning = "With --model: write the predicted channels beside the measured ones to FILE."};
+    .meaning = "With --model: write the predicted channels beside the measured ones to FILE.",
+    .check = check_writable};
 
 const Option as_recording_option{
     .name = "recording", .meaning = "Studies only: write the motion as a recording of a single cable."};

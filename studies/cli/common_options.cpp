@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "capstan/cli/output.h"
 #include "capstan/cli/program.h"
 #include "capstan/config/config_truth.h"
 #include "capstan/config/far_end_log.h"
@@ -13,6 +14,27 @@
 
 namespace capstan::cli {
 
+namespace {
+
+void check_answer_file(const Invocation& invocation, const Option& option) {
+    answer_format(invocation, reports::AnswerFormat::text);
+    check_writable(invocation, option);
+}
+
+void check_page_file(const Invocation& invocation, const Option& option) {
+    if (invocation.text(option.name) == "-")
+        throw UsageError(
+            "--html -: the answer itself goes to standard output; name a file, such as page.html");
+    check_writable(invocation, option);
+}
+
+}  // namespace
+
+void check_writable(const Invocation& invocation, const Option& option) {
+    const std::string& file = invocation.text(option.name);
+    if (file != "-") require_writable(file);
+}
+
 const Option help_option{.name = "help", .letter = 'h', .meaning = "Explain this command."};
 const Option database_option{
     .name = "db", .value = "FILE", .meaning = "The results database.", .default_value = "capstan.db"};
@@ -21,7 +43,13 @@ const Option output_option{
     .letter = 'o',
     .value = "FILE",
     .meaning = "Write the answer to FILE, which is written completely or not at all; - is standard output.",
-    .default_value = "-"};
+    .default_value = "-",
+    .check = check_writable};
+const Option answer_output_option = [] {
+    Option option = output_option;
+    option.check = check_answer_file;
+    return option;
+}();
 const Option jobs_option{
     .name = "jobs",
     .letter = 'j',
@@ -75,7 +103,8 @@ const Option format_option{.name = "format",
 const Option page_option{
     .name = "html",
     .value = "FILE",
-    .meaning = "Also write FILE, one self-contained page of figures and numbers; open it in a browser."};
+    .meaning = "Also write FILE, one self-contained page of figures and numbers; open it in a browser.",
+    .check = check_page_file};
 
 const Argument config_argument{
     "CONFIG", "The study's configuration (TOML); `capstan config default` explains every key."};

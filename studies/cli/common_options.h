@@ -15,6 +15,8 @@ namespace capstan::cli {
 extern const Option help_option;
 extern const Option database_option;
 extern const Option output_option;
+/// The same of a command that ends with deliver_answer(), which writes no pictures.
+extern const Option answer_output_option;
 extern const Option jobs_option;
 extern const Option seed_option;
 extern const Option repetitions_option;
@@ -28,6 +30,9 @@ extern const Option page_option;
 
 extern const Argument config_argument;
 extern const Argument study_argument;  ///< latest where left out
+
+/// Checks of options that name a file to be written; - is standard output.
+void check_writable(const Invocation& invocation, const Option& option);
 
 /// Takes no wider vector instructions than --simd states. Throws UsageError for a width that is not there.
 /// Before anything is computed.

@@ -63,10 +63,6 @@ void deliver(const Invocation& invocation, std::string_view text) {
 void deliver_page(const Invocation& invocation, const reports::Answer& answer) {
     if (!invocation.has("html")) return;
     const std::string& file = invocation.text("html");
-    if (file == "-") {
-        throw UsageError(
-            "--html -: the answer itself goes to standard output; name a file, such as page.html");
-    }
     write_file(file, reports::answer_html(answer));
     say(fmt::format("Wrote {}.", file));
 }

@@ -141,7 +141,11 @@ ExitCode dispatch(const std::vector<std::string>& words) {
     if (found.command == nullptr) refuse_unknown(words);
     storage::set_command("capstan " + cluster::as_typed(words));
     const auto rest = words.begin() + static_cast<std::ptrdiff_t>(found.words);
-    return found.command->run(parse_command_line(*found.command, {rest, words.end()}));
+    const Invocation invocation = parse_command_line(*found.command, {rest, words.end()});
+    for (const Option& option : found.command->options) {
+        if (option.check != nullptr && invocation.has(option.name)) option.check(invocation, option);
+    }
+    return found.command->run(invocation);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void say_end(ProgressMode mode, const std::string& event, const std::string& wor
 }  // namespace
 
 std::vector<Option> watched_run_options() {
-    return {database_option, jobs_option,     simd_option,  output_option,
+    return {database_option, jobs_option,     simd_option,  answer_output_option,
             json_option,     progress_option, stats_option, help_option};
 }
 

@@ -149,6 +149,20 @@ std::string read_file(const fs::path& path) {
     return text;
 }
 
+void require_writable(const fs::path& path) {
+    struct stat status = {};
+    const bool exists = ::stat(path.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode)) refuse(path, EISDIR);
+    if (exists && !S_ISREG(status.st_mode)) {
+        if (::access(path.c_str(), W_OK) != 0) refuse(path, errno);
+        return;
+    }
+    const fs::path folder = folder_of(exists ? fs::canonical(path) : path);
+    if (::stat(folder.c_str(), &status) != 0) refuse(path, errno);
+    if (!S_ISDIR(status.st_mode)) refuse(path, ENOTDIR);
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse(path, errno);
+}
+
 void write_file(const fs::path& path, std::string_view text) {
     AtomicFile file(path);
     file.append(text);

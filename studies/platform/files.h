@@ -12,6 +12,10 @@ std::string read_file(const std::filesystem::path& path);
 /// Writes a file completely or not at all, as AtomicFile does.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// Throws what write_file() would where no file of this name can be written: its folder does not exist or may
+/// not be written, or it is a folder. Before long work whose result goes there.
+void require_writable(const std::filesystem::path& path);
+
 /// A file that is written piece by piece and appears under its name, complete and on the disk, with finish().
 /// Until then the name keeps what it had. An existing file keeps its mode, a symbolic link keeps its target,
 /// and a pipe or a device is written directly. Nothing is left behind by a failure or by a kill; the one

@@ -133,6 +133,20 @@ class BadPlace(CapstanTest):
         self.assertIn("its folder does not exist", done.stderr)
         self.assertIn("is a folder", self.run_capstan("simulate", CONFIGS / "quick.toml", "-o", ".", expect=1).stderr)
 
+    def test_an_output_that_cannot_be_written_is_told_before_the_work(self):
+        pair = CONFIGS / "recordings" / "viscous-pair.csv"
+        for option, file, code, text in (("--save", "none/m.toml", 1, "its folder does not exist"),
+                                         ("--corrected", "none/m.toml", 1, "its folder does not exist"),
+                                         ("--prediction", "x.xls", 2, "should end in .csv, .mat or .mcap"),
+                                         ("--html", "-", 2, "name a file, such as page.html"),
+                                         ("-o", "none/x.json", 1, "its folder does not exist"),
+                                         ("-o", "x.pdf", 2, "it writes text, md, csv, json and html"),
+                                         ("--db", "none/x.db", 3, "check that its folder exists")):
+            done = self.run_capstan("diagnose", pair, option, file, expect=code)
+            self.assertIn(text, done.stderr, option)
+            self.assertNotIn("nominal model", done.stderr, option)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def small_disk(self, size):
         disk = self.folder / "disk"
         disk.mkdir()

@@ -125,6 +125,26 @@ TEST_F(Files, SaysWhyAFileCannotBeWrittenAndWhatToTry) {
     EXPECT_THROW(read_file(folder_), std::runtime_error);
 }
 
+TEST_F(Files, TellsBeforehandWhetherAFileCanBeWritten) {
+    const auto told = [](const std::filesystem::path& path) -> std::string {
+        try {
+            require_writable(path);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    write_file(folder_ / "file", "kept");
+    std::filesystem::create_symlink(folder_ / "file", folder_ / "link");
+    for (const std::filesystem::path& path :
+         {folder_ / "file", folder_ / "link", folder_ / "new", std::filesystem::path("/dev/null")})
+        EXPECT_EQ(told(path), "") << path;
+    for (const std::filesystem::path& path : {folder_ / "none" / "file", folder_ / "file" / "file", folder_})
+        EXPECT_EQ(told(path), refusal(path)) << path;
+    EXPECT_EQ(read_file(folder_ / "file"), "kept");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
+}
+
 TEST_F(Files, RenamesAFinishedFile) {
     write_file(folder_ / "unfinished", "text");
     rename_durably(folder_ / "unfinished", folder_ / "file");
