@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/cable/invalid_input.h"
 #include "capstan/plan/true_motion.h"
 #include "capstan/recording/channel_range.h"
@@ -26,12 +27,6 @@ NominalBench nominal_of(const CableSpecification& cable, const Pulleys& pulleys)
     nominal.dynamic_friction = cable.dynamic_friction;
     nominal.static_friction = cable.static_friction;
     return nominal;
-}
-
-double length_of(const CableSpecification& cable) {
-    double length_m = 0.0;
-    for (const CurvaturePiece& piece : cable.curvature) length_m += piece.length_m;
-    return length_m;
 }
 
 // Evenly from end to end; one alone is in the middle.
@@ -86,9 +81,9 @@ bool same_transmission(const NominalBench& a, const NominalBench& b) {
 Recording empty_recording(const BenchPlan& plan, const Instruments& instruments) {
     Recording recording = with_shaft_channels(plan.name, BenchMode::pull_pull, plan.sample_rate_Hz);
     recording.nominal = nominal_of(plan.cable, plan.pulleys);
-    const double length_m = length_of(plan.cable);
-    add_sensors(recording, CableName::a, "tension_a_", instruments.tension_sensors, length_m);
-    add_sensors(recording, CableName::b, "tension_b_", instruments.tension_sensors, length_m);
+    const double cable_m = length_m(plan.cable.curvature);
+    add_sensors(recording, CableName::a, "tension_a_", instruments.tension_sensors, cable_m);
+    add_sensors(recording, CableName::b, "tension_b_", instruments.tension_sensors, cable_m);
     return recording;
 }
 
@@ -134,7 +129,7 @@ Recording recorded_motion(const StudyPlan& plan, const Instruments& instruments)
     cable.segments = std::max(cable.segments, finest_segments);  // a real cable is not cut
     cable.node_places_m.clear();
     recording.nominal = nominal_of(cable, {recorded_pulley_radius_m, recorded_pulley_radius_m});
-    add_sensors(recording, CableName::a, "tension_", instruments.tension_sensors, length_of(cable));
+    add_sensors(recording, CableName::a, "tension_", instruments.tension_sensors, length_m(cable.curvature));
     const QuasiStaticStep step(Cable(cable), plan.transmission.rules);
     const CableState start = pretensioned(step.cable());
     RecordedRun& run = recording.runs.emplace_back();

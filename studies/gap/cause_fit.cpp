@@ -46,10 +46,7 @@ Eigen::VectorXd lower_bounds_of(const Hypothesis& hypothesis) {
 }  // namespace
 
 CauseFitter::CauseFitter(const Recording& recording, const EffectsTwinOptions& options, int threads)
-    : recording_(recording),
-      twin_(recording, options),
-      threads_(threads),
-      is_undescribed_drive_(recording.nominal_is_fitted && recording.mode == BenchMode::pull_pull) {
+    : recording_(recording), twin_(recording, options), threads_(threads) {
     series_ = residual_series(recording, twin_);
     for (const ResidualSeries& series : series_) {
         data_rows_ += series.rows;
@@ -334,7 +331,7 @@ CauseFit CauseFitter::fit_with(const SeriesWeights& weights, const Hypothesis& s
     search.max_iterations = iterations;
     // The evidence of a drive is read off it. Of a band, of which often one run was recorded, a search that
     // goes on with it finds sets that other runs do not confirm.
-    search.jacobian_at_end = is_undescribed_drive_ && iterations == max_iterations;
+    search.jacobian_at_end = recording_.is_undescribed_drive() && iterations == max_iterations;
     // Sums with weights say nothing of the best sum so far, which has none.
     if (weights.empty()) search.pruned_sum_of_squares = options.pruned_sum_of_squares;
     return completed(

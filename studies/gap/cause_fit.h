@@ -185,7 +185,6 @@ class CauseFitter {
     const Recording& recording_;
     EffectsTwin twin_;
     int threads_;
-    bool is_undescribed_drive_;
     std::vector<ResidualSeries> series_;
     std::vector<std::optional<double>> lattice_;  // channels: unstated steps on which all their values lie
     std::size_t data_rows_ = 0;

@@ -20,11 +20,6 @@ constexpr std::size_t max_fitted = 8;
 constexpr std::size_t fits_at_once = 4;
 constexpr int segments_of_a_drive = 9;
 
-// Of unknown geometry, with a cable that pulls each way.
-bool is_drive(const Recording& recording) {
-    return recording.nominal_is_fitted && recording.mode == BenchMode::pull_pull;
-}
-
 int samples_skipped(const Recording& recording, double enough_Hz) {
     return std::max(1, static_cast<int>(recording.sample_rate_Hz / enough_Hz));
 }
@@ -40,15 +35,16 @@ EffectsTwinOptions coarse_options(const Recording& recording, int stride) {
     constexpr double long_s = 80.0;
     constexpr int segments = 24;
     if (!recording.nominal_is_fitted) return {.segments = segments, .stride = 4 * stride};
-    const bool is_long = is_drive(recording) && recording.samples() > long_s * recording.sample_rate_Hz;
+    const bool is_long =
+        recording.is_undescribed_drive() && recording.samples() > long_s * recording.sample_rate_Hz;
     return {
-        .segments = is_drive(recording) ? segments_of_a_drive : segments,
+        .segments = recording.is_undescribed_drive() ? segments_of_a_drive : segments,
         .stride = stride * samples_skipped(recording, is_long ? enough_of_a_long_recording_Hz : enough_Hz)};
 }
 
 // More segments than these change nothing of what is found on a drive.
 EffectsTwinOptions fine_options(const Recording& recording, const CauseSearchOptions& options) {
-    const int segments = is_drive(recording) ? 2 * segments_of_a_drive : options.segments;
+    const int segments = recording.is_undescribed_drive() ? 2 * segments_of_a_drive : options.segments;
     return {.segments = std::min(options.segments, segments), .stride = options.stride};
 }
 
@@ -231,7 +227,7 @@ void CauseSearch::end_draft(Fits& fits) {
 CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const Hypothesis start = nominal_hypothesis(level.bench);
     Fits singles = {without_cause(level)};
-    if (is_undescribed_drive(level.bench) && singles.front().misfit > leads_nowhere) begin_draft(singles);
+    if (recording_.is_undescribed_drive() && singles.front().misfit > leads_nowhere) begin_draft(singles);
     // Numbers that float widely move first, for every cause is screened beside them.
     const Hypothesis nothing = level.bench.is_measured() && !level.bench.has_unknown_number()
                                    ? start
@@ -319,12 +315,6 @@ Hypothesis CauseSearch::roughly_sought(const BenchKnowledge& bench) const {
 
 bool CauseSearch::is_undescribed(const BenchKnowledge& bench) const {
     return &bench == &described_.bench && !bench.is_measured();
-}
-
-// Not a band, whose tension falls by a factor round its drum, and of which a recording often has one run: a
-// wider search finds causes there that other runs do not confirm.
-bool CauseSearch::is_undescribed_drive(const BenchKnowledge& bench) const {
-    return is_undescribed(bench) && recording_.mode == BenchMode::pull_pull;
 }
 
 ScoredFit CauseSearch::without_cause(const Level& level) {

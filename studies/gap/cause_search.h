@@ -108,7 +108,6 @@ class CauseSearch {
     ScoredFit scored(Model& model, CauseFit fit);
     static void remove_unstated_numbers(Level& level);
     bool is_undescribed(const BenchKnowledge& bench) const;
-    bool is_undescribed_drive(const BenchKnowledge& bench) const;
     std::vector<Eigen::VectorXd> further_starts(const BenchKnowledge& bench) const;
     Hypothesis roughly_sought(const BenchKnowledge& bench) const;
     ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);

@@ -80,13 +80,15 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     if (draft_) end_draft(all);
     if (is_undescribed(level.bench)) refine(level, all);
     if (level.bench.is_measured()) try_without_idle_causes(level, all);
+    // A band's tension falls by a factor round its drum, and a recording often has one run of it: a wider
+    // search finds causes there that other runs do not confirm.
     for (bool changes = true; changes;) {
         const bool is_smaller = try_fewer(level, all);
-        changes = is_undescribed_drive(level.bench) &&
+        changes = recording_.is_undescribed_drive() &&
                   ((is_smaller && try_more(level, all)) || replace_the_weakest(level, all));
     }
     if (try_last(level, all)) try_fewer(level, all);
-    is_sharper_ = is_undescribed_drive(level.bench) && take_correlation_of(all.front());
+    is_sharper_ = recording_.is_undescribed_drive() && take_correlation_of(all.front());
     if (is_sharper_) {
         all = fitted_again(coarse_, all, max_after_draft);
         try_fewer(level, all);
@@ -319,7 +321,7 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
         if (added == "none" || extended.size() == max_extended ||
             std::find(extended.begin(), extended.end(), added) != extended.end())
             continue;
-        if (!is_single && !extended.empty() && !is_undescribed_drive(level.bench)) break;
+        if (!is_single && !extended.empty() && !recording_.is_undescribed_drive()) break;
         extended.push_back(added);
         const bool is_wide = extended.size() == 1 && !level.bench.is_measured();
         if (seeks_pairs || worth_a_further_cause(each))

@@ -64,7 +64,7 @@ Hypothesis with_usual_numbers(Hypothesis hypothesis) {
 void CauseSearch::refine(const Level& level, Fits& all) {
     constexpr int max_rounds = 2;
     Hypothesis swapped;
-    if (is_undescribed_drive(level.bench)) try_ripple_or_torque(level, all);
+    if (recording_.is_undescribed_drive()) try_ripple_or_torque(level, all);
     for (int round = 0; round < max_rounds && !is_out_of_time(); ++round) {
         const double before = all.front().evidence;
         try_usual_numbers(level, all);

@@ -113,6 +113,8 @@ struct Recording {
     /// The nominal numbers are not stated but fitted to the recording, and so is each run's zero of the load
     /// angle.
     bool nominal_is_fitted = false;
+    /// A pair of cables whose numbers nobody stated.
+    bool is_undescribed_drive() const { return nominal_is_fitted && mode == BenchMode::pull_pull; }
     /// What the sidecar does not state and was taken instead, and keys that look misspelled; sentences.
     std::vector<std::string> assumptions;
 

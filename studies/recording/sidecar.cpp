@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/platform/nearest_name.h"
 #include "capstan/recording/json_object.h"
 #include "capstan/recording/nominal_bench.h"
@@ -220,7 +221,7 @@ Recording read_sidecar(const nlohmann::json& json, const std::filesystem::path& 
         const JsonObject nominal = sidecar.object("nominal");
         note_misspelled(nominal, "nominal", assumptions);
         recording.nominal = nominal_of(nominal, assumptions);
-        for (const CurvaturePiece& piece : recording.nominal->curvature) length_m += piece.length_m;
+        length_m = capstan::length_m(recording.nominal->curvature);
     }
     if (geometry_known) recording.tension_sensors = sensors_of(sidecar, length_m);
     for (const TensionSensor& sensor : recording.tension_sensors) {
