@@ -31,7 +31,7 @@ extern const Option page_option;
 extern const Argument config_argument;
 extern const Argument study_argument;  ///< latest where left out
 
-/// Checks of options that name a file to be written; - is standard output.
+/// The check of an option that names a file to be written; - is standard output.
 void check_writable(const Invocation& invocation, const Option& option);
 
 /// Takes no wider vector instructions than --simd states. Throws UsageError for a width that is not there.

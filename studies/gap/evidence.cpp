@@ -123,15 +123,14 @@ double unknown_fraction(const ScoredFit& fit, double without_cause) {
     return left + closed > 0.0 ? left / (left + closed) : neither_leaves;
 }
 
-// The probability that there is no cause at all where a hypothesis has none.
-double is_nothing(const ScoredFit& fit) {
-    const double faint = fit.fit.bench->is_measured() ? 0.0 : faint_cause_fraction;
-    return (1.0 - faint) * fit.far_numbers_are_usual;
+// The part of the probability of `none` that a cause has which is too faint to show.
+double faint_part(const ScoredFit& fit) {
+    return fit.fit.bench->is_measured() ? 0.0 : faint_cause_fraction;
 }
 
 // The probability that an effect of a hypothesis is there, if the hypothesis holds.
 double is_there(const WeighedHypothesis& hypothesis, const std::string& effect) {
-    if (effect == "none") return is_nothing(*hypothesis.fit);
+    if (effect == "none") return (1.0 - faint_part(*hypothesis.fit)) * hypothesis.fit->far_numbers_are_usual;
     const auto far = hypothesis.of_the_bench.find(effect);
     const bool is_cause =
         std::find(hypothesis.effects.begin(), hypothesis.effects.end(), effect) != hypothesis.effects.end();
@@ -317,9 +316,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
             RankedEffect& ranked = ranked_by_name[effect];
             ranked.effect = effect;
             const double probability = each.probability * share / sum;
-            const double faint = effect == "none" && !each.fit->fit.bench->is_measured()
-                                     ? faint_cause_fraction * probability
-                                     : 0.0;
+            const double faint = effect == "none" ? faint_part(*each.fit) * probability : 0.0;
             of_faint_causes += faint;
             ranked.probability += probability - faint;
             ranked.present += each.probability * is_there(each, effect);
