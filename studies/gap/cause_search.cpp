@@ -418,7 +418,10 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         if (!number.is_far(coordinate)) continue;
         const bool is_stated = k < nominal_coordinates;
         scored.far_numbers.push_back({k, is_stated ? stated.wrong[static_cast<Eigen::Index>(k)] : 1.0});
-        const double is_a_cause = is_stated ? stated.one_alone : number.usual > 0.0 ? 1.0 : 0.0;
+        // A number that has usual values is a fault beyond them; others, such as zeros, are usual at any
+        // value.
+        const double of_others = number.usual > 0.0 ? 1.0 : 0.0;
+        const double is_a_cause = is_stated ? stated.one_alone : of_others;
         scored.far_numbers_are_usual = std::min(scored.far_numbers_are_usual, 1.0 - is_a_cause);
     }
     scored.has_unknown_scales = is_undescribed(*scored.fit.bench);

@@ -27,7 +27,7 @@ TEST(VerdictSentence, SaysThatNothingIsVisibleBesideNumbersOfTheBench) {
         "is visible; a cause that is too faint to show may act beside them.");
 }
 
-TEST(VerdictSentence, SaysWhereNoneMayBeACauseTooFaintToShow) {
+TEST(VerdictSentence, SaysThatACauseTooFaintToShowMayAct) {
     gap::Diagnosis nothing = verdict({{"none", 0.93, 0.95}}, {});
     EXPECT_EQ(verdict_sentence(nothing),
               "There is no gap beyond noise and the floor of the model (probability 0.93).");

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -107,13 +108,17 @@ TEST_F(Files, ManyWritersOfOneFileLeaveOneCompleteText) {
     EXPECT_EQ(count(), 1);
 }
 
-std::string refusal(const fs::path& path) {
+std::string refusal(const std::function<void()>& work) {
     try {
-        write_file(path, "x");
+        work();
     } catch (const std::runtime_error& problem) {
         return problem.what();
     }
     return "";
+}
+
+std::string refusal(const fs::path& path) {
+    return refusal([&] { write_file(path, "x"); });
 }
 
 TEST_F(Files, SaysWhyAFileCannotBeWrittenAndWhatToTry) {
@@ -126,23 +131,17 @@ TEST_F(Files, SaysWhyAFileCannotBeWrittenAndWhatToTry) {
 }
 
 TEST_F(Files, TellsBeforehandWhetherAFileCanBeWritten) {
-    const auto told = [](const std::filesystem::path& path) -> std::string {
-        try {
-            require_writable(path);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+    const auto refusal_beforehand = [](const fs::path& path) {
+        return refusal([&] { require_writable(path); });
     };
     write_file(folder_ / "file", "kept");
-    std::filesystem::create_symlink(folder_ / "file", folder_ / "link");
-    for (const std::filesystem::path& path :
-         {folder_ / "file", folder_ / "link", folder_ / "new", std::filesystem::path("/dev/null")})
-        EXPECT_EQ(told(path), "") << path;
-    for (const std::filesystem::path& path : {folder_ / "none" / "file", folder_ / "file" / "file", folder_})
-        EXPECT_EQ(told(path), refusal(path)) << path;
+    fs::create_symlink(folder_ / "file", folder_ / "link");
+    for (const fs::path& path : {folder_ / "file", folder_ / "link", folder_ / "new", fs::path("/dev/null")})
+        EXPECT_EQ(refusal_beforehand(path), "") << path;
+    for (const fs::path& path : {folder_ / "none" / "file", folder_ / "file" / "file", folder_})
+        EXPECT_EQ(refusal_beforehand(path), refusal(path)) << path;
     EXPECT_EQ(read_file(folder_ / "file"), "kept");
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
+    EXPECT_FALSE(fs::exists(folder_ / "new"));
 }
 
 TEST_F(Files, RenamesAFinishedFile) {
