@@ -21,8 +21,13 @@ constexpr std::chrono::seconds pilot_limit{6};
 constexpr std::size_t max_output = 1 << 20;
 constexpr int pilot_nice_increment = 5;
 
-ordered_json unknown() {
-    return {{"known", false}};
+constexpr int wrong_input = 2;  // the exit code of a command
+
+// A command that ended without an answer. Of a wrong input the start says what is wrong. Any other one was
+// too slow or was killed: the work may be long.
+ordered_json unknown(const CommandOutput& ended) {
+    if (ended.exit_code == wrong_input) return {{"known", false}};
+    return {{"known", false}, {"may_be_long", true}};
 }
 
 int threads_of(const JobCommands& commands) {
@@ -64,7 +69,7 @@ ordered_json cost_of_command(const JobCommands& commands, const std::vector<std:
     const double took_s = wall_time_s() - begin_s;
     if (!ended.is_late)
         return ended.exit_code == 0 ? ordered_json{{"known", true}, {"seconds", took_s}, {"studies", 1}}
-                                    : unknown();
+                                    : unknown(ended);
     const TimeLeft left = time_left(ended.messages);
     ordered_json cost = {{"known", true}, {"seconds", took_s + left.seconds.value_or(0.0)}, {"studies", 1}};
     if (left.of_one_part || !left.seconds) cost["is_at_least"] = true;
@@ -80,9 +85,8 @@ ordered_json cost_of_studies(const JobCommands& commands, const std::string& tom
         run_command({commands.program, "study", "plan", file, "--json", "--seconds", "1"},
                     {.nice_increment = pilot_nice_increment, .processor_s = 60},
                     {plan_limit, max_output, commands.ending});
-    if (ended.exit_code != 0) return unknown();  // then the start says what is wrong
     const auto plan = nlohmann::json::parse(ended.output, nullptr, false);
-    if (!plan.is_object()) return unknown();
+    if (ended.exit_code != 0 || !plan.is_object()) return unknown(ended);
     const double processor_s = 3600.0 * plan.value("one_run_core_hours", 0.0);
     return {{"known", true},
             {"studies", plan.value("studies", 1)},
@@ -96,14 +100,12 @@ ordered_json cost_of_diagnosis(const JobCommands& commands, const std::string& l
                      std::to_string(commands.threads)},
                     {.nice_increment = pilot_nice_increment, .processor_s = 60},
                     {plan_limit, max_output, commands.ending});
-    constexpr int wrong_input = 2;
     if (ended.exit_code == wrong_input)
         return {
             {"known", false},
             {"problems", plain_messages(ended.messages, std::filesystem::path(log).parent_path().string())}};
-    if (ended.exit_code != 0) return unknown();
     const auto cost = nlohmann::json::parse(ended.output, nullptr, false);
-    if (!cost.is_object()) return unknown();
+    if (ended.exit_code != 0 || !cost.is_object()) return unknown(ended);
     return {{"known", true},
             {"studies", 1},
             {"min_seconds", cost.value("min_seconds", 0.0)},

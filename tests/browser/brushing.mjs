@@ -1,8 +1,7 @@
 // Samples marked on the page of a diagnosis: by mouse, by finger and by keyboard, in curves, loops and the map of the gap.
 import { join } from "node:path";
-import { check } from "./checks.mjs";
+import { check, settled } from "./checks.mjs";
 
-const settled = (page) => page.waitForTimeout(300);
 const words = (page) => page.$eval("#figure-gap_map .brush-keys output", (each) => each.textContent);
 // What each figure draws of the marked samples.
 const dots = (page, figure) => page.$eval(figure, (each) => each.view.data("marked").filter((row) => row.series === "measured").length);

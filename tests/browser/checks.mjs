@@ -22,6 +22,14 @@ export function check(holds, fact) {
   console.error("FAILED: " + fact);
 }
 
+// What a person did to a figure has been drawn, also on a busy machine.
+export async function settled(page) {
+  await page.waitForTimeout(300);
+  await page.evaluate(async () => {
+    for (const figure of document.querySelectorAll("figure")) await figure.view?.runAsync();
+  });
+}
+
 // No serious or critical finding of axe-core, with all folded parts opened. The devtools run it, so that the page's own
 // policy stays in force.
 const axe_source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");

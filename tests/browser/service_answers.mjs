@@ -1,6 +1,6 @@
 // Questions beside studies: place, sensitivity and estimate, started on the front page and answered on pages of their own.
 import { join } from "node:path";
-import { accessible, check } from "./checks.mjs";
+import { accessible, check, settled } from "./checks.mjs";
 
 const text = (page, selector) => page.$eval(selector, (each) => each.textContent);
 
@@ -75,7 +75,7 @@ export async function estimateTension(page, folder, open, log) {
   await answer.mouse.down();
   await answer.mouse.move(svg.x + 400, svg.y + 122, { steps: 8 });
   await answer.mouse.up();
-  await answer.waitForTimeout(300);
+  await settled(answer);
   const of_both = await marked();
   check(of_both > 20 && of_both % 2 === 0, `a brush over the time marks the same moments in the loop (${of_both})`);
   await answer.locator(figure).screenshot({ path: join(folder, "service_tension_brushed.png") });
