@@ -136,9 +136,13 @@ CandidateCause cause_of(const Effect& effect, const Recording& recording, double
                           parameter.typical, effect.absent[k],    parameter.low,
                           parameter.high,    parameter.resonates, parameter.is_detail};
         if (number.kind == OpenNumber::Kind::place) number.typical = length_m;
-        // A ripple of which less than half a period was seen is any function of the position.
-        if (number.kind == OpenNumber::Kind::periods && turned > 0.0)
-            number.low = std::clamp(std::ceil(std::numbers::pi / turned), number.low, number.high);
+        // A ripple of which less than a period was seen repeats nothing: it is any function of the position.
+        // A drive has a smooth torque over the position to compare it with.
+        if (number.kind == OpenNumber::Kind::periods && turned > 0.0) {
+            const double seen_periods = recording.is_undescribed_drive() ? 0.5 : 1.0;
+            number.low = std::clamp(std::ceil(seen_periods * 2.0 * std::numbers::pi / turned), number.low,
+                                    number.high);
+        }
         // Forces of a bench whose radii are not known are in proportion to its pretension, and so are the
         // tensions at which something happens.
         if (number.kind == OpenNumber::Kind::shape && number.unit == "N" && recording.nominal_is_fitted) {

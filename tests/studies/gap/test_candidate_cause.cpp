@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "capstan/gap/candidate_cause.h"
 #include "sample_recording.h"
@@ -59,6 +60,26 @@ TEST(CandidateCauses, HoldNoLostMotionOfASingleCable) {
 const CandidateCause& the_one(const std::vector<CandidateCause>& causes, const std::string& effect) {
     return *std::find_if(causes.begin(), causes.end(),
                          [&](const CandidateCause& cause) { return cause.effect == effect; });
+}
+
+// What repeats nothing is any function of the position.
+TEST(CandidateCauses, HoldNoRippleOfWhichLessThanAPeriodWasSeen) {
+    Recording recording = driven_session();
+    const auto channel = static_cast<std::size_t>(*recording.channel("motor_angle"));
+    const auto samples = recording.runs.front().time_s.size();
+    for (const double turned_rad : {0.5, 1.0, 4.0, 20.0}) {
+        for (RecordedRun& run : recording.runs) {
+            run.values[channel].assign(samples, 0.0);
+            run.values[channel].back() = turned_rad;
+        }
+        const std::vector<CandidateCause> causes = candidate_causes(recording);
+        const std::vector<OpenNumber>& numbers = the_one(causes, "motor_cogging").numbers;
+        const auto periods = std::find_if(numbers.begin(), numbers.end(), [](const OpenNumber& number) {
+            return number.kind == OpenNumber::Kind::periods;
+        });
+        ASSERT_NE(periods, numbers.end());
+        EXPECT_EQ(periods->low, std::ceil(2.0 * std::numbers::pi / turned_rad)) << turned_rad << " rad";
+    }
 }
 
 // Radii and forces of a drive of unknown geometry are of an equivalent one.
