@@ -233,11 +233,13 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
                                    ? start
                                    : Hypothesis{{}, singles.front().fit.coordinates, &level.bench};
     report("screening all causes");
+    const bool leads_somewhere = singles.front().misfit < leads_nowhere;
     const std::vector<Further> all =
-        screened(level, level.sought_first(), nothing, singles.front().fit.weights, true);
+        screened(level, level.sought_first(), nothing, singles.front().fit.weights,
+                 is_undescribed(level.bench) || !leads_somewhere);
     // Where the numbers of an undescribed bench lead nowhere without the right cause, the screening beside
     // them says nothing, and every cause is fitted.
-    const bool is_told = !is_undescribed(level.bench) || singles.front().misfit < leads_nowhere;
+    const bool is_told = !is_undescribed(level.bench) || leads_somewhere;
     const std::size_t max_count = is_told ? max_fitted : all.size();
     // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
     // numbers; and so is a cause that the values themselves show.

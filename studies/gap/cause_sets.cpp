@@ -348,8 +348,9 @@ void CauseSearch::try_replacing(const Level& level, Fits& sets) {
 
 // The screening is linear. Where the bench's numbers float widely they make up for most of what a cause does,
 // and what is left of it shows only after they have moved: there a first cause gets a few steps of a search
-// whatever the screening says, and a further one if it is among the most promising. What an undescribed bench
-// without a cause led to may be far from where it is with one, so that a first cause also begins elsewhere.
+// whatever the screening says, and a further one if it is among the most promising. The numbers that a bench
+// without a cause led to may be far from where they are with one, so that a first cause also begins
+// elsewhere.
 std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
                                                         std::span<const CandidateCause> causes,
                                                         const Hypothesis& present,
@@ -362,7 +363,7 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
     }
     if (level.bench.is_measured()) return all;
     std::vector<Eigen::VectorXd> elsewhere;
-    if (begins_elsewhere && is_undescribed(level.bench)) {
+    if (begins_elsewhere) {
         elsewhere = further_starts(level.bench);
         elsewhere.push_back(nominal_hypothesis(level.bench).coordinates);
     }
