@@ -132,8 +132,8 @@ class Evidence {
     double below_noise_weight_ = below_noise_weight;
 };
 
-/// Half the squared distance of three numbers from what was stated that one bench in a hundred exceeds.
-inline constexpr double tenable_nominal_penalty = 5.67;
+/// Half the squared distance of three numbers from what was stated that one bench in twenty exceeds.
+inline constexpr double tenable_nominal_penalty = 3.91;
 
 /// How many numbers a fit chose freely, beyond the nominal numbers within their uncertainty.
 std::size_t open_numbers(const CauseFit& fit);
