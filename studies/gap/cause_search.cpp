@@ -179,6 +179,7 @@ FoundCauses CauseSearch::run() & {
         // A sharper evidence also tells whether a fit is quite at its minimum.
         if (is_sharper_) found.fits = fitted_again(fine_, found.fits, max_fitted_finely);
     }
+    charge_corrections(found.fits);
     drop_unearned_causes(found.fits);
     found.nominal_misfit = nominal_misfit_;
     found.evaluations = evaluations_;

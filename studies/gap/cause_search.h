@@ -114,6 +114,7 @@ class CauseSearch {
     Fits fitted_again(Model& model, const Fits& fits, std::size_t max_sets);
     double held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
                                const std::vector<LeftOut>& parts);
+    void charge_corrections(Fits& fits);
     void drop_unearned_causes(Fits& fits);
     bool take_correlation_of(const ScoredFit& best);
     bool should_be_taken_as_built(const ScoredFit& best);

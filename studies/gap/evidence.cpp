@@ -64,11 +64,14 @@ constexpr double none_beside_numbers_fraction = 0.1;
 // too faint to be told from none is as probable as none. It may be any effect.
 constexpr double faint_cause_fraction = 0.5;
 
-// What it costs to name something, in the list or outside it, that changes a channel by this rms.
+// What it costs to name something, in the list or outside it, that changes nothing,
+double invisible_at_most(const ScoredFit& fit) {
+    return fit.fit.bench->is_measured() ? invisible_penalty : invisible_penalty_beside_floating_numbers;
+}
+
+// and that changes a channel by this rms.
 double invisible(const ScoredFit& fit, double change) {
-    const double penalty =
-        fit.fit.bench->is_measured() ? invisible_penalty : invisible_penalty_beside_floating_numbers;
-    return penalty * std::max(0.0, 1.0 - change / visible);
+    return invisible_at_most(fit) * std::max(0.0, 1.0 - change / visible);
 }
 
 // Of a discrepancy, in units of noise and floor. Where the scale of the channels' errors is not known, it was
@@ -123,9 +126,19 @@ double unknown_fraction(const ScoredFit& fit, double without_cause) {
     return left + closed > 0.0 ? left / (left + closed) : neither_leaves;
 }
 
+// Several zeros or bearings' friction and nothing else, searched as causes: what is usual of a bench as
+// built.
+bool are_usual_numbers(const ScoredFit& fit) {
+    const std::vector<const CandidateCause*>& causes = fit.fit.causes;
+    return causes.size() > 1 && std::all_of(causes.begin(), causes.end(), [](const CandidateCause* cause) {
+               return !cause->is_rare &&
+                      (cause->effect == "sensor_offset" || cause->effect == "pulley_friction");
+           });
+}
+
 // The part of the probability of `none` that a cause has which is too faint to show.
 double faint_part(const ScoredFit& fit) {
-    return fit.fit.bench->is_measured() ? 0.0 : faint_cause_fraction;
+    return fit.fit.bench->is_measured() && !are_usual_numbers(fit) ? 0.0 : faint_cause_fraction;
 }
 
 // The probability that an effect of a hypothesis is there, if the hypothesis holds.
@@ -179,6 +192,29 @@ std::map<std::string, double> ScoredFit::of_the_bench() const {
 double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
     const double log = fit.has_unknown_scales ? log_of_unknown_scale(misfit) : log_of(misfit);
     return -0.5 * samples_ * log;
+}
+
+double Evidence::penalty_of_causes_that_correct(const ScoredFit& fit,
+                                                const std::vector<ScoredFit>& fits) const {
+    constexpr double usual_nominal_penalty = 1.5;  // half the mean squared distance of three numbers
+    const auto left = [&](const ScoredFit& each) {
+        return each.misfit + 2.0 * std::max(0.0, each.nominal_penalty - usual_nominal_penalty) / samples_;
+    };
+    const std::vector<const CandidateCause*>& causes = fit.fit.causes;
+    double penalty = 0.0;
+    for (const CandidateCause* cause : causes) {
+        if (causes.size() == 1 || cause->is_seen || fit.has_unknown_scales) continue;
+        Effects others = effects_of(fit.fit);
+        others.erase(std::find(others.begin(), others.end(), cause->effect));
+        double left_without = std::numeric_limits<double>::infinity();
+        for (const ScoredFit& other : fits) {
+            if (other.fit.bench == fit.fit.bench && effects_of(other.fit) == others)
+                left_without = std::min(left_without, left(other));
+        }
+        const double closed = std::sqrt(std::max(0.0, left_without - left(fit)));
+        penalty += invisible_at_most(fit) * std::max(0.0, 1.0 - closed / floor_error);
+    }
+    return penalty;
 }
 
 double Evidence::of(const ScoredFit& fit) const {
@@ -309,6 +345,8 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         if (shares.count("none") > 0)
             shares["none"] =
                 each.fit->far_numbers_are_usual * (1.0 - (1.0 - none_beside_numbers_fraction) * any_far);
+        else if (!each.with_unknown && are_usual_numbers(*each.fit))
+            shares["none"] = none_beside_numbers_fraction;
         if (each.with_unknown) give_unknown_its_fraction(shares, each.unknown_fraction);
         double sum = 0.0;
         for (const auto& [effect, share] : shares) sum += share;

@@ -276,6 +276,14 @@ double CauseSearch::held_out_log_misfit(const Hypothesis& hypothesis, const Seri
     return sum / static_cast<double>(parts.size());
 }
 
+void CauseSearch::charge_corrections(Fits& fits) {
+    std::vector<double> penalties;
+    for (const ScoredFit& each : fits)
+        penalties.push_back(evidence_.penalty_of_causes_that_correct(each, fits));
+    for (std::size_t k = 0; k < fits.size(); ++k) fits[k].charge_unproven(penalties[k]);
+    sort_by_evidence(fits);
+}
+
 // A cause that does not help to predict what the fit did not see may only have fitted the rest. It goes where
 // the predictions lose more by it than the fit has gained. The set without it then goes before the set with
 // it.

@@ -367,6 +367,47 @@ TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
     EXPECT_NEAR(probability(ranked, "viscous_friction"), probability(ranked, "sensor_gain"), 0.01);
 }
 
+// However visible a cause is: beside numbers that make up for it, it may only correct the model's own error.
+TEST(Evidence, ASetIsChargedForACauseWithoutWhichTheOthersLeaveHardlyMore) {
+    const Known known;
+    const BenchKnowledge& built = bench_with_a_zero();
+    const auto on_built_bench = [&](ScoredFit fit) {
+        fit.fit.bench = &built;
+        return fit;
+    };
+    const ScoredFit single = on_built_bench(fitted(evidence, {&known.drag}, 0.30, {6.0}));
+    const auto charge = [&](double misfit, const std::vector<ScoredFit>& others) {
+        return evidence.penalty_of_causes_that_correct(
+            on_built_bench(fitted(evidence, {&known.drag, &known.gain}, misfit, {6.0, 4.0})), others);
+    };
+    EXPECT_EQ(charge(0.10, {single}), 0.0);
+    EXPECT_GT(charge(0.28, {single}), 2.0);
+    EXPECT_GT(charge(0.2999, {single}), charge(0.28, {single}));
+    EXPECT_EQ(charge(0.28, {}), 0.0) << "nothing tells what the drag alone leaves";
+    EXPECT_EQ(charge(0.28, {fitted(evidence, {&known.drag}, 0.30, {6.0})}), 0.0) << "on another bench";
+    ScoredFit far = single;  // the drag alone asks for numbers that no bench has
+    far.nominal_penalty = 20.0;
+    EXPECT_EQ(charge(0.28, {far}), 0.0);
+    EXPECT_EQ(evidence.penalty_of_causes_that_correct(single, {single}), 0.0);
+}
+
+// A bench has several zeros and bearings' friction, whether they were searched as causes or float.
+TEST(Evidence, SeveralUsualNumbersSayNothingAgainstNone) {
+    Known known;
+    known.gain.effect = "sensor_offset";
+    known.drag.effect = "pulley_friction";
+    const std::vector<CandidateCause> causes = {known.none, known.drag, known.gain};
+    const ScoredFit nothing = fitted(evidence, {&known.none}, 9.0, {0.0});
+    const ScoredFit zero = fitted(evidence, {&known.gain}, 1.0, {4.0});
+    EXPECT_LT(present(ranked_by(evidence, causes, {zero, nothing}), "none"), 0.05);
+    const auto both =
+        ranked_by(evidence, causes, {nothing, fitted(evidence, {&known.drag, &known.gain}, 1.0, {4.0, 4.0})});
+    EXPECT_GT(present(both, "sensor_offset"), 0.9);
+    EXPECT_NEAR(present(both, "none"), 0.5, 0.05);
+    EXPECT_EQ(both[2].effect, "none");
+    EXPECT_GT(both[2].probability, probability(both, "unknown"));
+}
+
 TEST(Evidence, ProbabilitiesSumToOneAndNoneIsZero) {
     const Known known;
     const auto ranked = ranked_by(
