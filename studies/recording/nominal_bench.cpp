@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capstan/cable/cable_cut.h"
 #include "capstan/platform/statistics.h"
 
 namespace capstan {
@@ -55,6 +56,15 @@ std::string sought(std::pair<double, double> range, const char* what, const char
                        within(range).value, range.first, range.second, unit);
 }
 
+// Smaller or larger than anything that is built: in another unit, or a slip.
+void check_size(const JsonObject& nominal, const char* key, double value, std::pair<double, double> built,
+                const char* unit, const char* is = "is") {
+    if (value <= 0.0 || (value >= built.first && value <= built.second)) return;
+    nominal.add_problem(
+        key, fmt::format("{} {:.4g} {}, but what is built has {:.4g} to {:.4g} {}; is it in another unit?",
+                         is, value, unit, built.first, built.second, unit));
+}
+
 // EA in N, or K in N/m of the complete cable.
 StatedNumber axial_stiffness_N(const JsonObject& nominal, Assumptions& assumptions) {
     if (nominal.has("EA") && nominal.has("K"))
@@ -77,6 +87,12 @@ StatedNumber dynamic_friction(const JsonObject& nominal, Assumptions& assumption
     if (const auto range = nominal.optional_range("mu_d")) return within(*range);
     const double friction = nominal.number("mu_d");
     if (friction < 0.0) nominal.add_problem("mu_d", "must not be negative");
+    constexpr double largest_friction = 5.0;
+    if (friction > largest_friction)
+        nominal.add_problem("mu_d",
+                            fmt::format("is {:.4g}, but no cable in a sheath has more than {}; dynamic "
+                                        "friction is usually 0.03 to 0.5",
+                                        friction, largest_friction));
     return {friction};
 }
 
@@ -93,6 +109,13 @@ NominalBench nominal_of(const JsonObject& nominal, Assumptions& assumptions) {
     bench.motor_radius_m = nominal.positive("r_input");
     bench.load_radius_m = nominal.positive("r_load");
     const StatedNumber stiffness_N = axial_stiffness_N(nominal, assumptions);
+    check_size(nominal, "L", length_m(bench.curvature), {1e-3, 1e3}, "m");
+    check_size(nominal, "r_input", bench.motor_radius_m, {1e-4, 10.0}, "m");
+    check_size(nominal, "r_load", bench.load_radius_m, {1e-4, 10.0}, "m");
+    constexpr std::pair built_axial_stiffness_N{1.0, 1e8};
+    if (nominal.has("EA")) check_size(nominal, "EA", stiffness_N.value, built_axial_stiffness_N, "N");
+    if (nominal.has("K"))
+        check_size(nominal, "K", stiffness_N.value, built_axial_stiffness_N, "N", "times L is");
     bench.axial_stiffness_N = stiffness_N.value;
     bench.spread.stiffness = stiffness_N.spread;
     const StatedNumber friction = dynamic_friction(nominal, assumptions);

@@ -89,7 +89,7 @@ const std::vector<RecordingKey> keys = {
     {"runs", "protocol", "string", "", "What was done in it.", "none", "\"sines\"", every},
     {"runs", "source", "string", "", "The same, where no protocol has a name.", "none", "", every},
     {"runs", "t_session_start", "number", "s", "When the run began in the session.", "0", "0", every},
-    {"runs", "duration", "number", "s", "How long it lasted.", "from the times", "", every},
+    {"runs", "duration", "number", "s", "How long it lasted; a note, compared with the times.", "from the times", "", every},
     {"runs", "T0", range, "N", "Pretension of a cable when the run began.",
      "where no run states it, it is fitted as one of all runs", "30", with_geometry},
     {"runs", "output", "string", "", "What held the load pulley: locked or handle.", "not known",

@@ -73,6 +73,29 @@ void deal_out(const CsvNumbers& table, const std::vector<std::size_t>& columns, 
     }
 }
 
+// A stated duration is a note of the laboratory's. Where the samples contradict it, some are missing, or a
+// time is in another unit.
+void note_other_durations(const nlohmann::json& sidecar, const std::filesystem::path& path,
+                          Recording& recording) {
+    constexpr double tolerance = 0.1;
+    if (!sidecar.contains("runs")) return;
+    for (const nlohmann::json& stated : sidecar.at("runs")) {
+        const auto duration = stated.find("duration");
+        const auto run =
+            std::find_if(recording.runs.begin(), recording.runs.end(),
+                         [&](const RecordedRun& each) { return stated.value("run", 0) == each.number; });
+        if (duration == stated.end() || !duration->is_number() || run == recording.runs.end()) continue;
+        const double stated_s = *duration;
+        const double recorded_s = run->time_s.back() - run->time_s.front();
+        if (std::abs(recorded_s - stated_s) <= tolerance * stated_s + 1.0 / recording.sample_rate_Hz)
+            continue;
+        recording.assumptions.push_back(fmt::format(
+            "{}: the duration of run {} is {:.4g} s, but its samples last {:.4g} s, which counts; are samples missing, or "
+            "is a time in another unit?",
+            path.filename().string(), run->number, stated_s, recorded_s));
+    }
+}
+
 SampleTable sample_table(const CsvNumbers& table) {
     SampleTable samples{table.columns, {}, 0.0};
     const auto run_column = column_of(table, "run");
@@ -136,6 +159,7 @@ Recording read_recording(const std::filesystem::path& path, ProblemList& problem
     if (!problems.empty()) return recording;
     deal_out(table, columns, samples_path.string(), recording, problems);
     if (problems.empty()) check_recording(recording, samples_path.string(), problems);
+    if (problems.empty()) note_other_durations(json, sidecar_path, recording);
     return problems.empty() ? with_estimated_noise(std::move(recording)) : recording;
 }
 

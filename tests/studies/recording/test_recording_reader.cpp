@@ -103,6 +103,24 @@ TEST(RecordingReader, NumbersThatNobodyStatesAreSoughtAndItSaysWhere) {
     EXPECT_NE(said.find("T0 of every run is missing"), std::string::npos) << said;
 }
 
+// A duration is a note, but one that the samples contradict is said.
+TEST(RecordingReader, SaysWhereTheSamplesContradictAStatedDuration) {
+    RecordingFiles files = as_files(measured_session(true_parameters));
+    const TemporaryFolder folder;
+    const auto said_of = [&](const std::string& duration) {
+        RecordingFiles stated = files;
+        stated.sidecar_json =
+            replaced(files.sidecar_json, "\"T0\": 6.0, ", "\"T0\": 6.0, \"duration\": " + duration + ", ");
+        return read_recording(folder.write(stated)).assumptions;
+    };
+    const Recording read = read_recording(folder.write(files));
+    const double lasts_s = read.runs[1].time_s.back() - read.runs[1].time_s.front();
+    EXPECT_EQ(said_of(std::to_string(1.05 * lasts_s)), read.assumptions);
+    const std::vector<std::string> said = said_of(std::to_string(2.0 * lasts_s));
+    ASSERT_EQ(said.size(), read.assumptions.size() + 1);
+    EXPECT_NE(said.back().find("bench.json: the duration of run 2 is"), std::string::npos) << said.back();
+}
+
 struct Fault {
     const char* name;
     std::function<void(RecordingFiles&)> commit;
@@ -208,6 +226,17 @@ const Fault faults[] = {
     {"NegativeStiffness",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"K\": 2000.0", "\"K\": -2000.0"); },
      {"nominal.K", "positive"}},
+    {"StiffnessOfNoCable",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"K\": 2000.0", "\"K\": 1e300"); },
+     {"nominal.K", "times L is", "1e+08 N", "another unit"}},
+    {"RadiusInMillimetres",
+     [](RecordingFiles& f) {
+         f.sidecar_json = replaced(f.sidecar_json, "\"r_input\": 0.02", "\"r_input\": 20");
+     },
+     {"nominal.r_input", "is 20 m", "another unit"}},
+    {"FrictionOfNoSheath",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"mu_d\": 0.", "\"mu_d\": 90."); },
+     {"nominal.mu_d", "no cable in a sheath"}},
     {"MissingPretension",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"T0\": 6.0, ", ""); },
      {"runs[1].T0", "missing"}},
