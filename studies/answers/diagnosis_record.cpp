@@ -157,9 +157,8 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
             "the bench without a cause.",
             cause_words(first.effect, ""), first.present);
     const double unknown = present_probability(diagnosis, "unknown");
-    const bool only_numbers = diagnosis.candidates.front().effects == std::vector<std::string>{"none"};
     std::string text =
-        only_numbers && unknown < likely
+        diagnosis.candidates.front().is_only_the_bench && unknown < likely
             ? fmt::format(
                   "The bench's own numbers explain the gap: {}. Nothing else is visible; a cause that is too "
                   "faint to show may act beside them.",

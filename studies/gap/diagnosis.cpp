@@ -56,9 +56,14 @@ class Diagnoser {
         diagnosis.non_identifiable.is_unknown = is_probably_unknown(weighed);
         diagnosis.independent_samples = fitter_.independent_samples();
         for (const ScoredFit& each : fits) {
-            CandidateScore score{
-                {},           {}, open_numbers(each.fit), each.misfit, each.nominal_penalty, each.visibility,
-                each.evidence};
+            CandidateScore score{{},
+                                 {},
+                                 open_numbers(each.fit),
+                                 each.misfit,
+                                 each.nominal_penalty,
+                                 each.visibility,
+                                 each.evidence,
+                                 names_only_the_bench(each)};
             for (const CandidateCause* cause : each.fit.causes) {
                 score.effects.push_back(cause->effect);
                 score.variants.push_back(cause->variant);

@@ -46,6 +46,8 @@ struct CandidateScore {
     double nominal_penalty = 0.0;
     std::vector<double> visibility;  ///< see ScoredFit
     double evidence = 0.0;
+    bool is_only_the_bench =
+        false;  ///< no cause, but for zeros and bearings' friction, which every bench has
 };
 
 struct Diagnosis {

@@ -410,6 +410,10 @@ std::vector<RankedEffect> in_answered_names(const std::vector<RankedEffect>& ran
     return answered;
 }
 
+bool names_only_the_bench(const ScoredFit& fit) {
+    return fit.fit.causes.front()->effect == "none" || are_usual_numbers(fit);
+}
+
 bool worth_a_further_cause(const ScoredFit& fit) {
     constexpr double close_to_noise = 1.1;
     // Numbers that float widely take up a part of the floor, and leave room for a cause below it.

@@ -143,6 +143,10 @@ inline constexpr double tenable_nominal_penalty = 3.91;
 /// How many numbers a fit chose freely, beyond the nominal numbers within their uncertainty.
 std::size_t open_numbers(const CauseFit& fit);
 
+/// Whether a fit has no cause, or none but several zeros and bearings' friction, which every bench as built
+/// has.
+bool names_only_the_bench(const ScoredFit& fit);
+
 /// True if a fit leaves enough to look for a further cause: more than noise, and more than the law of its
 /// clearest cause may be wrong by, or numbers that are not tenable; always where the scale of a channel's
 /// error is not known (E54).

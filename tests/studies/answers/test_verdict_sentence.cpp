@@ -20,7 +20,7 @@ gap::Diagnosis verdict(const std::vector<gap::RankedEffect>& ranked, const std::
 TEST(VerdictSentence, SaysThatNothingIsVisibleBesideNumbersOfTheBench) {
     gap::Diagnosis numbers = verdict({{"param_K", 0.4, 0.98}, {"param_T0", 0.4, 0.98}, {"none", 0.15, 0.48}},
                                      {"param_K", "param_T0"});
-    numbers.candidates = {{.effects = {"none"}}};
+    numbers.candidates.front().is_only_the_bench = true;
     EXPECT_EQ(
         verdict_sentence(numbers),
         "The bench's own numbers explain the gap: wrong cable stiffness, wrong pretension. Nothing else "

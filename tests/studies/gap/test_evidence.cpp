@@ -400,8 +400,11 @@ TEST(Evidence, SeveralUsualNumbersSayNothingAgainstNone) {
     const ScoredFit nothing = fitted(evidence, {&known.none}, 9.0, {0.0});
     const ScoredFit zero = fitted(evidence, {&known.gain}, 1.0, {4.0});
     EXPECT_LT(present(ranked_by(evidence, causes, {zero, nothing}), "none"), 0.05);
-    const auto both =
-        ranked_by(evidence, causes, {nothing, fitted(evidence, {&known.drag, &known.gain}, 1.0, {4.0, 4.0})});
+    const ScoredFit zero_and_bearing = fitted(evidence, {&known.drag, &known.gain}, 1.0, {4.0, 4.0});
+    EXPECT_TRUE(names_only_the_bench(nothing));
+    EXPECT_FALSE(names_only_the_bench(zero));
+    EXPECT_TRUE(names_only_the_bench(zero_and_bearing));
+    const auto both = ranked_by(evidence, causes, {nothing, zero_and_bearing});
     EXPECT_GT(present(both, "sensor_offset"), 0.9);
     EXPECT_NEAR(present(both, "none"), 0.5, 0.05);
     EXPECT_EQ(both[2].effect, "none");
