@@ -112,7 +112,7 @@ NominalBench nominal_of(const JsonObject& nominal, Assumptions& assumptions) {
     check_size(nominal, "L", length_m(bench.curvature), {1e-3, 1e3}, "m");
     check_size(nominal, "r_input", bench.motor_radius_m, {1e-4, 10.0}, "m");
     check_size(nominal, "r_load", bench.load_radius_m, {1e-4, 10.0}, "m");
-    constexpr std::pair built_axial_stiffness_N{1.0, 1e8};
+    constexpr std::pair built_axial_stiffness_N{1e-2, 1e9};
     if (nominal.has("EA")) check_size(nominal, "EA", stiffness_N.value, built_axial_stiffness_N, "N");
     if (nominal.has("K"))
         check_size(nominal, "K", stiffness_N.value, built_axial_stiffness_N, "N", "times L is");

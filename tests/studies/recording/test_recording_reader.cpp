@@ -228,7 +228,7 @@ const Fault faults[] = {
      {"nominal.K", "positive"}},
     {"StiffnessOfNoCable",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"K\": 2000.0", "\"K\": 1e300"); },
-     {"nominal.K", "times L is", "1e+08 N", "another unit"}},
+     {"nominal.K", "times L is", "1e+09 N", "another unit"}},
     {"RadiusInMillimetres",
      [](RecordingFiles& f) {
          f.sidecar_json = replaced(f.sidecar_json, "\"r_input\": 0.02", "\"r_input\": 20");
