@@ -21,7 +21,7 @@
     if (mine !== clicks) return false;
     at(form + "-cost-words").textContent = "";
     if (cost.problems) throw new Error(cost.problems);
-    const unknown = cost.may_be_long ? "What it takes could not be estimated: this machine is busy, or the work is long." : "";
+    const unknown = cost.may_be_long ? "How long it takes could not be estimated: this machine is busy, or the work is long." : "";
     const told = cost.known ? `${cost.studies === 1 ? what + " takes" : cost.studies + " studies take"} ${cost.is_at_least ? "at least" : "about"} ${duration(cost)} on this machine.` : unknown;
     at(form + "-cost-words").textContent = [doubt, told].filter(Boolean).join(" ");
     const is_short = cost.known ? cost.seconds <= asks_above_s && !cost.is_at_least : !cost.may_be_long;

@@ -56,14 +56,10 @@ class Diagnoser {
         diagnosis.non_identifiable.is_unknown = is_probably_unknown(weighed);
         diagnosis.independent_samples = fitter_.independent_samples();
         for (const ScoredFit& each : fits) {
-            CandidateScore score{{},
-                                 {},
-                                 open_numbers(each.fit),
-                                 each.misfit,
-                                 each.nominal_penalty,
-                                 each.visibility,
-                                 each.evidence,
-                                 names_only_the_bench(each)};
+            CandidateScore score{
+                {},           {}, open_numbers(each.fit), each.misfit, each.nominal_penalty, each.visibility,
+                each.evidence};
+            score.is_only_the_bench = names_only_the_bench(each);
             for (const CandidateCause* cause : each.fit.causes) {
                 score.effects.push_back(cause->effect);
                 score.variants.push_back(cause->variant);

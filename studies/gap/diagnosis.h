@@ -46,8 +46,7 @@ struct CandidateScore {
     double nominal_penalty = 0.0;
     std::vector<double> visibility;  ///< see ScoredFit
     double evidence = 0.0;
-    bool is_only_the_bench =
-        false;  ///< no cause, but for zeros and bearings' friction, which every bench has
+    bool is_only_the_bench = false;  ///< no cause beyond the zeros and bearings' friction of every bench
 };
 
 struct Diagnosis {

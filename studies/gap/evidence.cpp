@@ -64,12 +64,12 @@ constexpr double none_beside_numbers_fraction = 0.1;
 // too faint to be told from none is as probable as none. It may be any effect.
 constexpr double faint_cause_fraction = 0.5;
 
-// What it costs to name something, in the list or outside it, that changes nothing,
+// What it costs to name something, in the list or outside it, that changes no channel.
 double invisible_at_most(const ScoredFit& fit) {
     return fit.fit.bench->is_measured() ? invisible_penalty : invisible_penalty_beside_floating_numbers;
 }
 
-// and that changes a channel by this rms.
+// The same of what changes a channel by this rms, in units of noise and floor.
 double invisible(const ScoredFit& fit, double change) {
     return invisible_at_most(fit) * std::max(0.0, 1.0 - change / visible);
 }
@@ -194,8 +194,7 @@ double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
     return -0.5 * samples_ * log;
 }
 
-double Evidence::penalty_of_causes_that_correct(const ScoredFit& fit,
-                                                const std::vector<ScoredFit>& fits) const {
+double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const {
     constexpr double usual_nominal_penalty = 1.5;  // half the mean squared distance of three numbers
     const auto left = [&](const ScoredFit& each) {
         return each.misfit + 2.0 * std::max(0.0, each.nominal_penalty - usual_nominal_penalty) / samples_;

@@ -278,8 +278,7 @@ double CauseSearch::held_out_log_misfit(const Hypothesis& hypothesis, const Seri
 
 void CauseSearch::charge_corrections(Fits& fits) {
     std::vector<double> penalties;
-    for (const ScoredFit& each : fits)
-        penalties.push_back(evidence_.penalty_of_causes_that_correct(each, fits));
+    for (const ScoredFit& each : fits) penalties.push_back(evidence_.penalty_of_corrections(each, fits));
     for (std::size_t k = 0; k < fits.size(); ++k) fits[k].charge_unproven(penalties[k]);
     sort_by_evidence(fits);
 }

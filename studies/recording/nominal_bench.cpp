@@ -56,15 +56,6 @@ std::string sought(std::pair<double, double> range, const char* what, const char
                        within(range).value, range.first, range.second, unit);
 }
 
-// Smaller or larger than anything that is built: in another unit, or a slip.
-void check_size(const JsonObject& nominal, const char* key, double value, std::pair<double, double> built,
-                const char* unit, const char* is = "is") {
-    if (value <= 0.0 || (value >= built.first && value <= built.second)) return;
-    nominal.add_problem(
-        key, fmt::format("{} {:.4g} {}, but what is built has {:.4g} to {:.4g} {}; is it in another unit?",
-                         is, value, unit, built.first, built.second, unit));
-}
-
 // EA in N, or K in N/m of the complete cable.
 StatedNumber axial_stiffness_N(const JsonObject& nominal, Assumptions& assumptions) {
     if (nominal.has("EA") && nominal.has("K"))
@@ -84,8 +75,9 @@ StatedNumber dynamic_friction(const JsonObject& nominal, Assumptions& assumption
         assumptions.add("nominal.mu_d", sought(usual_friction, "it", ""));
         return within(usual_friction);
     }
-    if (const auto range = nominal.optional_range("mu_d")) return within(*range);
-    const double friction = nominal.number("mu_d");
+    const auto range = nominal.optional_range("mu_d");
+    const StatedNumber stated = range ? within(*range) : StatedNumber{nominal.number("mu_d")};
+    const double friction = stated.value;
     if (friction < 0.0) nominal.add_problem("mu_d", "must not be negative");
     constexpr double largest_friction = 5.0;
     if (friction > largest_friction)
@@ -93,10 +85,18 @@ StatedNumber dynamic_friction(const JsonObject& nominal, Assumptions& assumption
                             fmt::format("is {:.4g}, but no cable in a sheath has more than {}; dynamic "
                                         "friction is usually 0.03 to 0.5",
                                         friction, largest_friction));
-    return {friction};
+    return stated;
 }
 
 }  // namespace
+
+void check_size(const JsonObject& object, const char* key, double value, std::pair<double, double> built,
+                const char* unit, const char* is) {
+    if (value <= 0.0 || (value >= built.first && value <= built.second)) return;
+    object.add_problem(
+        key, fmt::format("{} {:.4g} {}, but what is built has {:.4g} to {:.4g} {}; is it in another unit?",
+                         is, value, unit, built.first, built.second, unit));
+}
 
 StatedNumber value_or_range(const JsonObject& object, const char* key) {
     if (const auto range = object.optional_range(key)) return within(*range);

@@ -34,6 +34,11 @@ struct StatedNumber {
 /// A positive number, or a range [low, high] that holds it with a probability of 95%.
 StatedNumber value_or_range(const JsonObject& object, const char* key);
 
+/// Notes a problem where a positive number is smaller or larger than anything that is built (`built`, in
+/// `unit`): it is in another unit, or a slip. `is` goes before the value in the message.
+void check_size(const JsonObject& object, const char* key, double value, std::pair<double, double> built,
+                const char* unit, const char* is = "is");
+
 /// Of the section `nominal`; what is missing is taken as usual in the field, and said.
 NominalBench nominal_of(const JsonObject& nominal, Assumptions& assumptions);
 

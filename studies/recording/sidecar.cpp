@@ -107,6 +107,7 @@ RecordedRun run_of(const JsonObject& json, const std::vector<std::string>& usual
     run.session_start_s = json.optional_number("t_session_start").value_or(0.0);
     if (json.has("T0")) {
         const StatedNumber pretension_N = value_or_range(json, "T0");
+        check_size(json, "T0", pretension_N.value, {1e-4, 1e6}, "N");
         run.pretension_N = pretension_N.value;
         pretension_spread = std::max(pretension_spread, pretension_N.spread);
     }

@@ -25,7 +25,7 @@ constexpr int wrong_input = 2;  // the exit code of a command
 
 // A command that ended without an answer. Of a wrong input the start says what is wrong. Any other one was
 // too slow or was killed: the work may be long.
-ordered_json unknown(const CommandOutput& ended) {
+ordered_json unknown_cost(const CommandOutput& ended) {
     if (ended.exit_code == wrong_input) return {{"known", false}};
     return {{"known", false}, {"may_be_long", true}};
 }
@@ -69,7 +69,7 @@ ordered_json cost_of_command(const JobCommands& commands, const std::vector<std:
     const double took_s = wall_time_s() - begin_s;
     if (!ended.is_late)
         return ended.exit_code == 0 ? ordered_json{{"known", true}, {"seconds", took_s}, {"studies", 1}}
-                                    : unknown(ended);
+                                    : unknown_cost(ended);
     const TimeLeft left = time_left(ended.messages);
     ordered_json cost = {{"known", true}, {"seconds", took_s + left.seconds.value_or(0.0)}, {"studies", 1}};
     if (left.of_one_part || !left.seconds) cost["is_at_least"] = true;
@@ -86,7 +86,7 @@ ordered_json cost_of_studies(const JobCommands& commands, const std::string& tom
                     {.nice_increment = pilot_nice_increment, .processor_s = 60},
                     {plan_limit, max_output, commands.ending});
     const auto plan = nlohmann::json::parse(ended.output, nullptr, false);
-    if (ended.exit_code != 0 || !plan.is_object()) return unknown(ended);
+    if (ended.exit_code != 0 || !plan.is_object()) return unknown_cost(ended);
     const double processor_s = 3600.0 * plan.value("one_run_core_hours", 0.0);
     return {{"known", true},
             {"studies", plan.value("studies", 1)},
@@ -105,7 +105,7 @@ ordered_json cost_of_diagnosis(const JobCommands& commands, const std::string& l
             {"known", false},
             {"problems", plain_messages(ended.messages, std::filesystem::path(log).parent_path().string())}};
     const auto cost = nlohmann::json::parse(ended.output, nullptr, false);
-    if (ended.exit_code != 0 || !cost.is_object()) return unknown(ended);
+    if (ended.exit_code != 0 || !cost.is_object()) return unknown_cost(ended);
     return {{"known", true},
             {"studies", 1},
             {"min_seconds", cost.value("min_seconds", 0.0)},

@@ -368,7 +368,7 @@ TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
 }
 
 // However visible a cause is: beside numbers that make up for it, it may only correct the model's own error.
-TEST(Evidence, ASetIsChargedForACauseWithoutWhichTheOthersLeaveHardlyMore) {
+TEST(Evidence, ASetIsChargedForACauseThatOnlyCorrectsTheModel) {
     const Known known;
     const BenchKnowledge& built = bench_with_a_zero();
     const auto on_built_bench = [&](ScoredFit fit) {
@@ -377,18 +377,19 @@ TEST(Evidence, ASetIsChargedForACauseWithoutWhichTheOthersLeaveHardlyMore) {
     };
     const ScoredFit single = on_built_bench(fitted(evidence, {&known.drag}, 0.30, {6.0}));
     const auto charge = [&](double misfit, const std::vector<ScoredFit>& others) {
-        return evidence.penalty_of_causes_that_correct(
+        return evidence.penalty_of_corrections(
             on_built_bench(fitted(evidence, {&known.drag, &known.gain}, misfit, {6.0, 4.0})), others);
     };
     EXPECT_EQ(charge(0.10, {single}), 0.0);
-    EXPECT_GT(charge(0.28, {single}), 2.0);
+    // Something invisible costs 8 beside floating numbers; the floor is known to a quarter.
+    EXPECT_NEAR(charge(0.28, {single}), 8.0 * (1.0 - std::sqrt(0.30 - 0.28) / 0.25), 1e-9);
     EXPECT_GT(charge(0.2999, {single}), charge(0.28, {single}));
     EXPECT_EQ(charge(0.28, {}), 0.0) << "nothing tells what the drag alone leaves";
     EXPECT_EQ(charge(0.28, {fitted(evidence, {&known.drag}, 0.30, {6.0})}), 0.0) << "on another bench";
     ScoredFit far = single;  // the drag alone asks for numbers that no bench has
     far.nominal_penalty = 20.0;
     EXPECT_EQ(charge(0.28, {far}), 0.0);
-    EXPECT_EQ(evidence.penalty_of_causes_that_correct(single, {single}), 0.0);
+    EXPECT_EQ(evidence.penalty_of_corrections(single, {single}), 0.0);
 }
 
 // A bench has several zeros and bearings' friction, whether they were searched as causes or float.

@@ -234,8 +234,16 @@ const Fault faults[] = {
          f.sidecar_json = replaced(f.sidecar_json, "\"r_input\": 0.02", "\"r_input\": 20");
      },
      {"nominal.r_input", "is 20 m", "another unit"}},
+    {"PretensionOfNoCable",
+     [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"T0\": 6.0", "\"T0\": 6e9"); },
+     {"runs[1].T0", "is 6e+09 N", "another unit"}},
     {"FrictionOfNoSheath",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"mu_d\": 0.", "\"mu_d\": 90."); },
+     {"nominal.mu_d", "no cable in a sheath"}},
+    {"ARangeOfFrictionOfNoSheath",
+     [](RecordingFiles& f) {
+         f.sidecar_json = replaced(f.sidecar_json, "\"mu_d\": 0.2", "\"mu_d\": [20, 90]");
+     },
      {"nominal.mu_d", "no cable in a sheath"}},
     {"MissingPretension",
      [](RecordingFiles& f) { f.sidecar_json = replaced(f.sidecar_json, "\"T0\": 6.0, ", ""); },
