@@ -230,5 +230,29 @@ TEST(Catalogue, ValuesReachTheBench) {
     EXPECT_EQ(effects.of<Backlash>().load_half_gap_rad, 0.0);
 }
 
+TEST(PretensionDrift, LosesItsPartInTheFirstHundredSecondsHoweverItSettles) {
+    for (const double settling_s : {10.0, 100.0, 1000.0, PretensionDrift::steady_s})
+        EXPECT_NEAR((PretensionDrift{0.3, settling_s}.ratio(100.0)), 0.7, 1e-12) << settling_s;
+}
+
+TEST(PretensionDrift, IsSteadyUnlessItIsToldToSettle) {
+    const PretensionDrift steady{0.2};
+    EXPECT_DOUBLE_EQ(steady.ratio(0.0), 1.0);
+    for (const double time_s : {10.0, 50.0, 200.0})
+        EXPECT_NEAR(steady.ratio(time_s), 1.0 - 0.2 * time_s / 100.0, 0.005) << time_s;
+}
+
+TEST(PretensionDrift, FallsEverMoreSlowlyAsTheCableSettles) {
+    const PretensionDrift drift{0.2, 50.0};
+    const double early = drift.ratio(0.0) - drift.ratio(20.0);
+    const double late = drift.ratio(60.0) - drift.ratio(80.0);
+    EXPECT_NEAR(late / early, std::exp(-60.0 / 50.0), 1e-12);
+    EXPECT_GT(drift.ratio(1e6), 0.7);
+}
+
+TEST(PretensionDrift, ALossOfAllPretensionLeavesNone) {
+    EXPECT_DOUBLE_EQ((PretensionDrift{0.9, 1000.0}.ratio(500.0)), 0.0);
+}
+
 }  // namespace
 }  // namespace capstan
