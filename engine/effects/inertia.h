@@ -10,6 +10,9 @@ namespace capstan {
 struct Inertia {
     double motor_kg_m2 = 0.0;
     double load_kg_m2 = 0.0;
+    /// How fast the ringing of a rotor on its cables loses speed beside their friction: by eddy currents in
+    /// the motor, and in the cables' material.
+    double motor_decay_per_s = 0.0;
 
     /// Implicit Euler.
     static Torque torque(double inertia_kg_m2, double speed_rad_per_s, double speed_before_rad_per_s,
@@ -29,7 +32,10 @@ struct Inertia {
                            .meaning = "inertia of rotor and motor pulley"},
                  .parameters =
                      {{{.name = "inertia", .unit = "kg m2", .high = 10.0, .typical = 1e-4, .resonates = true},
-                       &Inertia::motor_kg_m2}}},
+                       &Inertia::motor_kg_m2},
+                      // What loses its speed faster does not ring; friction stops it.
+                      {{.name = "decay", .unit = "1/s", .high = 20.0, .typical = 3.0, .is_detail = true},
+                       &Inertia::motor_decay_per_s}}},
                 {.about = {.name = "inertia",
                            .variant = "load",
                            .title = "unmodelled inertia",

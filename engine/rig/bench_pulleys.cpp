@@ -125,14 +125,19 @@ BenchPulleys::Swing BenchPulleys::swung(const Pulley& pulley, double angle_rad, 
     return {speed + h * ((1.0 - newmark_gamma) * acceleration + newmark_gamma * now), now};
 }
 
-// The torque of the motor's unmodelled inertia, at an angle that it finds or is given.
+// The torque of the motor's unmodelled inertia and of what damps it, at an angle that it finds or is given.
 Torque BenchPulleys::swing_torque(const BenchInputs& inputs, double angle_rad) const {
-    const double inertia_kg_m2 = effects_.of<Inertia>().motor_kg_m2;
+    const Inertia& unmodelled = effects_.of<Inertia>();
+    const double damping_Nm_s = unmodelled.motor_kg_m2 * unmodelled.motor_decay_per_s;
     const double h = inputs.time_step_s;
-    if (!motor_is_free(inputs))
-        return Inertia::torque(inertia_kg_m2, (angle_rad - motor_.angle_rad) / h, motor_.speed_rad_per_s, h);
-    return {inertia_kg_m2 * swung(motor_, angle_rad, h).acceleration_rad_per_s2,
-            inertia_kg_m2 / (newmark_beta * h * h)};
+    if (!motor_is_free(inputs)) {
+        const double speed = (angle_rad - motor_.angle_rad) / h;
+        const Torque torque = Inertia::torque(unmodelled.motor_kg_m2, speed, motor_.speed_rad_per_s, h);
+        return {torque.value_Nm + damping_Nm_s * speed, torque.per_rad + damping_Nm_s / h};
+    }
+    const Swing swing = swung(motor_, angle_rad, h);
+    return {unmodelled.motor_kg_m2 * swing.acceleration_rad_per_s2 + damping_Nm_s * swing.speed_rad_per_s,
+            (unmodelled.motor_kg_m2 / h + damping_Nm_s * newmark_gamma) / (newmark_beta * h)};
 }
 
 void BenchPulleys::turn(Pulley& pulley, const BearingFriction& friction, double angle_rad,
@@ -164,9 +169,10 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
         motor_.torque_Nm =
             pull_Nm +
             losses(motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
-                   effects_.of<PulleyFriction>().motor, effects_.of<Inertia>().motor_kg_m2, angles.motor_rad,
-                   pull_Nm, inputs.time_step_s)
+                   effects_.of<PulleyFriction>().motor, known_.motor_kg_m2, angles.motor_rad, pull_Nm,
+                   inputs.time_step_s)
                 .value_Nm +
+            swing_torque(inputs, angles.motor_rad).value_Nm +
             effects_.of<MotorCogging>().torque(angles.motor_rad).value_Nm +
             effects_.of<PositionTorque>().torque(angles.motor_rad).value_Nm;
         motor_.encoder_rad = std::get<MotorAngle>(inputs.motor).angle_rad;

@@ -10,6 +10,7 @@ std::string in_key_letters(std::string text) {
     replace("N m", "Nm");
     replace("(", "");
     replace(")", "");
+    replace("1/", "per_");
     replace("/", "_per_");
     replace(" ", "_");
     return text;

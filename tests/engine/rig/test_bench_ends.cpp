@@ -23,6 +23,48 @@ double swing(int step) {
     return std::sin(2.0 * std::numbers::pi * step / 200.0);
 }
 
+// Whether the bench's description states it or an effect adds it.
+TEST(MotorInertia, TakesTorqueFromAMotorWhoseAngleIsGiven) {
+    constexpr double inertia_kg_m2 = 1e-3;
+    BenchDescription described{cable_with(30), CableArrangement::pull_pull, pulleys, {}};
+    BenchSimulation without(described, {});
+    BenchEffects effects;
+    effects.of<Inertia>().motor_kg_m2 = inertia_kg_m2;
+    BenchSimulation added(described, effects);
+    described.inertia.motor_kg_m2 = inertia_kg_m2;
+    BenchSimulation stated(described, {});
+    for (int step = 1; step <= 200; ++step) {
+        const BenchInputs inputs = {MotorAngle{0.2 * swing(step)}, LoadAngle{0.0}, time_step_s, 0.0};
+        for (BenchSimulation* bench : {&without, &stated, &added}) bench->advance(inputs);
+        const double changed = step == 1 ? swing(1) : swing(step) - 2.0 * swing(step - 1) + swing(step - 2);
+        const double taken_Nm = inertia_kg_m2 * 0.2 * changed / (time_step_s * time_step_s);
+        ASSERT_NEAR(stated.motor_torque_Nm() - without.motor_torque_Nm(), taken_Nm, 1e-9) << step;
+        ASSERT_NEAR(added.motor_torque_Nm() - without.motor_torque_Nm(), taken_Nm, 1e-9) << step;
+    }
+}
+
+// How far the rotor still rings, half a second after its torque set in.
+double rings_rad(double decay_per_s) {
+    BenchEffects effects;
+    effects.of<Inertia>() = {.motor_kg_m2 = 1e-3, .motor_decay_per_s = decay_per_s};
+    BenchSimulation bench = pair_with(effects, 0.01);
+    double low = 1.0;
+    double high = -1.0;
+    for (int step = 1; step <= 200; ++step) {
+        bench.advance({MotorTorque{0.1}, LoadAngle{0.0}, time_step_s, 0.0});
+        if (step <= 100) continue;
+        low = std::min(low, bench.motor_angle_rad());
+        high = std::max(high, bench.motor_angle_rad());
+    }
+    return high - low;
+}
+
+TEST(MotorInertia, RingsOnItsCablesUntilDampingStopsIt) {
+    EXPECT_GT(rings_rad(0.0), 5e-3);
+    EXPECT_LT(rings_rad(5.0), 0.5 * rings_rad(0.0));
+    EXPECT_LT(rings_rad(20.0), 0.1 * rings_rad(0.0));
+}
+
 // Closed form: without effects it is the pull-pull pair.
 
 class EveryLoad : public testing::TestWithParam<int> {};
