@@ -174,7 +174,8 @@ const std::vector<SensorFault>& sensor_fault_catalogue() {
          .typical_of = TypicalOf::channel_span,
          .value = &SensorFaults::hysteresis,
          // From nearly a play to a loop that closes more slowly than an exponential.
-         .shape = {"loop_exponent", 1e-3, 2.0, &SensorFaults::loop_exponent}},
+         .shape = {"loop_exponent", 1e-3, 2.0, &SensorFaults::loop_exponent},
+         .confusable_with = {"pulley_friction"}},
     };
     return all;
 }
