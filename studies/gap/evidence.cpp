@@ -102,6 +102,15 @@ double clearest_law(const ScoredFit& fit) {
     return clearest_law(fit, fit.fit.causes.size());
 }
 
+// What floor and laws may be wrong by (rms), apart from the law of one cause.
+double model_error(const ScoredFit& fit, std::size_t apart_from) {
+    return std::hypot(floor_error, law_error * clearest_law(fit, apart_from));
+}
+
+double model_error(const ScoredFit& fit) {
+    return model_error(fit, fit.fit.causes.size());
+}
+
 // What a channel may leave where the laws are good to law_error of what their causes do.
 double tenable_mean_square(const ScoredFit& fit) {
     return 1.0 + std::pow(law_error * clearest_law(fit), 2);
@@ -201,7 +210,8 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
     };
     const std::vector<const CandidateCause*>& causes = fit.fit.causes;
     double penalty = 0.0;
-    for (const CandidateCause* cause : causes) {
+    for (std::size_t k = 0; k < causes.size(); ++k) {
+        const CandidateCause* cause = causes[k];
         if (causes.size() == 1 || cause->is_seen || fit.has_unknown_scales) continue;
         Effects others = effects_of(fit.fit);
         others.erase(std::find(others.begin(), others.end(), cause->effect));
@@ -211,13 +221,13 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
                 left_without = std::min(left_without, left(other));
         }
         const double closed = std::sqrt(std::max(0.0, left_without - left(fit)));
-        penalty += invisible_at_most(fit) * std::max(0.0, 1.0 - closed / floor_error);
+        penalty += invisible_at_most(fit) * std::max(0.0, 1.0 - closed / model_error(fit, k));
     }
     return penalty;
 }
 
 double Evidence::of(const ScoredFit& fit) const {
-    const double law = std::hypot(floor_error, law_error * clearest_law(fit));
+    const double law = model_error(fit);
     return priors(fit) - scale_penalty(fit) +
            marginal(fit, [&](double size) { return std::exp(-0.5 * size * size / (law * law)); });
 }

@@ -108,9 +108,10 @@ class Evidence {
 
     double of(const ScoredFit& fit) const;
     /// The penalty of a set for causes that only correct the model's own error: without such a cause the
-    /// others, fitted again, leave at most a quarter of noise and floor (rms) more, however visible it is
-    /// beside numbers that make up for it. `fits` tell what smaller sets leave; 0 where they do not, and
-    /// where the scale of the channels' errors is not known (E54).
+    /// others, fitted again, hardly leave more (rms) than a quarter of noise and floor and a tenth of what
+    /// the clearest of them does, however visible the cause is beside numbers that make up for it. `fits`
+    /// tell what smaller sets leave; 0 where they do not, and where the scale of the channels' errors is not
+    /// known (E54).
     double penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const;
     /// The evidence of a fit's causes together with one outside the list.
     double with_unknown(const ScoredFit& fit) const;

@@ -375,21 +375,37 @@ TEST(Evidence, ASetIsChargedForACauseThatOnlyCorrectsTheModel) {
         fit.fit.bench = &built;
         return fit;
     };
-    const ScoredFit single = on_built_bench(fitted(evidence, {&known.drag}, 0.30, {6.0}));
+    const ScoredFit single = on_built_bench(fitted(evidence, {&known.drag}, 0.60, {6.0}));
     const auto charge = [&](double misfit, const std::vector<ScoredFit>& others) {
         return evidence.penalty_of_corrections(
             on_built_bench(fitted(evidence, {&known.drag, &known.gain}, misfit, {6.0, 4.0})), others);
     };
     EXPECT_EQ(charge(0.10, {single}), 0.0);
-    // Something invisible costs 8 beside floating numbers; the floor is known to a quarter.
-    EXPECT_NEAR(charge(0.28, {single}), 8.0 * (1.0 - std::sqrt(0.30 - 0.28) / 0.25), 1e-9);
-    EXPECT_GT(charge(0.2999, {single}), charge(0.28, {single}));
-    EXPECT_EQ(charge(0.28, {}), 0.0) << "nothing tells what the drag alone leaves";
-    EXPECT_EQ(charge(0.28, {fitted(evidence, {&known.drag}, 0.30, {6.0})}), 0.0) << "on another bench";
+    // Something invisible costs 8 beside floating numbers; the floor is known to a quarter, and the drag's
+    // law to a tenth.
+    const double model_error = std::hypot(0.25, 0.1 * 6.0);
+    EXPECT_NEAR(charge(0.58, {single}), 8.0 * (1.0 - std::sqrt(0.60 - 0.58) / model_error), 1e-9);
+    EXPECT_GT(charge(0.5999, {single}), charge(0.58, {single}));
+    EXPECT_EQ(charge(0.58, {}), 0.0) << "nothing tells what the drag alone leaves";
+    EXPECT_EQ(charge(0.58, {fitted(evidence, {&known.drag}, 0.60, {6.0})}), 0.0) << "on another bench";
     ScoredFit far = single;  // the drag alone asks for numbers that no bench has
-    far.nominal_penalty = 20.0;
-    EXPECT_EQ(charge(0.28, {far}), 0.0);
+    far.nominal_penalty = 60.0;
+    EXPECT_EQ(charge(0.58, {far}), 0.0);
     EXPECT_EQ(evidence.penalty_of_corrections(single, {single}), 0.0);
+}
+
+// What a strong cause leaves because its law is an idealisation is no second cause. A sensor's gain has no
+// such law.
+TEST(Evidence, ACauseThatOnlyCorrectsTheLawOfAnotherIsCharged) {
+    Known known;
+    known.gain.is_exact = true;
+    const ScoredFit both = fitted(evidence, {&known.drag, &known.gain}, 0.4, {8.0, 1.0});
+    const double beside_drag =
+        evidence.penalty_of_corrections(both, {fitted(evidence, {&known.drag}, 0.6, {8.0})});
+    const double beside_gain =
+        evidence.penalty_of_corrections(both, {fitted(evidence, {&known.gain}, 0.6, {8.0})});
+    EXPECT_GT(beside_drag, 5.0);
+    EXPECT_EQ(beside_gain, 0.0);
 }
 
 // A bench has several zeros and bearings' friction, whether they were searched as causes or float.
