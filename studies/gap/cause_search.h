@@ -135,6 +135,7 @@ class CauseSearch {
     void try_swapping(const Level& level, Hypothesis& swapped, Fits& all);
     void add_fits(const Level& level, const std::vector<Hypothesis>& starts, bool any_size, Fits& fits);
     void try_replacing(const Level& level, Fits& sets);
+    void add_promising_pairs(const Level& level, const Fits& singles, Fits& sets);
     void try_others(const Level& level, Fits& all);
     bool try_last(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;

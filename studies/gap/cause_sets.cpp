@@ -328,10 +328,36 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
             add_sets(level, each.fit.hypothesis(), each.fit.weights,
                      is_wide ? max_fitted_beside_the_best : max_fitted_further, sets);
     }
+    if (seeks_pairs && level.bench.is_measured()) add_promising_pairs(level, smaller, sets);
     sort_by_evidence(sets);
     if (sets.empty() || sets.front().fit.causes.size() > 2) return sets;
     if (worth_a_further_cause(sets.front())) try_replacing(level, sets);
     return sets;
+}
+
+// Pairs of which neither cause explains much alone, where a single cause leaves more than noise and floor:
+// its law may make up for two others.
+void CauseSearch::add_promising_pairs(const Level& level, const Fits& singles, Fits& sets) {
+    constexpr double as_good_as_noise = 1.0;
+    if (singles.front().misfit < as_good_as_noise || is_out_of_time()) return;
+    const auto nothing = std::find_if(singles.begin(), singles.end(), [](const ScoredFit& fit) {
+        return fit.fit.causes.front()->effect == "none";
+    });
+    report("screening pairs of causes");
+    std::vector<Hypothesis> starts;
+    std::size_t tried = 0;
+    for (const ScreenedPair& pair : screen_pairs(rough_model().fitter, level.sought_first(),
+                                                 nominal_hypothesis(level.bench), nothing->fit.weights)) {
+        if (is_slowness_of_one_sensor(pair.second->effect, pair.second->variant, *pair.first)) continue;
+        if (tried++ == max_fitted_further) break;
+        const std::vector<const CandidateCause*> causes = {pair.first, pair.second};
+        if (std::none_of(sets.begin(), sets.end(),
+                         [&](const ScoredFit& other) { return are_same_causes(other.fit.causes, causes); }))
+            starts.push_back(
+                with_cause(with_cause(nominal_hypothesis(level.bench), pair.first, pair.start_of_first),
+                           pair.second, pair.start_of_second));
+    }
+    if (!starts.empty()) add_fits(level, starts, true, sets);
 }
 
 // Others in the place of each cause of the best set in turn, the one that was found last first.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace capstan::gap {
 
@@ -14,25 +16,37 @@ struct Explained {
     Eigen::VectorXd weights;  // of the last directions
 };
 
-// Least squares of `target` on the columns of `directions`. The last columns belong to a cause; where
-// `at_least_none` is true the weight cannot be negative, and a negative one is replaced by zero.
-Explained explained(const Eigen::VectorXd& target, Eigen::MatrixXd directions,
-                    const std::vector<bool>& at_least_none) {
+// Inner products of what is left to explain and of directions that may explain it.
+struct Products {
+    double of_target = 0.0;
+    Eigen::VectorXd of_both;
+    Eigen::MatrixXd of_directions;
+};
+
+// Least squares of the target on the directions. The last ones belong to causes; where `at_least_none` is
+// true the weight cannot be negative, and a negative one is replaced by zero.
+Explained explained(Products products, const std::vector<bool>& at_least_none) {
     const auto own = static_cast<Eigen::Index>(at_least_none.size());
-    const Eigen::Index known = directions.cols() - own;
+    const Eigen::Index count = products.of_both.size();
+    const Eigen::Index known = count - own;
     for (Eigen::Index tries = 0;; ++tries) {
-        const Eigen::MatrixXd normal = directions.transpose() * directions;
+        const Eigen::MatrixXd& normal = products.of_directions;
         const Eigen::VectorXd weights =
-            (normal + 1e-9 * normal.trace() * Eigen::MatrixXd::Identity(normal.rows(), normal.cols()))
+            (normal + 1e-9 * normal.trace() * Eigen::MatrixXd::Identity(count, count))
                 .ldlt()
-                .solve(-directions.transpose() * target);
+                .solve(-products.of_both);
         bool against = false;
-        for (Eigen::Index k = 0; tries <= own && k < own; ++k) {
-            if (!at_least_none[static_cast<std::size_t>(k)] || !(weights[known + k] < 0.0)) continue;
-            directions.col(known + k).setZero();
+        for (Eigen::Index k = known; tries <= own && k < count; ++k) {
+            if (!at_least_none[static_cast<std::size_t>(k - known)] || !(weights[k] < 0.0)) continue;
+            products.of_both[k] = 0.0;
+            products.of_directions.row(k).setZero();
+            products.of_directions.col(k).setZero();
             against = true;
         }
-        if (!against) return {(target + directions * weights).squaredNorm(), weights.tail(own)};
+        if (against) continue;
+        const double left =
+            products.of_target + 2.0 * weights.dot(products.of_both) + weights.dot(normal * weights);
+        return {left, weights.tail(own)};
     }
 }
 
@@ -112,60 +126,93 @@ Eigen::VectorXd sized(const Probe& probe, const Eigen::VectorXd& weights) {
     return start;
 }
 
+// Inner products of what is left, and of what present numbers and probes change, with the numbers' priors as
+// part of the residuals.
+class LinearModel {
+  public:
+    LinearModel(const CauseFitter& fitter, std::span<const Probe> probes, const Hypothesis& present,
+                const SeriesWeights& weights)
+        : known_(present.coordinates.size()) {
+        constexpr double step = 0.02;
+        std::vector<Hypothesis> hypotheses = {present};
+        for (Eigen::Index k = 0; k < known_; ++k) {
+            hypotheses.push_back(present);
+            hypotheses.back().coordinates[k] += step;
+        }
+        for (const Probe& probe : probes) {
+            first_of_.push_back(static_cast<Eigen::Index>(hypotheses.size()));
+            for (const Eigen::VectorXd& direction : probe.directions)
+                hypotheses.push_back(with_cause(present, probe.cause, direction));
+        }
+        Eigen::MatrixXd data = fitter.data_residuals(hypotheses);
+        fitter.apply(weights, data);
+        Eigen::MatrixXd all(data.rows() + known_, data.cols());
+        for (Eigen::Index k = 0; k < all.cols(); ++k)
+            all.col(k) << data.col(k),
+                fitter.prior_residuals(present,
+                                       hypotheses[static_cast<std::size_t>(k)].coordinates.head(known_));
+        all.rightCols(all.cols() - 1).colwise() -= Eigen::VectorXd(all.col(0));
+        all.middleCols(1, known_) /= step;
+        products_.noalias() = all.transpose() * all;
+    }
+
+    /// With the directions of these probes, beside the present numbers.
+    Explained explained_by(std::span<const Probe> probes, const std::vector<std::size_t>& some) const {
+        std::vector<Eigen::Index> columns = present();
+        std::vector<bool> at_least_none;
+        for (const std::size_t probe : some) {
+            for (std::size_t k = 0; k < probes[probe].sizes.size(); ++k) {
+                columns.push_back(first_of_[probe] + static_cast<Eigen::Index>(k));
+                at_least_none.push_back(probes[probe].cause->numbers[probes[probe].sizes[k]].kind ==
+                                        OpenNumber::Kind::size);
+            }
+        }
+        return explained({products_(0, 0), products_(columns, 0), products_(columns, columns)},
+                         at_least_none);
+    }
+    /// What is left where a probe with one direction is present as it is.
+    double left_there(std::size_t probe) const {
+        const Eigen::Index own = first_of_[probe];
+        const std::vector<Eigen::Index> columns = present();
+        return explained({products_(0, 0) + 2.0 * products_(own, 0) + products_(own, own),
+                          products_(columns, 0) + products_(columns, own), products_(columns, columns)},
+                         {})
+            .left;
+    }
+
+  private:
+    std::vector<Eigen::Index> present() const {
+        std::vector<Eigen::Index> columns;
+        for (Eigen::Index k = 1; k <= known_; ++k) columns.push_back(k);
+        return columns;
+    }
+
+    Eigen::Index known_;
+    std::vector<Eigen::Index> first_of_;  // of each probe's directions
+    Eigen::MatrixXd products_;            // of what is left, of present numbers, of the probes' directions
+};
+
+// A step or an oscillation fits only where its size is met closely, so a linear estimate means
+// nothing.
+bool fits_only_there(const Probe& probe) {
+    return probe.sizes.size() == 1 && (probe.cause->numbers[probe.sizes[0]].kind == OpenNumber::Kind::step ||
+                                       probe.cause->numbers[probe.sizes[0]].resonates);
+}
+
 // One for each probe, in their order.
 std::vector<Screened> screened(const CauseFitter& fitter, std::span<const Probe> probes,
                                const Hypothesis& present, const SeriesWeights& weights) {
-    constexpr double step = 0.02;
-    const Eigen::Index known = present.coordinates.size();
-    std::vector<Hypothesis> hypotheses = {present};
-    for (Eigen::Index k = 0; k < known; ++k) {
-        hypotheses.push_back(present);
-        hypotheses.back().coordinates[k] += step;
-    }
-    for (const Probe& probe : probes) {
-        for (const Eigen::VectorXd& direction : probe.directions)
-            hypotheses.push_back(with_cause(present, probe.cause, direction));
-    }
-    Eigen::MatrixXd data = fitter.data_residuals(hypotheses);
-    fitter.apply(weights, data);
-
-    // The priors of the present numbers are part of the residuals.
-    const Eigen::Index rows = data.rows() + known;
-    const auto with_priors = [&](std::size_t hypothesis) {
-        Eigen::VectorXd all(rows);
-        all << data.col(static_cast<Eigen::Index>(hypothesis)),
-            fitter.prior_residuals(present, hypotheses[hypothesis].coordinates.head(known));
-        return all;
-    };
-    const Eigen::VectorXd here = with_priors(0);
-    Eigen::MatrixXd directions(rows, known);
-    for (Eigen::Index k = 0; k < known; ++k)
-        directions.col(k) = (with_priors(static_cast<std::size_t>(k) + 1) - here) / step;
-
+    const LinearModel model(fitter, probes, present, weights);
     std::vector<Screened> all;
-    std::size_t next = static_cast<std::size_t>(known) + 1;
-    for (const Probe& probe : probes) {
-        Eigen::MatrixXd together(rows, known + static_cast<Eigen::Index>(probe.directions.size()));
-        together.leftCols(known) = directions;
-        std::vector<bool> at_least_none;
-        Eigen::VectorXd there;
-        for (std::size_t k = 0; k < probe.directions.size(); ++k) {
-            there = with_priors(next++);
-            together.col(known + static_cast<Eigen::Index>(k)) = there - here;
-            at_least_none.push_back(probe.cause->numbers[probe.sizes[k]].kind == OpenNumber::Kind::size);
-        }
-        // A step or an oscillation fits only where its size is met closely, so a linear estimate means
-        // nothing.
-        const bool fits_only_there =
-            probe.sizes.size() == 1 && (probe.cause->numbers[probe.sizes[0]].kind == OpenNumber::Kind::step ||
-                                        probe.cause->numbers[probe.sizes[0]].resonates);
+    for (std::size_t k = 0; k < probes.size(); ++k) {
+        const Probe& probe = probes[k];
         Screened screened{probe.cause, probe.start, std::numeric_limits<double>::infinity()};
-        if (!fits_only_there) {
-            const Explained along = explained(here, together, at_least_none);
+        if (!fits_only_there(probe)) {
+            const Explained along = model.explained_by(probes, {k});
             screened = {probe.cause, sized(probe, along.weights), along.left};
         }
         if (probe.directions.size() == 1) {
-            const double left = explained(there, directions, {}).left;
+            const double left = model.left_there(k);
             if (left < screened.sum_of_squares) screened = {probe.cause, probe.start, left};
         }
         all.push_back(screened);
@@ -199,6 +246,39 @@ std::vector<Screened> screen_each_start(const CauseFitter& fitter, const Candida
                                         const Hypothesis& present, const SeriesWeights& weights) {
     std::vector<Screened> all = screened(fitter, probes_of({&cause, 1}, present), present, weights);
     sort_by_promise(all);
+    return all;
+}
+
+std::vector<ScreenedPair> screen_pairs(const CauseFitter& fitter, std::span<const CandidateCause> causes,
+                                       const Hypothesis& present, const SeriesWeights& weights) {
+    const std::vector<Probe> probes = probes_of(causes, present);
+    const LinearModel model(fitter, probes, present, weights);
+    std::map<std::pair<const CandidateCause*, const CandidateCause*>, ScreenedPair> best;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        const Probe& first = probes[i];
+        if (first.sizes.empty() || fits_only_there(first)) continue;
+        for (std::size_t j = i + 1; j < probes.size(); ++j) {
+            const Probe& second = probes[j];
+            if (second.cause == first.cause || second.sizes.empty() || fits_only_there(second)) continue;
+            const Explained along = model.explained_by(probes, {i, j});
+            const auto [known, is_new] = best.try_emplace({first.cause, second.cause});
+            if (!is_new && known->second.sum_of_squares <= along.left) continue;
+            const auto of_first = static_cast<Eigen::Index>(first.sizes.size());
+            known->second = {first.cause, sized(first, along.weights.head(of_first)), second.cause,
+                             sized(second, along.weights.tail(along.weights.size() - of_first)), along.left};
+        }
+    }
+    std::vector<ScreenedPair> all;
+    // In the order of the causes, not of their addresses.
+    for (const CandidateCause& first : causes) {
+        for (const CandidateCause& second : causes) {
+            const auto found = best.find({&first, &second});
+            if (found != best.end()) all.push_back(found->second);
+        }
+    }
+    std::stable_sort(all.begin(), all.end(), [](const ScreenedPair& a, const ScreenedPair& b) {
+        return a.sum_of_squares < b.sum_of_squares;
+    });
     return all;
 }
 

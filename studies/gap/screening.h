@@ -24,4 +24,18 @@ std::vector<Screened> screen(const CauseFitter& fitter, std::span<const Candidat
 std::vector<Screened> screen_each_start(const CauseFitter& fitter, const CandidateCause& cause,
                                         const Hypothesis& present, const SeriesWeights& weights);
 
+/// Two causes that act together.
+struct ScreenedPair {
+    const CandidateCause* first = nullptr;
+    Eigen::VectorXd start_of_first;
+    const CandidateCause* second = nullptr;
+    Eigen::VectorXd start_of_second;
+    double sum_of_squares = 0.0;
+};
+
+/// A linear estimate of how much two causes could explain together, for every pair but those with a wrong
+/// nominal number, a step or an oscillation. Most promising first.
+std::vector<ScreenedPair> screen_pairs(const CauseFitter& fitter, std::span<const CandidateCause> causes,
+                                       const Hypothesis& present, const SeriesWeights& weights = {});
+
 }  // namespace capstan::gap

@@ -47,6 +47,33 @@ TEST(Screening, ListsEveryCauseOnceAndNeitherNoneNorWhatIsPresent) {
     }
 }
 
+// A gain and a soft hand: neither explains the recording alone, and each other cause that does in part is
+// more promising than either.
+TEST(Screening, PutsTheTruePairFirst) {
+    BenchNumbers numbers;
+    numbers.effects.of<EnvironmentCoupling>().compliance_rad_per_Nm = 3e-3;
+    numbers.sensor_faults["load_torque"].gain = 1.2;
+    const Recording recording = exact_session(numbers, coarse_twin);
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes =
+        only_named(recording, {"none", "param_mu", "inertia", "viscous_friction", "sensor_gain", "creep",
+                               "environment_coupling", "local_bend", "bending_stiffness"});
+    const std::vector<ScreenedPair> pairs = screen_pairs(fitter, causes, nominal);
+    ASSERT_FALSE(pairs.empty());
+    EXPECT_EQ(pairs.front().first->effect, "environment_coupling");
+    EXPECT_EQ(pairs.front().second->variant, "load_torque");
+    const OpenNumber& gain = pairs.front().second->numbers.front();
+    EXPECT_NEAR(gain.value(pairs.front().start_of_second[0]), 1.2, 0.05);
+    EXPECT_LT(pairs.front().sum_of_squares, screen(fitter, causes, nominal).front().sum_of_squares);
+    for (const ScreenedPair& pair : pairs) {
+        EXPECT_NE(pair.first, pair.second);
+        for (const CandidateCause* cause : {pair.first, pair.second}) {
+            EXPECT_FALSE(cause->numbers.empty()) << cause->effect;
+            EXPECT_TRUE(cause->effect != "inertia" || cause->variant == "load");
+        }
+    }
+}
+
 // An oscillation explains something only where its frequency is met within a few hundredths.
 TEST(Screening, FindsAnInertiaThatRingsWhateverItsSize) {
     for (const double inertia_kg_m2 : {2.3e-4, 9.1e-4}) {
