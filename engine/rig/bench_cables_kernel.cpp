@@ -17,29 +17,35 @@ namespace capstan::bench::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // A node, and a segment, in the present guess.
+template <class Lanes>
 struct NodeGuess {
     Lanes friction, bend, bend_per_m, slid_m;
 };
-HWY_INLINE NodeGuess node_guess(const CableLanes& cable, const LaneCable& mechanics, int node, int lane) {
-    const Lanes slid_m = load(cable.displacement_m[node], lane) - load(cable.before_m[node], lane);
+template <class Lanes>
+HWY_INLINE NodeGuess<Lanes> node_guess(const CableLanes& cable, const LaneCable<Lanes>& mechanics, int node,
+                                       int lane) {
+    const Lanes slid_m =
+        load<Lanes>(cable.displacement_m[node], lane) - load<Lanes>(cable.before_m[node], lane);
     const PreslidingLaw<Lanes>& presliding = mechanics;
     const Bristle<Lanes> bristle =
-        laws::bristle_after(presliding, load(cable.before_bend[node], lane), slid_m);
+        laws::bristle_after(presliding, load<Lanes>(cable.before_bend[node], lane), slid_m);
     store(bristle.bend, cable.bend[node], lane);
-    return {load(cable.friction[node], lane), bristle.bend, bristle.bend_per_m, slid_m};
+    return {load<Lanes>(cable.friction[node], lane), bristle.bend, bristle.bend_per_m, slid_m};
 }
 
-template <int cables>
-HWY_INLINE void guess_segments(const CablesGroup& group, const LaneCable& mechanics, Which active,
-                               int segment, int lane, LaneTension (&guess)[cables]) {
+template <class Lanes, int cables>
+HWY_INLINE void guess_segments(const CablesGroup& group, const LaneCable<Lanes>& mechanics,
+                               Which<Lanes> active, int segment, int lane,
+                               LaneTension<Lanes> (&guess)[cables]) {
     Lanes stretch_m[cables], last_N[cables];
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        const Lanes crept_m =
-            mechanics.creeps ? load(cable.crept_m[segment], lane) * mechanics.creep_stays : lanes_of(0.0);
-        stretch_m[c] = load(cable.displacement_m[segment + 1], lane) -
-                       load(cable.displacement_m[segment], lane) - crept_m;
-        last_N[c] = load(cable.tension_N[segment], lane);
+        const Lanes crept_m = mechanics.creeps
+                                  ? load<Lanes>(cable.crept_m[segment], lane) * mechanics.creep_stays
+                                  : lanes_of<Lanes>(0.0);
+        stretch_m[c] = load<Lanes>(cable.displacement_m[segment + 1], lane) -
+                       load<Lanes>(cable.displacement_m[segment], lane) - crept_m;
+        last_N[c] = load<Lanes>(cable.tension_N[segment], lane);
     }
     find_tensions(mechanics, stretch_m, last_N, guess);
     for (int c = 0; c < cables; ++c)
@@ -47,39 +53,44 @@ HWY_INLINE void guess_segments(const CablesGroup& group, const LaneCable& mechan
 }
 
 // A tension beyond an end node's half segment, and how it goes with that node and its neighbour.
+template <class Lanes>
 struct InnerEnd {
     Lanes value_N, per_end_m, per_inner_m;
 };
 
 // `way` -1 at the motor end, 1 at the load end: T = t (1 + way q) / (1 - way q) + way (drags), q = z tanh(mu
 // theta / 2).
-HWY_INLINE InnerEnd inner_end(const LaneCable& mechanics, const NodeGuess& node, const LaneTension& segment,
-                              double way_value, double span_m) {
-    const Lanes one = lanes_of(1.0);
-    const Lanes way = lanes_of(way_value);
-    const Lanes pressing_N = hn::Max(lanes_of(0.0), segment.value_N);
-    const Lanes q = way * hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), node.friction * node.bend);
+template <class Lanes>
+HWY_INLINE InnerEnd<Lanes> inner_end(const LaneCable<Lanes>& mechanics, const NodeGuess<Lanes>& node,
+                                     const LaneTension<Lanes>& segment, double way_value, double span_m) {
+    const Lanes one = lanes_of<Lanes>(1.0);
+    const Lanes way = lanes_of<Lanes>(way_value);
+    const Lanes pressing_N = hn::Max(lanes_of<Lanes>(0.0), segment.value_N);
+    const Lanes q =
+        way * hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of<Lanes>(0.0)), node.friction * node.bend);
     const Lanes grown = (one + q) / (one - q);
     const Lanes rigid_N =
-        hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of(0.0)), mechanics.constant_drag_N(span_m));
+        hn::IfThenElseZero(hn::Gt(pressing_N, lanes_of<Lanes>(0.0)), mechanics.constant_drag_N(span_m));
     const Lanes viscous_N_per_m = mechanics.sliding_drag_N_per_m(span_m);
-    const Lanes by_bend_N = lanes_of(2.0) * node.friction * pressing_N / ((one - q) * (one - q)) + rigid_N;
+    const Lanes by_bend_N =
+        lanes_of<Lanes>(2.0) * node.friction * pressing_N / ((one - q) * (one - q)) + rigid_N;
     const Lanes stiffness = segment.per_m * grown;
     return {segment.value_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.slid_m),
             way * (stiffness + by_bend_N * node.bend_per_m + viscous_N_per_m), hn::Neg(way) * stiffness};
 }
 
-template <int cables>
-HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane, const EndPlaces* motor,
-                                const EndPlaces* load_end, EndTensions* at_motor, EndTensions* at_load) {
-    const LaneCable mechanics(group, lane);
+template <class Lanes, int cables>
+HWY_INLINE void linearise_lanes(const CablesGroup& group, Which<Lanes> active, int lane,
+                                const EndPlaces* motor, const EndPlaces* load_end, EndTensions* at_motor,
+                                EndTensions* at_load) {
+    const LaneCable<Lanes> mechanics(group, lane);
     const int last = group.nodes - 1;
     const double half_m = 0.5 * group.segment_m;
-    const Lanes one = lanes_of(1.0);
-    const Lanes zero = lanes_of(0.0);
-    LaneTension before[cables];
-    LaneTension behind[cables];
-    InnerEnd inner_motor[cables];
+    const Lanes one = lanes_of<Lanes>(1.0);
+    const Lanes zero = lanes_of<Lanes>(0.0);
+    LaneTension<Lanes> before[cables];
+    LaneTension<Lanes> behind[cables];
+    InnerEnd<Lanes> inner_motor[cables];
     Lanes upper[cables], value[cables], by_motor[cables];
 
     // Motor end: u_0 = at + per_rad turn + compliance T.
@@ -87,13 +98,13 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
         inner_motor[c] = inner_end(mechanics, node_guess(cable, mechanics, 0, lane), before[c], -1.0, half_m);
-        const Lanes gives = load(motor[c].compliance_m_per_N, lane);
+        const Lanes gives = load<Lanes>(motor[c].compliance_m_per_N, lane);
         const Lanes pivot = one / (one - gives * inner_motor[c].per_end_m);
         upper[c] = hn::Neg(gives) * inner_motor[c].per_inner_m * pivot;
-        value[c] = (load(motor[c].at_m, lane) + gives * inner_motor[c].value_N -
-                    load(cable.displacement_m[0], lane)) *
+        value[c] = (load<Lanes>(motor[c].at_m, lane) + gives * inner_motor[c].value_N -
+                    load<Lanes>(cable.displacement_m[0], lane)) *
                    pivot;
-        by_motor[c] = load(motor[c].per_rad, lane) * pivot;
+        by_motor[c] = load<Lanes>(motor[c].per_rad, lane) * pivot;
         store(upper[c], cable.upper[0], lane);
         store(value[c], cable.value[0], lane);
         store(by_motor[c], cable.by_motor[0], lane);
@@ -107,11 +118,11 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
         guess_segments(group, mechanics, active, node, lane, behind);
         for (int c = 0; c < cables; ++c) {
             const CableLanes& cable = group.cable[c];
-            const NodeGuess here = node_guess(cable, mechanics, node, lane);
+            const NodeGuess<Lanes> here = node_guess(cable, mechanics, node, lane);
             // A slack stretch presses on its conduit only by its bending stiffness. There the way to no drag,
             // not the slope of bristles that are fully bent, leads to equilibrium.
             const Lanes sum_N = hn::Max(zero, before[c].value_N + behind[c].value_N);
-            const Which pressed = hn::Gt(sum_N, zero);
+            const Which<Lanes> pressed = hn::Gt(sum_N, zero);
             const Lanes q = hn::IfThenElseZero(pressed, here.friction * here.bend);
             const Lanes out_of_balance_N = behind[c].value_N - before[c].value_N - q * sum_N -
                                            full_rigid_N * here.bend - viscous_N_per_m * here.slid_m;
@@ -138,34 +149,34 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
     // Load end: u_last = at + per_rad turn - compliance T.
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        const InnerEnd inner =
+        const InnerEnd<Lanes> inner =
             inner_end(mechanics, node_guess(cable, mechanics, last, lane), before[c], 1.0, half_m);
-        const Lanes gives = load(load_end[c].compliance_m_per_N, lane);
+        const Lanes gives = load<Lanes>(load_end[c].compliance_m_per_N, lane);
         const Lanes lower = gives * inner.per_inner_m;
         const Lanes pivot = one / (one + gives * inner.per_end_m - lower * upper[c]);
-        Lanes moved = (load(load_end[c].at_m, lane) - gives * inner.value_N -
-                       load(cable.displacement_m[last], lane) - lower * value[c]) *
+        Lanes moved = (load<Lanes>(load_end[c].at_m, lane) - gives * inner.value_N -
+                       load<Lanes>(cable.displacement_m[last], lane) - lower * value[c]) *
                       pivot;
         Lanes moved_by_motor = group.free.motor ? hn::Neg(lower) * by_motor[c] * pivot : zero;
-        Lanes moved_by_load = load(load_end[c].per_rad, lane) * pivot;
+        Lanes moved_by_load = load<Lanes>(load_end[c].per_rad, lane) * pivot;
         store(moved, cable.value[last], lane);
         store(moved_by_motor, cable.by_motor[last], lane);
         store(moved_by_load, cable.by_load[last], lane);
-        const auto set = [&](const InnerEnd& end, EndTensions& of, Lanes v0, Lanes v1, Lanes m0, Lanes m1,
-                             Lanes l0, Lanes l1) HWY_ATTR {
+        const auto set = [&](const InnerEnd<Lanes>& end, EndTensions& of, Lanes v0, Lanes v1, Lanes m0,
+                             Lanes m1, Lanes l0, Lanes l1) HWY_ATTR {
             store(end.value_N + end.per_end_m * v0 + end.per_inner_m * v1, of.value_N, lane);
             store(end.per_end_m * m0 + end.per_inner_m * m1, of.per_motor_rad, lane);
             store(end.per_end_m * l0 + end.per_inner_m * l1, of.per_load_rad, lane);
         };
         for (int node = last; node-- > 0;) {
-            const Lanes up = load(cable.upper[node], lane);
+            const Lanes up = load<Lanes>(cable.upper[node], lane);
             const Lanes end_value = moved;
             const Lanes end_by_motor = moved_by_motor;
             const Lanes end_by_load = moved_by_load;
-            moved = load(cable.value[node], lane) - up * moved;
+            moved = load<Lanes>(cable.value[node], lane) - up * moved;
             store(moved, cable.value[node], lane);
             if (group.free.motor) {
-                moved_by_motor = load(cable.by_motor[node], lane) - up * moved_by_motor;
+                moved_by_motor = load<Lanes>(cable.by_motor[node], lane) - up * moved_by_motor;
                 store(moved_by_motor, cable.by_motor[node], lane);
             }
             if (group.free.load) {
@@ -184,24 +195,24 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which active, int lane
 
 void linearise(const CablesGroup& group, const LaneFlags& active, const EndPlaces* motor,
                const EndPlaces* load_end, EndTensions* at_motor, EndTensions* at_load) {
-    for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
-        const Which which = flags_at(active, lane);
-        if (none_of(which)) continue;
+    for_active_lanes(active, [&](auto tag, int lane) HWY_ATTR {
+        using Lanes = hn::Vec<decltype(tag)>;
+        const Which<Lanes> which = flags_at<Lanes>(active, lane);
         if (group.cables == 2) {
-            linearise_lanes<2>(group, which, lane, motor, load_end, at_motor, at_load);
+            linearise_lanes<Lanes, 2>(group, which, lane, motor, load_end, at_motor, at_load);
         } else {
-            linearise_lanes<1>(group, which, lane, motor, load_end, at_motor, at_load);
+            linearise_lanes<Lanes, 1>(group, which, lane, motor, load_end, at_motor, at_load);
         }
-    }
+    });
 }
 
 void begin(const CablesGroup& group, const LaneFlags& active, const CablesMoment& moment) {
-    for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
-        const Which which = flags_at(active, lane);
-        if (none_of(which)) continue;
-        const LaneCable mechanics(group, lane);
+    for_active_lanes(active, [&](auto tag, int lane) HWY_ATTR {
+        using Lanes = hn::Vec<decltype(tag)>;
+        const Which<Lanes> which = flags_at<Lanes>(active, lane);
+        const LaneCable<Lanes> mechanics(group, lane);
         const auto copy = [&](const LaneValues& from, LaneValues& to) HWY_ATTR {
-            store(hn::IfThenElse(which, load(from, lane), load(to, lane)), to, lane);
+            store(hn::IfThenElse(which, load<Lanes>(from, lane), load<Lanes>(to, lane)), to, lane);
         };
         for (int c = 0; c < group.cables; ++c) {
             const CableLanes& cable = group.cable[c];
@@ -212,22 +223,24 @@ void begin(const CablesGroup& group, const LaneFlags& active, const CablesMoment
             if (!group.any_varying_friction) continue;
             for (int node = 0; node <= last; ++node) {
                 const Lanes tension_N =
-                    lanes_of(0.5) * (load(cable.before_tension_N[node < last ? node : last - 1], lane) +
-                                     load(cable.before_tension_N[node > 0 ? node - 1 : 0], lane));
+                    lanes_of<Lanes>(0.5) *
+                    (load<Lanes>(cable.before_tension_N[node < last ? node : last - 1], lane) +
+                     load<Lanes>(cable.before_tension_N[node > 0 ? node - 1 : 0], lane));
                 const Lanes wrap_rad =
-                    hn::Max(lanes_of(0.0), load(cable.wrap_rad[node], lane) +
-                                               load(moment.load_angle_rad, lane) *
-                                                   load(cable.wrap_per_load_angle[node], lane));
+                    hn::Max(lanes_of<Lanes>(0.0), load<Lanes>(cable.wrap_rad[node], lane) +
+                                                      load<Lanes>(moment.load_angle_rad, lane) *
+                                                          load<Lanes>(cable.wrap_per_load_angle[node], lane));
                 const double span_m = (node == 0 || node == last ? 0.5 : 1.0) * group.segment_m;
-                const Sliding sliding = {
-                    load(cable.lagging_speed_m_per_s[node], lane), tension_N * wrap_rad / lanes_of(span_m),
-                    load(cable.before_bend[node], lane), load(moment.session_time_s, lane)};
+                const Sliding<Lanes> sliding = {load<Lanes>(cable.lagging_speed_m_per_s[node], lane),
+                                                tension_N * wrap_rad / lanes_of<Lanes>(span_m),
+                                                load<Lanes>(cable.before_bend[node], lane),
+                                                load<Lanes>(moment.session_time_s, lane)};
                 const Lanes friction = mechanics.friction(wrap_rad, sliding);
-                const Lanes constant = load(cable.friction[node], lane);
+                const Lanes constant = load<Lanes>(cable.friction[node], lane);
                 store(hn::IfThenElse(mechanics.varies, friction, constant), cable.friction[node], lane);
             }
         }
-    }
+    });
 }
 
 // No node moves further in one iteration; a node between slack segments has no definite place.
@@ -236,22 +249,22 @@ constexpr double max_move_m = 0.05;
 LaneValues move(const CablesGroup& group, const LaneFlags& active, const LaneValues& motor_rad,
                 const LaneValues& load_rad, const LaneValues& fraction_values) {
     LaneValues largest;
-    for (int lane = 0; lane < bench_lanes; lane += lanes_at_once) {
-        const Lanes fraction = load(fraction_values, lane);
-        const Which moves = hn::Ne(fraction, lanes_of(0.0));
-        if (none_of(flags_at(active, lane))) continue;
-        const Lanes motor = load(motor_rad, lane);
-        const Lanes turned = load(load_rad, lane);
-        Lanes largest_here = lanes_of(0.0);
+    for_active_lanes(active, [&](auto tag, int lane) HWY_ATTR {
+        using Lanes = hn::Vec<decltype(tag)>;
+        const Lanes fraction = load<Lanes>(fraction_values, lane);
+        const Which<Lanes> moves = hn::Ne(fraction, lanes_of<Lanes>(0.0));
+        const Lanes motor = load<Lanes>(motor_rad, lane);
+        const Lanes turned = load<Lanes>(load_rad, lane);
+        Lanes largest_here = lanes_of<Lanes>(0.0);
         for (int c = 0; c < group.cables; ++c) {
             const CableLanes& cable = group.cable[c];
             for (int node = 0; node < group.nodes; ++node) {
-                Lanes move_m = load(cable.value[node], lane);
-                if (group.free.motor) move_m = move_m + motor * load(cable.by_motor[node], lane);
-                if (group.free.load) move_m = move_m + turned * load(cable.by_load[node], lane);
-                const Lanes here = load(cable.displacement_m[node], lane);
-                const Lanes step_m =
-                    hn::Min(hn::Max(fraction * move_m, lanes_of(-max_move_m)), lanes_of(max_move_m));
+                Lanes move_m = load<Lanes>(cable.value[node], lane);
+                if (group.free.motor) move_m = move_m + motor * load<Lanes>(cable.by_motor[node], lane);
+                if (group.free.load) move_m = move_m + turned * load<Lanes>(cable.by_load[node], lane);
+                const Lanes here = load<Lanes>(cable.displacement_m[node], lane);
+                const Lanes step_m = hn::Min(hn::Max(fraction * move_m, lanes_of<Lanes>(-max_move_m)),
+                                             lanes_of<Lanes>(max_move_m));
                 store(hn::IfThenElse(moves, here + step_m, here), cable.displacement_m[node], lane);
                 // A move that is not a number counts as the largest.
                 const Lanes size = hn::Abs(move_m);
@@ -259,19 +272,19 @@ LaneValues move(const CablesGroup& group, const LaneFlags& active, const LaneVal
             }
         }
         store(largest_here, largest, lane);
-    }
+    });
     return largest;
 }
 
-template <int cables>
+template <class Lanes, int cables>
 HWY_INLINE void keep_lanes(const CablesGroup& group, int lane, LaneValues* motor_tension_N,
                            LaneValues* load_tension_N) {
-    const LaneCable mechanics(group, lane);
-    const Which all = hn::Eq(lanes_of(0.0), lanes_of(0.0));
+    const LaneCable<Lanes> mechanics(group, lane);
+    const Which<Lanes> all = hn::Eq(lanes_of<Lanes>(0.0), lanes_of<Lanes>(0.0));
     const int last = group.nodes - 1;
     const double half_m = 0.5 * group.segment_m;
-    LaneTension first[cables];
-    LaneTension final_segment[cables];
+    LaneTension<Lanes> first[cables];
+    LaneTension<Lanes> final_segment[cables];
     guess_segments(group, mechanics, all, 0, lane, first);
     for (int c = 0; c < cables; ++c) final_segment[c] = first[c];
     for (int segment = 1; segment < last; ++segment)
@@ -285,21 +298,22 @@ HWY_INLINE void keep_lanes(const CablesGroup& group, int lane, LaneValues* motor
                   .value_N,
               load_tension_N[c], lane);
         for (int node = 0; node <= last; ++node) {
-            const Lanes now_m = load(cable.displacement_m[node], lane);
+            const Lanes now_m = load<Lanes>(cable.displacement_m[node], lane);
             if (group.any_varying_friction) {
-                const Lanes speed = hn::Abs(now_m - load(cable.before_m[node], lane)) / mechanics.time_step_s;
-                const Lanes lagging = load(cable.lagging_speed_m_per_s[node], lane);
+                const Lanes speed =
+                    hn::Abs(now_m - load<Lanes>(cable.before_m[node], lane)) / mechanics.time_step_s;
+                const Lanes lagging = load<Lanes>(cable.lagging_speed_m_per_s[node], lane);
                 store(laws::lagging_speed<Lanes>(mechanics, lagging, speed, mechanics.time_step_s),
                       cable.lagging_speed_m_per_s[node], lane);
             }
             store(now_m, cable.before_m[node], lane);
-            store(load(cable.bend[node], lane), cable.before_bend[node], lane);
+            store(load<Lanes>(cable.bend[node], lane), cable.before_bend[node], lane);
         }
         for (int segment = 0; segment < last; ++segment) {
-            const Lanes tension_N = load(cable.tension_N[segment], lane);
+            const Lanes tension_N = load<Lanes>(cable.tension_N[segment], lane);
             store(tension_N, cable.before_tension_N[segment], lane);
             if (!mechanics.creeps) continue;
-            store(load(cable.crept_m[segment], lane) * mechanics.creep_stays +
+            store(load<Lanes>(cable.crept_m[segment], lane) * mechanics.creep_stays +
                       mechanics.step_creep_m_per_N * tension_N,
                   cable.crept_m[segment], lane);
         }
@@ -307,13 +321,16 @@ HWY_INLINE void keep_lanes(const CablesGroup& group, int lane, LaneValues* motor
 }
 
 void keep(const CablesGroup& group, LaneValues* motor_tension_N, LaneValues* load_tension_N) {
-    for (int lane = 0; lane < group.benches; lane += lanes_at_once) {
+    LaneFlags all;
+    std::fill_n(all.of, group.benches, true);
+    for_active_lanes(all, [&](auto tag, int lane) HWY_ATTR {
+        using Lanes = hn::Vec<decltype(tag)>;
         if (group.cables == 2) {
-            keep_lanes<2>(group, lane, motor_tension_N, load_tension_N);
+            keep_lanes<Lanes, 2>(group, lane, motor_tension_N, load_tension_N);
         } else {
-            keep_lanes<1>(group, lane, motor_tension_N, load_tension_N);
+            keep_lanes<Lanes, 1>(group, lane, motor_tension_N, load_tension_N);
         }
-    }
+    });
 }
 
 }  // namespace capstan::bench::HWY_NAMESPACE
