@@ -8,8 +8,10 @@
 
 namespace capstan::gap {
 
-Eigen::MatrixXd jacobian_at(const ResidualFunction& residuals, const Eigen::VectorXd& at,
-                            const Eigen::VectorXd& here, const LeastSquaresOptions& options) {
+namespace {
+
+// The parameters at which the residuals give the Jacobian, a column each.
+Eigen::MatrixXd moved_parameters(const Eigen::VectorXd& at, const LeastSquaresOptions& options) {
     const Eigen::Index count = at.size();
     const bool central = options.differences == Differences::central;
     Eigen::MatrixXd moved = at.replicate(1, central ? 2 * count : count);
@@ -17,9 +19,28 @@ Eigen::MatrixXd jacobian_at(const ResidualFunction& residuals, const Eigen::Vect
         moved(k, k) += options.difference_step;
         if (central) moved(k, count + k) -= options.difference_step;
     }
-    const Eigen::MatrixXd values = residuals(moved);
-    if (central) return (values.leftCols(count) - values.rightCols(count)) / (2.0 * options.difference_step);
+    return moved;
+}
+
+int evaluations_per_jacobian(const Eigen::VectorXd& parameters, const LeastSquaresOptions& options) {
+    return static_cast<int>(parameters.size()) * (options.differences == Differences::central ? 2 : 1);
+}
+
+// From the residuals there.
+Eigen::MatrixXd differences(const Eigen::Ref<const Eigen::MatrixXd>& values, const Eigen::VectorXd& here,
+                            const LeastSquaresOptions& options) {
+    if (options.differences == Differences::central) {
+        const Eigen::Index count = values.cols() / 2;
+        return (values.leftCols(count) - values.rightCols(count)) / (2.0 * options.difference_step);
+    }
     return (values.colwise() - here) / options.difference_step;
+}
+
+}  // namespace
+
+Eigen::MatrixXd jacobian_at(const ResidualFunction& residuals, const Eigen::VectorXd& at,
+                            const Eigen::VectorXd& here, const LeastSquaresOptions& options) {
+    return differences(residuals(moved_parameters(at, options)), here, options);
 }
 
 Sandwich sandwich_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
@@ -95,21 +116,10 @@ void correct_along(const Eigen::VectorXd& step, const Eigen::VectorXd& change, E
     if (length > 0.0) jacobian += (change - jacobian * step) * (step.transpose() / length);
 }
 
-}  // namespace
-
-LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
-                                  const LeastSquaresOptions& options) {
-    LeastSquaresFit fit;
-    fit.parameters = start;
-    if (options.lower_bounds.size() > 0) fit.parameters = start.cwiseMax(options.lower_bounds);
-    fit.residuals = residuals(fit.parameters);
-    fit.evaluations = 1;
-    return fit_least_squares(residuals, std::move(fit), options);
-}
-
-// Marquardt's scaling by the diagonal; the damping falls after a success and grows until one.
-LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquaresFit fit,
-                                  const LeastSquaresOptions& options) {
+// Marquardt's scaling by the diagonal; the damping falls after a success and grows until one. `is_here`: the
+// Jacobian was computed at these parameters.
+LeastSquaresFit searched(const ResidualFunction& residuals, LeastSquaresFit fit, bool is_here,
+                         const LeastSquaresOptions& options) {
     constexpr double start_damping = 1e-3;
     constexpr double min_damping = 1e-9;
     constexpr double max_damping = 1e9;
@@ -120,18 +130,16 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquare
     constexpr int max_slow = 2;
     constexpr double as_promised = 0.7;  // of a decrease: the linear model still holds
 
-    const int per_jacobian =
-        static_cast<int>(fit.parameters.size()) * (options.differences == Differences::central ? 2 : 1);
+    const int per_jacobian = evaluations_per_jacobian(fit.parameters, options);
     // Dampings that are tried in parallel span a wider range than those tried in turn.
     const double spread = options.dampings_at_once == 1 ? tighten : tighten * tighten;
     fit.sum_of_squares = fit.residuals.squaredNorm();
     double damping = start_damping;
     int slow = 0;  // steps in turn that lowered the sum little
-    bool holds = fit.jacobian.size() > 0;
-    bool is_here = false;  // the Jacobian was computed at these parameters
+    bool holds = fit.jacobian.size() > 0 && !is_here;
     for (int iteration = 0; iteration < options.max_iterations && !fit.converged; ++iteration) {
         const bool is_corrected = holds && (options.secant || iteration == 0);
-        if (!is_corrected) {
+        if (!is_corrected && !(is_here && iteration == 0)) {
             fit.jacobian = jacobian_at(residuals, fit.parameters, fit.residuals, options);
             fit.evaluations += per_jacobian;
             is_here = true;
@@ -191,6 +199,29 @@ LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquare
         fit.evaluations += per_jacobian;
     }
     return fit;
+}
+
+}  // namespace
+
+// The start and its Jacobian at once: simulations of several sets of parameters move side by side.
+LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
+                                  const LeastSquaresOptions& options) {
+    LeastSquaresFit fit;
+    fit.parameters = start;
+    if (options.lower_bounds.size() > 0) fit.parameters = start.cwiseMax(options.lower_bounds);
+    const Eigen::MatrixXd moved = moved_parameters(fit.parameters, options);
+    Eigen::MatrixXd all(moved.rows(), 1 + moved.cols());
+    all << fit.parameters, moved;
+    const Eigen::MatrixXd values = residuals(all);
+    fit.residuals = values.col(0);
+    fit.jacobian = differences(values.rightCols(moved.cols()), fit.residuals, options);
+    fit.evaluations = 1 + evaluations_per_jacobian(fit.parameters, options);
+    return searched(residuals, std::move(fit), true, options);
+}
+
+LeastSquaresFit fit_least_squares(const ResidualFunction& residuals, LeastSquaresFit start,
+                                  const LeastSquaresOptions& options) {
+    return searched(residuals, std::move(start), false, options);
 }
 
 }  // namespace capstan::gap
