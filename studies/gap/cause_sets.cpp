@@ -328,18 +328,21 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
             add_sets(level, each.fit.hypothesis(), each.fit.weights,
                      is_wide ? max_fitted_beside_the_best : max_fitted_further, sets);
     }
-    if (seeks_pairs && level.bench.is_measured()) add_promising_pairs(level, smaller, sets);
+    if (seeks_pairs && !is_undescribed(level.bench)) add_promising_pairs(level, smaller, sets);
     sort_by_evidence(sets);
     if (sets.empty() || sets.front().fit.causes.size() > 2) return sets;
     if (worth_a_further_cause(sets.front())) try_replacing(level, sets);
     return sets;
 }
 
-// Pairs of which neither cause explains much alone, where a single cause leaves more than noise and floor:
-// its law may make up for two others.
+// Pairs of which neither cause explains much alone. On a measured bench they are sought where a single cause
+// leaves more than noise and floor, whatever its law may be wrong by, for it may make up for two others.
 void CauseSearch::add_promising_pairs(const Level& level, const Fits& singles, Fits& sets) {
     constexpr double as_good_as_noise = 1.0;
-    if (singles.front().misfit < as_good_as_noise || is_out_of_time()) return;
+    const ScoredFit& best = singles.front();
+    const bool leaves_something =
+        level.bench.is_measured() ? best.misfit > as_good_as_noise : worth_a_further_cause(best);
+    if (!leaves_something || is_out_of_time()) return;
     const auto nothing = std::find_if(singles.begin(), singles.end(), [](const ScoredFit& fit) {
         return fit.fit.causes.front()->effect == "none";
     });
@@ -357,7 +360,7 @@ void CauseSearch::add_promising_pairs(const Level& level, const Fits& singles, F
                 with_cause(with_cause(nominal_hypothesis(level.bench), pair.first, pair.start_of_first),
                            pair.second, pair.start_of_second));
     }
-    if (!starts.empty()) add_fits(level, starts, true, sets);
+    if (!starts.empty()) add_fits(level, starts, level.bench.is_measured(), sets);
 }
 
 // Others in the place of each cause of the best set in turn, the one that was found last first.
@@ -476,26 +479,31 @@ void CauseSearch::add_fits(const Level& level, const std::vector<Hypothesis>& st
     std::move(made.begin(), made.end(), std::back_inserter(fits));
 }
 
-// Causes that are easily confused with the best one are fitted whatever the screening says.
+// Causes that are easily confused with the best one are fitted whatever the screening says: of each the
+// variants that it puts first.
 void CauseSearch::add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles) {
+    constexpr int max_variants = 3;
+    const Hypothesis bench =
+        only_causes(singles.front().fit.hypothesis(), [](const CandidateCause&) { return false; });
     const std::string best = singles.front().fit.causes.front()->effect;
     for (const std::string& rival : confusable_causes(best)) {
-        if (std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& fit) {
-                return fit.fit.causes.size() == 1 && has_effect(fit, rival);
-            }))
-            continue;
-        const auto found = std::find_if(screened.begin(), screened.end(),
-                                        [&](const Further& each) { return each.cause->effect == rival; });
-        if (found == screened.end()) continue;
-        Further from_best = *found;
-        if (!level.bench.is_measured()) {
-            const auto own = static_cast<Eigen::Index>(found->cause->numbers.size());
-            const Hypothesis bench =
-                only_causes(singles.front().fit.hypothesis(), [](const CandidateCause&) { return false; });
-            from_best.start = with_cause(bench, found->cause, found->start.coordinates.tail(own));
+        std::vector<Hypothesis> starts;
+        int variants = 0;
+        for (const Further& each : screened) {
+            if (each.cause->effect != rival) continue;
+            if (variants++ == max_variants) break;
+            if (std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& fit) {
+                    return are_same_causes(fit.fit.causes, {each.cause});
+                }))
+                continue;
+            const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
+            starts.push_back(level.bench.is_measured()
+                                 ? each.start
+                                 : with_cause(bench, each.cause, each.start.coordinates.tail(own)));
         }
-        report("fitting " + in_words({from_best.cause}));
-        add_fits(level, {from_best.start}, level.bench.is_measured(), singles);
+        if (starts.empty()) continue;
+        report("fitting " + in_words(starts.front().causes));
+        add_fits(level, starts, level.bench.is_measured(), singles);
     }
     sort_by_evidence(singles);
 }

@@ -191,6 +191,35 @@ TEST(Diagnosis, ASensorThatIsSlowAndLateHasOneFault) {
     EXPECT_LT(std::min(present(diagnosis, "sensor_lag"), present(diagnosis, "time_misalignment")), 0.3);
 }
 
+// Neither explains much alone.
+TEST(Diagnosis, NamesTheGainOfASensorBesideASoftHand) {
+    BenchNumbers numbers;
+    numbers.sensor_faults["load_torque"].gain = 1.2;
+    numbers.effects.of<EnvironmentCoupling>() = {.compliance_rad_per_Nm = 3e-3, .damping_Nm_s_per_rad = 2.0};
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    EXPECT_GT(present(diagnosis, "sensor_gain"), 0.8);
+    EXPECT_GT(present(diagnosis, "environment_coupling"), 0.8);
+    EXPECT_EQ(diagnosis.causes.size(), 2u);
+}
+
+// A motor that is driven by its torque turns on late by this or by friction of its pulley.
+TEST(Diagnosis, TellsAHysteresisOfTheMotorsAngleFromFrictionOfItsPulley) {
+    BenchNumbers hysteresis;
+    hysteresis.sensor_faults["motor_angle"].hysteresis = 3e-3;
+    EXPECT_EQ(diagnosed(session_of(hysteresis)).ranked.front().effect, "sensor_hysteresis");
+    BenchNumbers friction;
+    friction.effects.of<PulleyFriction>().motor.coulomb_Nm = 0.01;
+    EXPECT_EQ(diagnosed(session_of(friction)).ranked.front().effect, "pulley_friction");
+}
+
+TEST(Diagnosis, NamesAPretensionThatSettlesDuringTheSession) {
+    BenchNumbers numbers;
+    numbers.effects.of<PretensionDrift>() = {.lost_by_100_s = 0.5, .settling_s = 10.0};
+    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    ASSERT_EQ(diagnosis.causes.size(), 1u);
+    EXPECT_EQ(diagnosis.causes.front().effect, "pretension_drift");
+}
+
 TEST(Diagnosis, NamesAZeroThatDrifts) {
     BenchNumbers numbers;
     numbers.sensor_faults["load_torque"].drift_by_100_s = 2.0;
