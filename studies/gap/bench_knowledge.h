@@ -33,7 +33,7 @@ struct FloatingNumber {
     std::string variant{};
     std::string component{};
     std::string end{};
-    std::function<void(BenchNumbers&, double value)> apply;
+    std::function<void(BenchNumbers&, double value)> apply{};
 
     double value(double coordinate) const;
     bool is_far(double coordinate) const { return std::abs(coordinate) > usual; }

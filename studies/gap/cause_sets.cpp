@@ -29,11 +29,6 @@ bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
     return false;
 }
 
-bool has_effect(const ScoredFit& fit, const std::string& effect) {
-    return std::any_of(fit.fit.causes.begin(), fit.fit.causes.end(),
-                       [&](const CandidateCause* cause) { return cause->effect == effect; });
-}
-
 // Those without a cause, whose misfit limits how visible one can be, and the best others: of several starts
 // with the same causes the best. The best single cause is one of them, because another model may show that
 // those beside it do nothing. A set that is `far_behind` the best one in evidence stays behind it.

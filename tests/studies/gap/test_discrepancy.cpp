@@ -91,11 +91,9 @@ TEST_F(OnASession, WithOwnScalesAChannelCountsByHowItsErrorChanges) {
 // E60.
 TEST_F(OnASession, WithOwnScalesAChannelCountsByItsSamplesAndByWhatItsLawsMayBeWrongBy) {
     const std::size_t first = fitter.series().front().channel;
-    const std::size_t channels =
-        fitter
-            .channel_misfits(
-                {.residuals = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitter.data_rows()))})
-            .size();
+    CauseFit nothing_left;
+    nothing_left.residuals = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitter.data_rows()));
+    const std::size_t channels = fitter.channel_misfits(nothing_left).size();
     const Eigen::VectorXd left = residuals([&](const ResidualSeries& series, std::size_t row) {
         return (series.channel == first ? 1e-6 : 1.0) * (row % 2 == 0 ? 1.0 : -1.0);
     });
