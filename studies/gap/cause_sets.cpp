@@ -331,16 +331,17 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
 }
 
 // Pairs of which neither cause explains much alone. On a measured bench they are sought where a single cause
-// leaves more than noise and floor, whatever its law may be wrong by, for it may make up for two others.
+// leaves more than noise and floor, even if that is within the error of its law: the cause may stand for two
+// others.
 void CauseSearch::add_promising_pairs(const Level& level, const Fits& singles, Fits& sets) {
     constexpr double as_good_as_noise = 1.0;
     const ScoredFit& best = singles.front();
     const bool leaves_something =
         level.bench.is_measured() ? best.misfit > as_good_as_noise : worth_a_further_cause(best);
-    if (!leaves_something || is_out_of_time()) return;
     const auto nothing = std::find_if(singles.begin(), singles.end(), [](const ScoredFit& fit) {
         return fit.fit.causes.front()->effect == "none";
     });
+    if (!leaves_something || nothing == singles.end() || is_out_of_time()) return;
     report("screening pairs of causes");
     std::vector<Hypothesis> starts;
     std::size_t tried = 0;

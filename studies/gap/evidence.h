@@ -107,11 +107,11 @@ class Evidence {
     double log_of(double mean_square) const { return weighed_log(mean_square, below_noise_weight_); }
 
     double of(const ScoredFit& fit) const;
-    /// The penalty of a set for causes that only correct the model's own error: without such a cause the
-    /// others, fitted again, hardly leave more (rms) than a quarter of noise and floor and a tenth of what
-    /// the clearest of them does, however visible the cause is beside numbers that make up for it. `fits`
-    /// tell what smaller sets leave; 0 where they do not, and where the scale of the channels' errors is not
-    /// known (E54).
+    /// The penalty of a set for causes that only correct the model, however visible they are beside numbers
+    /// that make up for them: without such a cause the others, fitted again, leave less than the model's own
+    /// error more (rms), which is a quarter of noise and floor and a tenth of what the clearest of them does.
+    /// `fits` tell what smaller sets leave; 0 where they do not, and where the scale of the channels' errors
+    /// is not known (E54).
     double penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const;
     /// The evidence of a fit's causes together with one outside the list.
     double with_unknown(const ScoredFit& fit) const;
