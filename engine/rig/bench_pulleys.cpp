@@ -128,6 +128,7 @@ BenchPulleys::Swing BenchPulleys::swung(const Pulley& pulley, double angle_rad, 
 // The torque of the motor's unmodelled inertia and of what damps it, at an angle that it finds or is given.
 Torque BenchPulleys::swing_torque(const BenchInputs& inputs, double angle_rad) const {
     const Inertia& unmodelled = effects_.of<Inertia>();
+    if (unmodelled.motor_kg_m2 == 0.0) return {};
     const double damping_Nm_s = unmodelled.motor_kg_m2 * unmodelled.motor_decay_per_s;
     const double h = inputs.time_step_s;
     if (!motor_is_free(inputs)) {

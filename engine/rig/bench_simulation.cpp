@@ -84,6 +84,17 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
             {0.0, 0.0,
              radii_[bench].motor_radius_m * effects_[bench].of<EccentricPulley>().radius_ratio(0.0)});
     }
+    // Lanes without a bench of their own carry the first one's along.
+    for (int lane = 0; lane < bench_lanes; ++lane) {
+        const auto bench = static_cast<std::size_t>(lane < count_ ? lane : 0);
+        const ConduitCompliance& conduit = effects_[bench].of<ConduitCompliance>();
+        double way = -1.0;
+        for (int cable = 0; cable < cables_.count(); ++cable, way = 1.0) {
+            motor_places_[cable].compliance_m_per_N.of[lane] = conduit.motor_m_per_N;
+            load_places_[cable].per_rad.of[lane] = way * radii_[bench].load_radius_m;
+            load_places_[cable].compliance_m_per_N.of[lane] = conduit.load_m_per_N;
+        }
+    }
 }
 
 void BenchSimulations::begin(EachInputs inputs, const LaneFlags& active) {
@@ -124,30 +135,24 @@ const BenchSimulations::Reel& BenchSimulations::reel(std::size_t bench, double m
 // Positive angles: the motor pulley reels cable A in and lets B out, the load pulley goes where A pulls
 // (E15).
 BenchSimulations::Pull BenchSimulations::linearise(const LaneFlags& active, const EachAngles& angles) {
-    EndPlaces motor[max_cables];
-    EndPlaces load[max_cables];
-    for (int lane = 0; lane < bench_lanes; ++lane) {
-        const auto bench = static_cast<std::size_t>(lane < count_ ? lane : 0);
-        const ConduitCompliance& conduit = effects_[bench].of<ConduitCompliance>();
+    for (int lane = 0; lane < count_; ++lane) {
+        if (!active.of[lane]) continue;
+        const auto bench = static_cast<std::size_t>(lane);
         const Reel& motor_reel = reel(bench, angles[bench].motor_rad);
         double way = -1.0;
         for (int cable = 0; cable < cables_.count(); ++cable, way = 1.0) {
-            const double load_m_per_rad = way * radii_[bench].load_radius_m;
-            motor[cable].at_m.of[lane] = motor_rest_m_[bench] + way * motor_reel.reeled_m;
-            motor[cable].per_rad.of[lane] = way * motor_reel.radius_m;
-            motor[cable].compliance_m_per_N.of[lane] = conduit.motor_m_per_N;
-            load[cable].at_m.of[lane] = load_m_per_rad * angles[bench].load_rad;
-            load[cable].per_rad.of[lane] = load_m_per_rad;
-            load[cable].compliance_m_per_N.of[lane] = conduit.load_m_per_N;
+            motor_places_[cable].at_m.of[lane] = motor_rest_m_[bench] + way * motor_reel.reeled_m;
+            motor_places_[cable].per_rad.of[lane] = way * motor_reel.radius_m;
+            load_places_[cable].at_m.of[lane] = load_places_[cable].per_rad.of[lane] * angles[bench].load_rad;
         }
     }
-    const BenchCables::Ends ends = cables_.linearise(active, motor, load);
+    const BenchCables::Ends ends = cables_.linearise(active, motor_places_, load_places_);
     Pull pull;
     double way = -1.0;
     for (int cable = 0; cable < cables_.count(); ++cable, way = 1.0) {
         for (auto [sum, end] :
              {std::pair{&pull.motor, &ends.motor[cable]}, std::pair{&pull.load, &ends.load[cable]}}) {
-            for (int lane = 0; lane < count_; ++lane) {
+            for (int lane = 0; lane < bench_lanes; ++lane) {
                 sum->value_N.of[lane] -= way * end->value_N.of[lane];
                 sum->per_motor_rad.of[lane] -= way * end->per_motor_rad.of[lane];
                 sum->per_load_rad.of[lane] -= way * end->per_load_rad.of[lane];

@@ -92,6 +92,9 @@ class BenchSimulations {
     std::vector<BenchEffects> effects_;
     std::vector<double> pretension_N_;
     std::vector<double> motor_rest_m_;
+    // Where the pulleys put the cables' ends in the present guess.
+    EndPlaces motor_places_[max_cables];
+    EndPlaces load_places_[max_cables];
     std::vector<Reel> reels_;  // at the last angle: one that is given stays through a step
     BenchCables cables_;
     std::vector<BenchPulleys> pulleys_;

@@ -69,6 +69,51 @@ void check_driven(const Recording& recording) {
     }
 }
 
+// What drives a run, by its channels.
+struct RunInputs {
+    RunInputs(const Recording& recording, const RecordedRun& of_run, const DrivenInputs& driven)
+        : run(of_run) {
+        const auto values_of = [&](const char* channel) {
+            return run.drives(channel) ? &driven.values[static_cast<std::size_t>(*recording.channel(channel))]
+                                       : nullptr;
+        };
+        motor_angle = values_of(channel::motor_angle);
+        motor_torque = values_of(channel::motor_torque);
+        load_angle = values_of(channel::load_angle);
+        load_torque = values_of(channel::load_torque);
+        has_spring = holds_load_by_a_spring(recording, run);
+        sample_rate_Hz = recording.sample_rate_Hz;
+    }
+
+    BenchInputs at(int sample, int step_samples) const {
+        const auto k = static_cast<std::size_t>(sample);
+        BenchInputs step{MotorAngle{0.0}, LoadAngle{0.0}, step_samples / sample_rate_Hz,
+                         run.session_start_s + run.time_s[k]};
+        if (motor_angle != nullptr) {
+            step.motor = MotorAngle{(*motor_angle)[k]};
+        } else {
+            step.motor = MotorTorque{(*motor_torque)[k]};
+        }
+        if (load_angle != nullptr) {
+            step.load = LoadAngle{(*load_angle)[k]};
+        } else if (load_torque != nullptr) {
+            step.load = LoadTorque{(*load_torque)[k]};
+        } else if (has_spring) {
+            step.load = LoadSpring{Backlash::contact_Nm_per_rad, 0.0};
+        }
+        return step;
+    }
+
+    const RecordedRun& run;
+    // Null where not driven.
+    const std::vector<double>* motor_angle = nullptr;
+    const std::vector<double>* motor_torque = nullptr;
+    const std::vector<double>* load_angle = nullptr;
+    const std::vector<double>* load_torque = nullptr;
+    bool has_spring = false;
+    double sample_rate_Hz = 0.0;
+};
+
 std::vector<int> all_samples(const RecordedRun& run) {
     std::vector<int> samples(static_cast<std::size_t>(run.samples()));
     std::iota(samples.begin(), samples.end(), 0);
@@ -147,11 +192,13 @@ EffectsTwin::EffectsTwin(const Recording& recording, const EffectsTwinOptions& o
     : recording_(recording), options_(options) {
     check_driven(recording);
     for (const RecordedRun& run : recording.runs) inputs_.push_back(driven_inputs(recording, run));
+    find_stops();
 }
 
 EffectsTwin EffectsTwin::moved_by(std::vector<DrivenInputs> inputs) const {
     EffectsTwin twin = *this;
     twin.inputs_ = std::move(inputs);
+    twin.find_stops();
     return twin;
 }
 
@@ -168,10 +215,15 @@ std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) co
     std::vector<BenchDescription> descriptions;
     std::vector<BenchEffects> effects;
     std::vector<TwinRun> twins(moved.size());
-    std::map<std::size_t, std::vector<Reader>> readers;  // of each run
     const bool rings = std::any_of(moved.begin(), moved.end(),
                                    [](const MovedBench& bench) { return bench.numbers.rings(); });
-    std::map<std::size_t, std::vector<int>> stops;  // of each run
+    struct MovedRun {
+        std::vector<Reader> readers;
+        std::vector<int> stops;
+        RunInputs inputs;
+    };
+    std::map<std::size_t, MovedRun> runs;
+    std::vector<const MovedRun*> run_of;  // of each bench
     for (std::size_t bench = 0; bench < moved.size(); ++bench) {
         const auto& [run_index, numbers] = moved[bench];
         const RecordedRun& run = recording_.runs[run_index];
@@ -179,31 +231,31 @@ std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) co
         effects.push_back(numbers.effects);
         double& compliance = effects.back().of<EnvironmentCoupling>().compliance_rad_per_Nm;
         if (compliance == 0.0) compliance = recording_.nominal->load_compliance_rad_per_Nm;
-        const auto its_readers = readers.try_emplace(run_index, readers_of(run)).first;
+        if (!runs.contains(run_index))
+            runs.emplace(run_index, MovedRun{readers_of(run), rings ? all_samples(run) : stops_[run_index],
+                                             RunInputs(recording_, run, inputs_[run_index])});
+        run_of.push_back(&runs.at(run_index));
         twins[bench].values.resize(recording_.channels.size());
-        for (const Reader& reader : its_readers->second)
+        for (const Reader& reader : run_of.back()->readers)
             twins[bench].values[reader.channel].reserve(static_cast<std::size_t>(samples(run_index)));
-        stops.try_emplace(run_index, rings ? all_samples(run) : stops_of(run_index));
     }
     BenchSimulations benches(descriptions, effects);
     std::vector<BenchInputs> inputs(moved.size());
     std::array<long, bench_lanes> iterations{};
     long steps = 0;
-    const std::size_t longest =
-        std::max_element(stops.begin(), stops.end(), [](const auto& a, const auto& b) {
-            return a.second.size() < b.second.size();
-        })->second.size();
+    const std::size_t longest = std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
+                                    return a.second.stops.size() < b.second.stops.size();
+                                })->second.stops.size();
     for (std::size_t stop = 0; stop < longest; ++stop) {
         for (std::size_t bench = 0; bench < moved.size(); ++bench) {
-            const std::size_t run = moved[bench].run;
-            const std::vector<int>& of_run = stops.at(run);
-            if (stop >= of_run.size()) {
+            const std::vector<int>& stops = run_of[bench]->stops;
+            if (stop >= stops.size()) {
                 benches.stop(static_cast<int>(bench));
-            } else if (bench > 0 && run == moved[bench - 1].run) {
+            } else if (bench > 0 && run_of[bench] == run_of[bench - 1]) {
                 inputs[bench] = inputs[bench - 1];
             } else {
-                const int before = stop > 0 ? of_run[stop - 1] : -(rings ? 1 : options_.stride);
-                inputs[bench] = inputs_at(run, of_run[stop], of_run[stop] - before);
+                const int before = stop > 0 ? stops[stop - 1] : -(rings ? 1 : options_.stride);
+                inputs[bench] = run_of[bench]->inputs.at(stops[stop], stops[stop] - before);
             }
         }
         const auto reports = benches.advance(inputs);
@@ -214,13 +266,13 @@ std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) co
                 benches.stop(static_cast<int>(bench));
         }
         for (std::size_t bench = 0; bench < moved.size(); ++bench) {
-            const std::vector<int>& of_run = stops.at(moved[bench].run);
-            if (stop >= of_run.size() || of_run[stop] % options_.stride != 0) continue;
+            const std::vector<int>& stops = run_of[bench]->stops;
+            if (stop >= stops.size() || stops[stop] % options_.stride != 0) continue;
             if (!reports[bench].converged) ++twins[bench].unsolved_steps;
             if (options_.reports_sliding_fraction)
                 twins[bench].sliding_fraction.push_back(
                     benches.cables().sliding_fraction(static_cast<int>(bench)));
-            for (const Reader& reader : readers[moved[bench].run]) {
+            for (const Reader& reader : run_of[bench]->readers) {
                 const double value = reader.read(benches, static_cast<int>(bench));
                 twins[bench].values[reader.channel].push_back(
                     std::isfinite(value) ? std::clamp(value, -max_prediction, max_prediction)
@@ -233,6 +285,11 @@ std::vector<TwinRun> EffectsTwin::run_each(std::span<const MovedBench> moved) co
             align_load_angle(moved[bench].run, twins[bench]);
     }
     return twins;
+}
+
+void EffectsTwin::find_stops() {
+    stops_.clear();
+    for (std::size_t run = 0; run < recording_.runs.size(); ++run) stops_.push_back(stops_of(run));
 }
 
 // Where a driven channel turns between two predicted samples, friction remembers how far it went. What lies
@@ -286,29 +343,6 @@ TwinRun EffectsTwin::with_faults(std::size_t run_index, const TwinRun& predicted
                             run.session_start_s + run.time_s.front());
     }
     return sensed_run;
-}
-
-BenchInputs EffectsTwin::inputs_at(std::size_t run_index, int sample, int step_samples) const {
-    const RecordedRun& run = recording_.runs[run_index];
-    const auto given = [&](const char* channel) {
-        return inputs_[run_index]
-            .values[static_cast<std::size_t>(*recording_.channel(channel))][static_cast<std::size_t>(sample)];
-    };
-    BenchInputs step{MotorAngle{0.0}, LoadAngle{0.0}, step_samples / recording_.sample_rate_Hz,
-                     run.session_start_s + run.time_s[static_cast<std::size_t>(sample)]};
-    if (run.drives(channel::motor_angle)) {
-        step.motor = MotorAngle{given(channel::motor_angle)};
-    } else {
-        step.motor = MotorTorque{given(channel::motor_torque)};
-    }
-    if (run.drives(channel::load_angle)) {
-        step.load = LoadAngle{given(channel::load_angle)};
-    } else if (run.drives(channel::load_torque)) {
-        step.load = LoadTorque{given(channel::load_torque)};
-    } else if (holds_load_by_a_spring(recording_, run)) {
-        step.load = LoadSpring{Backlash::contact_Nm_per_rad, 0.0};
-    }
-    return step;
 }
 
 // How each predicted channel is read off a bench.

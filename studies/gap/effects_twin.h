@@ -118,12 +118,14 @@ class EffectsTwin {
     std::vector<Reader> readers_of(const RecordedRun& run) const;
     /// The samples to which a run is simulated: those predicted, and where a driven channel turns between.
     std::vector<int> stops_of(std::size_t run) const;
-    BenchInputs inputs_at(std::size_t run, int sample, int step_samples) const;
+    void find_stops();
     void align_load_angle(std::size_t run, TwinRun& twin) const;
 
     const Recording& recording_;
     EffectsTwinOptions options_;
+    // Of each run.
     std::vector<DrivenInputs> inputs_;
+    std::vector<std::vector<int>> stops_;
 };
 
 }  // namespace capstan::gap
