@@ -18,7 +18,8 @@ struct ViscousFrictionLaw {
                            .component = "conduit",
                            .equation = "E20",
                            .meaning = "drag that grows with sliding speed, as of a lubricant",
-                           .changes_the_cable = true},
+                           .changes_the_cable = true,
+                           .confusable_with = {"pulley_friction"}},
                  .parameters = {{{.name = "drag", .unit = "N s/m2", .high = 1e4, .typical = 1.0},
                                  &ViscousFrictionLaw::drag_N_s_per_m2}}}};
     }

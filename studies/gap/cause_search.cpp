@@ -161,7 +161,8 @@ FoundCauses CauseSearch::run() & {
         search_several(described_, found.fits);
         const ScoredFit& best = found.fits.front();
         built = is_measured &&
-                (leaves_much(best) || (best.fit.causes.size() > 1 && should_be_taken_as_built(best)));
+                (leaves_much(best) || (best.fit.causes.size() > 1 && (should_be_taken_as_built(best) ||
+                                                                      stands_for_usual_numbers(found.fits))));
     }
     if (built) {
         evidence_.set_below_noise_weight(below_noise_weight_beside_floating_numbers);
@@ -193,24 +194,35 @@ bool CauseSearch::should_be_taken_as_built(const ScoredFit& best) {
     constexpr double clearly = 3.0;
     if (is_out_of_time()) return false;
     if (best.nominal_penalty > tenable_nominal_penalty) return true;
-    if (!worth_a_further_cause(best)) return false;
+    return worth_a_further_cause(best) && fitted_as_built(best).evidence > best.evidence + clearly;
+}
+
+// Whether zeros, bearings and the like explain more than one of the causes of the best set does, for which it
+// then stood.
+bool CauseSearch::stands_for_usual_numbers(const Fits& fits) {
+    const ScoredFit* fewer = with_one_cause_fewer(fits);
+    return fewer != nullptr && !is_out_of_time() && fitted_as_built(*fewer).evidence > fits.front().evidence;
+}
+
+// The same causes beside the numbers of a bench as built.
+ScoredFit CauseSearch::fitted_as_built(const ScoredFit& described) {
     report("fitting the bench's own numbers");
     Hypothesis built = nominal_hypothesis(built_.bench);
-    built.coordinates.head(nominal_coordinates) = best.fit.coordinates.head(nominal_coordinates);
+    built.coordinates.head(nominal_coordinates) = described.fit.coordinates.head(nominal_coordinates);
     Eigen::Index next = nominal_coordinates;
-    for (const CandidateCause* cause : best.fit.causes) {
+    for (const CandidateCause* cause : described.fit.causes) {
         const auto count = static_cast<Eigen::Index>(cause->numbers.size());
         const CandidateCause* same = built_.same_cause(cause->effect, cause->variant);
         if (same != nullptr && same->effect != "none")
-            built = with_cause(built, same, best.fit.coordinates.segment(next, count));
+            built = with_cause(built, same, described.fit.coordinates.segment(next, count));
         next += count;
     }
     if (built.causes.empty()) built = with_cause(built, &built_.causes.front(), {});
     CauseFitter::FitOptions options;
     options.any_size = false;
-    const ScoredFit fit = scored(fine_, fine_.fitter.fit(built, options));
+    ScoredFit fit = scored(fine_, fine_.fitter.fit(built, options));
     built_numbers_ = fit.fit.coordinates.head(built_.bench.size());
-    return fit.evidence > best.evidence + clearly;
+    return fit;
 }
 
 void CauseSearch::begin_draft(Fits& fits) {
@@ -278,7 +290,10 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
         add_from_elsewhere(level, promising, weights, singles);
     }
     sort_by_evidence(singles);
-    if (!worth_a_further_cause(singles.front()) && !is_out_of_time()) add_confusable(level, all, singles);
+    if (!worth_a_further_cause(singles.front()) && !is_out_of_time()) {
+        add_confusable(level, *singles.front().fit.causes.front(), all, singles);
+        sort_by_evidence(singles);
+    }
     return singles;
 }
 

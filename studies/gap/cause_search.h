@@ -118,6 +118,8 @@ class CauseSearch {
     void drop_unearned_causes(Fits& fits);
     bool take_correlation_of(const ScoredFit& best);
     bool should_be_taken_as_built(const ScoredFit& best);
+    bool stands_for_usual_numbers(const Fits& fits);
+    ScoredFit fitted_as_built(const ScoredFit& described);
     ScoredFit without_cause(const Level& level);
     Fits search_one(const Level& level);
     void search_several(const Level& level, Fits& all);
@@ -125,6 +127,7 @@ class CauseSearch {
     bool try_fewer(const Level& level, Fits& all);
     void try_fewer_finely(Fits& all);
     bool try_more(const Level& level, Fits& all);
+    static const ScoredFit* with_one_cause_fewer(const Fits& all);
     bool replace_the_weakest(const Level& level, Fits& all);
     void refine(const Level& level, Fits& all);
     void try_ripple_or_torque(const Level& level, Fits& all);
@@ -147,7 +150,9 @@ class CauseSearch {
                      std::span<const Eigen::VectorXd> elsewhere);
     void add_from_elsewhere(const Level& level, std::span<const Further> some, const SeriesWeights& weights,
                             Fits& singles);
-    void add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles);
+    void add_confusable(const Level& level, const CandidateCause& confused,
+                        const std::vector<Further>& screened, Fits& fits);
+    void try_confusable(const Level& level, Fits& all);
     static double pruned_at(const Fits& fits);
     Fits larger_sets(const Level& level, const Fits& smaller);
     void add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,

@@ -89,6 +89,7 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         try_fewer(level, all);
     }
     if (!level.bench.is_measured()) try_others(level, all);
+    try_confusable(level, all);
 }
 
 // The best sets, from where another model led them. Out of time the best one is still fitted.
@@ -218,17 +219,24 @@ bool CauseSearch::try_more(const Level& level, Fits& all) {
     return all.front().evidence > before + clear_gain;
 }
 
+// The best set without the cause without which it loses least; null where none of these was fitted.
+const ScoredFit* CauseSearch::with_one_cause_fewer(const Fits& all) {
+    const std::vector<const CandidateCause*>& best = all.front().fit.causes;
+    const auto is_of_best = [&](const CandidateCause* cause) {
+        return std::find(best.begin(), best.end(), cause) != best.end();
+    };
+    const auto fewer = std::find_if(all.begin(), all.end(), [&](const ScoredFit& each) {
+        const std::vector<const CandidateCause*>& causes = each.fit.causes;
+        return causes.size() + 1 == best.size() && std::all_of(causes.begin(), causes.end(), is_of_best);
+    });
+    return fewer == all.end() ? nullptr : &*fewer;
+}
+
 // Others in the place of the cause without which the best set loses least. Whether one is better.
 bool CauseSearch::replace_the_weakest(const Level& level, Fits& all) {
     const ScoredFit best = all.front();
-    const auto is_of_best = [&](const CandidateCause* cause) {
-        return std::find(best.fit.causes.begin(), best.fit.causes.end(), cause) != best.fit.causes.end();
-    };
-    const auto fewer = std::find_if(all.begin(), all.end(), [&](const ScoredFit& each) {
-        return each.fit.causes.size() + 1 == best.fit.causes.size() &&
-               std::all_of(each.fit.causes.begin(), each.fit.causes.end(), is_of_best);
-    });
-    if (best.fit.causes.size() < 3 || fewer == all.end() || is_out_of_time()) return false;
+    const ScoredFit* fewer = with_one_cause_fewer(all);
+    if (best.fit.causes.size() < 3 || fewer == nullptr || is_out_of_time()) return false;
     Fits sets;
     add_sets(level, fewer->fit.hypothesis(), fewer->fit.weights, max_fitted_beside_the_best, sets);
     std::move(sets.begin(), sets.end(), std::back_inserter(all));
@@ -296,7 +304,10 @@ void CauseSearch::add_measured_sets(const ScoredFit& built, Fits& all) {
         sort_by_evidence(sets);
     }
     try_fewer(described_, sets);
-    if (sets.front().evidence > all.front().evidence) try_replacing(described_, sets);
+    if (sets.front().evidence > all.front().evidence) {
+        try_replacing(described_, sets);
+        try_confusable(described_, sets);
+    }
     std::move(sets.begin(), sets.end(), std::back_inserter(all));
     sort_by_evidence(all);
 }
@@ -473,35 +484,6 @@ void CauseSearch::add_fits(const Level& level, const std::vector<Hypothesis>& st
     Fits made = made_side_by_side(model_of(level), starts.size(),
                                   [&](std::size_t k) { return fit_on(level, starts[k], options); });
     std::move(made.begin(), made.end(), std::back_inserter(fits));
-}
-
-// Causes that are easily confused with the best one are fitted whatever the screening says: of each the
-// variants that it puts first.
-void CauseSearch::add_confusable(const Level& level, const std::vector<Further>& screened, Fits& singles) {
-    constexpr int max_variants = 3;
-    const Hypothesis bench =
-        only_causes(singles.front().fit.hypothesis(), [](const CandidateCause&) { return false; });
-    const std::string best = singles.front().fit.causes.front()->effect;
-    for (const std::string& rival : confusable_causes(best)) {
-        std::vector<Hypothesis> starts;
-        int variants = 0;
-        for (const Further& each : screened) {
-            if (each.cause->effect != rival) continue;
-            if (variants++ == max_variants) break;
-            if (std::any_of(singles.begin(), singles.end(), [&](const ScoredFit& fit) {
-                    return are_same_causes(fit.fit.causes, {each.cause});
-                }))
-                continue;
-            const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
-            starts.push_back(level.bench.is_measured()
-                                 ? each.start
-                                 : with_cause(bench, each.cause, each.start.coordinates.tail(own)));
-        }
-        if (starts.empty()) continue;
-        report("fitting " + in_words(starts.front().causes));
-        add_fits(level, starts, level.bench.is_measured(), singles);
-    }
-    sort_by_evidence(singles);
 }
 
 }  // namespace capstan::gap

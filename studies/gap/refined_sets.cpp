@@ -330,4 +330,52 @@ void CauseSearch::drop_unearned_causes(Fits& fits) {
     }
 }
 
+// Causes that are easily confused with one of the best set are fitted in its place whatever the screening
+// says: of each the variants that it puts first. `screened`: causes beside the others of the set.
+void CauseSearch::add_confusable(const Level& level, const CandidateCause& confused,
+                                 const std::vector<Further>& screened, Fits& fits) {
+    constexpr int max_variants = 3;
+    const Hypothesis others = only_causes(fits.front().fit.hypothesis(),
+                                          [&](const CandidateCause& cause) { return &cause != &confused; });
+    for (const std::string& rival : confusable_causes(confused.effect)) {
+        std::vector<Hypothesis> starts;
+        int variants = 0;
+        for (const Further& each : screened) {
+            if (each.cause->effect != rival) continue;
+            if (variants++ == max_variants) break;
+            std::vector<const CandidateCause*> set = others.causes;
+            set.push_back(each.cause);
+            const bool is_known =
+                std::any_of(others.causes.begin(), others.causes.end(),
+                            [&](const CandidateCause* other) { return other->effect == rival; }) ||
+                std::any_of(fits.begin(), fits.end(),
+                            [&](const ScoredFit& fit) { return are_same_causes(fit.fit.causes, set); });
+            if (is_known) continue;
+            const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
+            starts.push_back(level.bench.is_measured()
+                                 ? each.start
+                                 : with_cause(others, each.cause, each.start.coordinates.tail(own)));
+        }
+        if (starts.empty()) continue;
+        report("fitting " + in_words(starts.front().causes));
+        add_fits(level, starts, level.bench.is_measured(), fits);
+    }
+}
+
+// A set may hold a rival of a cause, which explains much the same beside the others.
+void CauseSearch::try_confusable(const Level& level, Fits& all) {
+    const CauseFit best = all.front().fit;
+    if (best.causes.size() < 2 || best.bench != &level.bench || is_undescribed(level.bench)) return;
+    for (const CandidateCause* cause : best.causes) {
+        if (is_out_of_time()) break;
+        const Hypothesis others =
+            only_causes(best.hypothesis(), [&](const CandidateCause& other) { return &other != cause; });
+        std::vector<Further> rivals;
+        for (const Screened& each : screen(rough_model().fitter, level.causes, others, best.weights))
+            rivals.push_back({each.cause, with_cause(others, each.cause, each.start), each.sum_of_squares});
+        add_confusable(level, *cause, rivals, all);
+    }
+    sort_by_evidence(all);
+}
+
 }  // namespace capstan::gap

@@ -38,6 +38,21 @@ gap::Diagnosis diagnosed_short(std::uint64_t seed, int number) {
     return gap::diagnose(read_recording(folder.path() / (label.name + ".csv")), {});
 }
 
+// Of the harder kind: with zeros and friction of bearings, and causes from 0.5 to 10 times noise and floor.
+gap::Diagnosis diagnosed_hard(std::uint64_t seed, int cases, int number) {
+    TrialOptions options;
+    options.seed = seed;
+    options.cases = cases;
+    options.nuisances = true;
+    options.visibility = VisibilityRange{0.5, 10.0};
+    options.mixtures = 0.4;
+    options.nominal_error = 0.01;
+    const PlannedCase planned = plan_trial(options).at(static_cast<std::size_t>(number - 1));
+    const ScratchFolder folder;
+    const CaseLabel label = make_case(planned, options, folder.path());
+    return gap::diagnose(read_recording(folder.path() / (label.name + ".csv")), {});
+}
+
 double present(const gap::Diagnosis& diagnosis, const std::string& effect) {
     for (const gap::RankedEffect& each : diagnosis.ranked) {
         if (each.effect == effect) return each.present;
@@ -154,6 +169,15 @@ TEST(SpentBenches, BendingStiffnessIsFoundBeyondTheRipplesOfFronts) {
 TEST(SlowSpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 40);
     EXPECT_GT(present(diagnosis, "sensor_hysteresis"), 0.9);
+}
+
+// On a bench without zeros and friction of bearings, a bend beside the motor closes what these do beside the
+// two causes, and leaves no more than noise and floor.
+TEST(SlowSpentBenches, ABendDoesNotStandForWhatIsUsualBesideAPair) {
+    const gap::Diagnosis diagnosis = diagnosed_hard(239407, 32, 20);
+    for (const char* effect : {"conduit_compliance", "sensor_gain"})
+        EXPECT_GT(present(diagnosis, effect), 0.9) << effect;
+    EXPECT_LT(present(diagnosis, "local_bend"), 0.1);
 }
 
 // Without the run that moves, the other one does not tell how slow the sensor is, so that a lag closes
