@@ -429,13 +429,23 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         const double coordinate = scored.fit.coordinates[static_cast<Eigen::Index>(k)];
         if (visibility.of_the_bench[k] <= visible || number.effect.empty()) continue;
         scored.visible_numbers.push_back(k);
+        const bool is_stated = k < nominal_coordinates;
+        const auto row = static_cast<Eigen::Index>(k);
+        // A law may hold for another reference than the stated number does.
         const auto is_one_with = [&](const CandidateCause* cause) {
-            return is_slowness_of_one_sensor(number.effect, number.variant, *cause);
+            return is_slowness_of_one_sensor(number.effect, number.variant, *cause) ||
+                   (is_stated && cause->nominal_std(row) > nominal_log_std);
         };
         if (std::any_of(scored.fit.causes.begin(), scored.fit.causes.end(), is_one_with)) continue;
         if (!number.is_far(coordinate)) continue;
-        const bool is_stated = k < nominal_coordinates;
-        scored.far_numbers.push_back({k, is_stated ? stated.wrong[static_cast<Eigen::Index>(k)] : 1.0});
+        if (is_stated) {
+            const double variance = scored.fit.nominal_covariance(row, row);
+            scored.far_numbers.push_back({k, stated.wrong[row],
+                                          std::sqrt(std::max(1.0, scored.misfit) * coordinate * coordinate /
+                                                    variance / model.fitter.independent_samples())});
+        } else {
+            scored.far_numbers.push_back({k, 1.0});
+        }
         // A number that has usual values is a fault beyond them; others, such as zeros, are usual at any
         // value.
         const double of_others = number.usual > 0.0 ? 1.0 : 0.0;

@@ -187,13 +187,13 @@ class Diagnoser {
             diagnosis.causes.push_back(fitted);
         }
         put_clearest_first(diagnosis.causes, leading.visibility);
-        for (const auto& [k, probability] : leading.far_numbers) {
+        for (const ScoredFit::FarNumber& each : leading.far_numbers) {
             constexpr double likely = 0.5;
-            if (probability < likely) continue;
-            const FloatingNumber& number = fit.bench->numbers[k];
+            if (leading.probability_of(each) < likely) continue;
+            const FloatingNumber& number = fit.bench->numbers[each.number];
             FittedCause far{number.effect, number.variant, number.component, number.end, {}, {}};
             if (number.kind != FloatingNumber::Kind::ratio) {
-                far.numbers = {diagnosis.bench[k - nominal_coordinates]};
+                far.numbers = {diagnosis.bench[each.number - nominal_coordinates]};
                 far.numbers.front().name = number.kind == FloatingNumber::Kind::zero ? "size" : "coulomb";
             }
             diagnosis.causes.push_back(far);

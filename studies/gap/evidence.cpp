@@ -188,11 +188,19 @@ std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& ef
 
 }  // namespace
 
+double ScoredFit::probability_of(const FarNumber& far) const {
+    const double law = law_error * clearest_law(*this);
+    if (far.closes >= law || far.probability == 1.0) return far.probability;
+    const double odds = far.probability / (1.0 - far.probability) *
+                        std::exp(-invisible_at_most(*this) * (1.0 - far.closes / law));
+    return odds / (1.0 + odds);
+}
+
 std::map<std::string, double> ScoredFit::of_the_bench() const {
     std::map<std::string, double> effects;
     for (const FarNumber& far : far_numbers) {
         double& most = effects[fit.bench->numbers[far.number].effect];
-        most = std::max(most, far.probability);
+        most = std::max(most, probability_of(far));
     }
     return effects;
 }

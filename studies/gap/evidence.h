@@ -55,12 +55,16 @@ struct ScoredFit {
     struct FarNumber {
         std::size_t number = 0;
         double probability = 0.0;
+        /// What a fit with the number as stated would leave more, rms in units of noise and floor.
+        double closes = std::numeric_limits<double>::infinity();
     };
     std::vector<FarNumber> far_numbers{};
     /// The probability that none of them is a cause. A zero, a bearing's friction and numbers from tables are
     /// usual on a bench as built; one wrong number among right ones and a sensor that is late are causes.
     double far_numbers_are_usual = 1.0;
 
+    /// That the number is far from what was stated, and does not only correct the law of a cause.
+    double probability_of(const FarNumber& far) const;
     /// The effects that they stand for, each by its most probable number.
     std::map<std::string, double> of_the_bench() const;
     double evidence = 0.0;  ///< logarithm, up to a constant

@@ -322,6 +322,21 @@ TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
     EXPECT_EQ(ranked_where_far(0.3).front().effect, "none");
 }
 
+// The law of a drag that changes a channel by ten times noise and floor is good to once that.
+TEST(Evidence, AFarNumberThatOnlyCorrectsTheLawOfACauseIsNotNamed) {
+    Known known;
+    const auto far_where_it_closes = [&](const CandidateCause& cause, double closes) {
+        ScoredFit fit = fitted(evidence, {&cause}, 1.0, {10.0});
+        fit.fit.bench = &bench_with_a_zero();
+        fit.far_numbers = {{2, 0.9, closes}};
+        return present(ranked_by(evidence, {known.none, known.drag, known.gain}, {fit}), "param_T0");
+    };
+    EXPECT_GT(far_where_it_closes(known.drag, 1.1), 0.8);
+    EXPECT_LT(far_where_it_closes(known.drag, 0.3), 0.1);
+    known.gain.is_exact = true;
+    EXPECT_GT(far_where_it_closes(known.gain, 0.3), 0.8);
+}
+
 TEST(Evidence, BesideFloatingNumbersACauseTooFaintToShowIsAsProbableAsNone) {
     const Known known;
     const std::vector<CandidateCause> causes = {known.none, known.drag, known.gain};
