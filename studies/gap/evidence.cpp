@@ -188,6 +188,7 @@ std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& ef
 
 }  // namespace
 
+// E68.
 double ScoredFit::probability_of(const FarNumber& far) const {
     const double law = law_error * clearest_law(*this);
     if (far.closes >= law || far.probability == 1.0) return far.probability;

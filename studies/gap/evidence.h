@@ -63,7 +63,7 @@ struct ScoredFit {
     /// usual on a bench as built; one wrong number among right ones and a sensor that is late are causes.
     double far_numbers_are_usual = 1.0;
 
-    /// That the number is far from what was stated, and does not only correct the law of a cause.
+    /// That the number is far from what was stated, and does not only correct the law of a cause (E68).
     double probability_of(const FarNumber& far) const;
     /// The effects that they stand for, each by its most probable number.
     std::map<std::string, double> of_the_bench() const;
