@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capstan/gap/next_experiment.h"
+#include "capstan/platform/statistics.h"
 
 namespace capstan::gap {
 
@@ -71,7 +72,7 @@ class Diagnoser {
         return diagnosis;
     }
 
-    void describe(Diagnosis& diagnosis, const std::vector<ScoredFit>& fits) {
+    void describe(Diagnosis& diagnosis, std::vector<ScoredFit>& fits) {
         describe(diagnosis, fits.front(), runner_up_of(fits.front(), fits));
     }
 
@@ -133,7 +134,8 @@ class Diagnoser {
         return leading;
     }
 
-    void describe(Diagnosis& diagnosis, const ScoredFit& leading, const ScoredFit& runner_up) {
+    // What the scatter between runs tells of the leading numbers is part of how probable they are.
+    void describe(Diagnosis& diagnosis, ScoredFit& leading, const ScoredFit& runner_up) {
         const CauseFit& fit = leading.fit;
         const BenchNumbers numbers = bench_numbers(fit.hypothesis());
         diagnosis.friction_ratio = numbers.friction_ratio;
@@ -148,6 +150,7 @@ class Diagnoser {
         }
         const Eigen::VectorXd widths = fitter_.half_widths(fit, without_a_run);
         evaluations_ += static_cast<int>(2 * widths.size());
+        leading.widen_stated_numbers(widths.head<nominal_coordinates>() / two_sided_95);
         const auto ratio_interval = [&](Eigen::Index k) -> FittedInterval {
             return {std::exp(fit.coordinates[k] - widths[k]), std::exp(fit.coordinates[k] + widths[k])};
         };

@@ -197,6 +197,19 @@ double ScoredFit::probability_of(const FarNumber& far) const {
     return odds / (1.0 + odds);
 }
 
+void ScoredFit::widen_stated_numbers(const Eigen::Vector3d& deviations) {
+    if (fit.bench->is_measured() || clearest_law(*this) == 0.0) return;
+    const Eigen::Vector3d own = fit.nominal_covariance.diagonal().cwiseSqrt();
+    const Eigen::Vector3d wider = deviations.cwiseMax(own).cwiseQuotient(own);
+    const StatedNumbers stated =
+        weigh_stated_numbers(*fit.bench, fit.coordinates.head<nominal_coordinates>(),
+                             wider.asDiagonal() * fit.nominal_covariance * wider.asDiagonal());
+    for (FarNumber& far : far_numbers) {
+        if (far.number < nominal_coordinates)
+            far.probability = stated.wrong[static_cast<Eigen::Index>(far.number)];
+    }
+}
+
 std::map<std::string, double> ScoredFit::of_the_bench() const {
     std::map<std::string, double> effects;
     for (const FarNumber& far : far_numbers) {

@@ -69,6 +69,9 @@ struct ScoredFit {
     std::map<std::string, double> of_the_bench() const;
     double evidence = 0.0;  ///< logarithm, up to a constant
 
+    /// Weighs the stated numbers again (E63) where these standard deviations of their logarithms are wider
+    /// than those of the fit. Beside a law that is an idealisation a fit is too sure of them.
+    void widen_stated_numbers(const Eigen::Vector3d& deviations);
     /// Lowers the evidence of its causes, also beside an unknown one.
     void charge_unproven(double penalty) {
         unproven_penalty += penalty;

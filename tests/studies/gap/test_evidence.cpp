@@ -337,6 +337,30 @@ TEST(Evidence, AFarNumberThatOnlyCorrectsTheLawOfACauseIsNotNamed) {
     EXPECT_GT(far_where_it_closes(known.gain, 0.3), 0.8);
 }
 
+// A pretension of e^-0.08 of what was stated, known to a hundredth by the fit and to a twentieth by the
+// scatter between runs. Where nothing but numbers acts, there is no law that a number could correct.
+TEST(Evidence, BesideALawAStatedNumberIsNoMoreCertainThanItsInterval) {
+    const Known known;
+    BenchKnowledge bench = bench_with_a_zero();
+    for (FloatingNumber& number : bench.numbers) {
+        number.prior_std = 0.15;
+        number.measured_std = nominal_log_std;
+    }
+    const auto wrong_where_known_to = [&](const CandidateCause& cause, double deviation) {
+        ScoredFit fit = fitted(evidence, {&cause}, 1.0, {cause.effect == "none" ? 0.0 : 10.0});
+        fit.fit.bench = &bench;
+        fit.fit.coordinates = Eigen::Vector4d(0.0, 0.0, -0.08, 0.0);
+        fit.fit.nominal_covariance = 1e-4 * Eigen::Matrix3d::Identity();
+        fit.far_numbers = {{2, 0.9}};
+        fit.widen_stated_numbers(Eigen::Vector3d::Constant(deviation));
+        return fit.probability_of(fit.far_numbers.front());
+    };
+    EXPECT_GT(wrong_where_known_to(known.drag, 0.005), 0.9);
+    EXPECT_EQ(wrong_where_known_to(known.drag, 0.005), wrong_where_known_to(known.drag, 0.01));
+    EXPECT_LT(wrong_where_known_to(known.drag, 0.05), 0.5);
+    EXPECT_EQ(wrong_where_known_to(known.none, 0.05), 0.9);
+}
+
 TEST(Evidence, BesideFloatingNumbersACauseTooFaintToShowIsAsProbableAsNone) {
     const Known known;
     const std::vector<CandidateCause> causes = {known.none, known.drag, known.gain};
