@@ -96,6 +96,11 @@ class CauseSearch {
     bool is_out_of_time();
     Model& model_of(const Level& level) { return level.bench.is_measured() ? fine_ : rough_model(); }
     Model& rough_model() { return draft_ ? *draft_ : coarse_; }
+    /// A drive's numbers may lead nowhere without its causes, so that a first screening says little there.
+    PromisingStarts& promising_starts() {
+        if (recording_.nominal_is_fitted) promising_starts_.clear();
+        return promising_starts_;
+    }
     void begin_draft(Fits& fits);
     void end_draft(Fits& fits);
     CauseFit fit_on(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
@@ -170,7 +175,8 @@ class CauseSearch {
     Evidence evidence_;
     Level described_;  // as the recording describes the bench
     Level built_;
-    Eigen::VectorXd built_numbers_;  // of the bench as built, beside the best causes of the measured bench
+    PromisingStarts promising_starts_;  // of the causes of both
+    Eigen::VectorXd built_numbers_;     // of the bench as built, beside the best causes of the measured bench
     double nominal_misfit_ = 0.0;
     bool is_sharper_ = false;  // the evidence, because little correlation is left
     int fitted_ = 0;

@@ -356,8 +356,9 @@ void CauseSearch::add_promising_pairs(const Level& level, const Fits& singles, F
     report("screening pairs of causes");
     std::vector<Hypothesis> starts;
     std::size_t tried = 0;
-    for (const ScreenedPair& pair : screen_pairs(rough_model().fitter, level.sought_first(),
-                                                 nominal_hypothesis(level.bench), nothing->fit.weights)) {
+    for (const ScreenedPair& pair :
+         screen_pairs(rough_model().fitter, level.sought_first(), nominal_hypothesis(level.bench),
+                      nothing->fit.weights, promising_starts())) {
         if (is_slowness_of_one_sensor(pair.second->effect, pair.second->variant, *pair.first)) continue;
         if (tried++ == max_fitted_further) break;
         const std::vector<const CandidateCause*> causes = {pair.first, pair.second};
@@ -393,7 +394,7 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
                                                         const SeriesWeights& weights, bool begins_elsewhere) {
     constexpr std::size_t most_promising = 12;
     std::vector<Further> all;
-    for (const Screened& each : screen(rough_model().fitter, causes, present, weights)) {
+    for (const Screened& each : screen(rough_model().fitter, causes, present, weights, &promising_starts())) {
         if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
         all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
     }

@@ -371,7 +371,8 @@ void CauseSearch::try_confusable(const Level& level, Fits& all) {
         const Hypothesis others =
             only_causes(best.hypothesis(), [&](const CandidateCause& other) { return &other != cause; });
         std::vector<Further> rivals;
-        for (const Screened& each : screen(rough_model().fitter, level.causes, others, best.weights))
+        for (const Screened& each :
+             screen(rough_model().fitter, level.causes, others, best.weights, &promising_starts()))
             rivals.push_back({each.cause, with_cause(others, each.cause, each.start), each.sum_of_squares});
         add_confusable(level, *cause, rivals, all);
     }

@@ -3,8 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace capstan::gap {
@@ -50,14 +52,6 @@ Explained explained(Products products, const std::vector<bool>& at_least_none) {
     }
 }
 
-// One cause at one place and of one shape, with a direction for each of its sizes.
-struct Probe {
-    const CandidateCause* cause = nullptr;
-    Eigen::VectorXd start;                    // of the cause's own numbers
-    std::vector<Eigen::VectorXd> directions;  // each with one size present, the others absent
-    std::vector<std::size_t> sizes;           // which of its numbers
-};
-
 // All combinations of the starts of the numbers that are not sizes.
 std::vector<Eigen::VectorXd> shapes_of(const CandidateCause& cause) {
     std::vector<Eigen::VectorXd> grid = {Eigen::VectorXd(0)};
@@ -102,12 +96,19 @@ void add_probes(const CandidateCause& cause, std::vector<Probe>& probes) {
     }
 }
 
-std::vector<Probe> probes_of(std::span<const CandidateCause> causes, const Hypothesis& present) {
+std::vector<Probe> probes_of(std::span<const CandidateCause> causes, const Hypothesis& present,
+                             const PromisingStarts& promising) {
     std::vector<Probe> probes;
     for (const CandidateCause& cause : causes) {
-        if (cause.effect != "none" &&
-            std::find(present.causes.begin(), present.causes.end(), &cause) == present.causes.end())
+        if (cause.effect == "none" ||
+            std::find(present.causes.begin(), present.causes.end(), &cause) != present.causes.end())
+            continue;
+        const auto known = promising.find(&cause);
+        if (known == promising.end()) {
             add_probes(cause, probes);
+        } else {
+            std::copy(known->second.begin(), known->second.end(), std::back_inserter(probes));
+        }
     }
     return probes;
 }
@@ -220,6 +221,26 @@ std::vector<Screened> screened(const CauseFitter& fitter, std::span<const Probe>
     return all;
 }
 
+// `screened`: one for each probe. The probes of a cause follow one another. Of the sizes at which an inertia
+// rings and the periods of a ripple, beside other causes too, the best are among the first.
+void keep_promising(const std::vector<Probe>& probes, const std::vector<Screened>& screened,
+                    PromisingStarts& promising) {
+    constexpr std::size_t many = 20;
+    constexpr std::size_t kept = 8;
+    for (std::size_t first = 0, end = 0; first < probes.size(); first = end) {
+        while (end < probes.size() && probes[end].cause == probes[first].cause) ++end;
+        if (end - first <= many) continue;
+        std::vector<std::size_t> order(end - first);
+        std::iota(order.begin(), order.end(), first);
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return screened[a].sum_of_squares < screened[b].sum_of_squares;
+        });
+        order.resize(kept);
+        std::sort(order.begin(), order.end());
+        for (const std::size_t each : order) promising[probes[first].cause].push_back(probes[each]);
+    }
+}
+
 void sort_by_promise(std::vector<Screened>& all) {
     std::stable_sort(all.begin(), all.end(), [](const Screened& a, const Screened& b) {
         return a.sum_of_squares < b.sum_of_squares;
@@ -229,9 +250,14 @@ void sort_by_promise(std::vector<Screened>& all) {
 }  // namespace
 
 std::vector<Screened> screen(const CauseFitter& fitter, std::span<const CandidateCause> causes,
-                             const Hypothesis& present, const SeriesWeights& weights) {
+                             const Hypothesis& present, const SeriesWeights& weights,
+                             PromisingStarts* promising) {
+    static const PromisingStarts none;
+    const std::vector<Probe> probes = probes_of(causes, present, promising != nullptr ? *promising : none);
+    std::vector<Screened> all = screened(fitter, probes, present, weights);
+    if (promising != nullptr) keep_promising(probes, all, *promising);
     std::vector<Screened> best;
-    for (Screened& each : screened(fitter, probes_of(causes, present), present, weights)) {
+    for (Screened& each : all) {
         if (best.empty() || best.back().cause != each.cause) {
             best.push_back(std::move(each));
         } else if (each.sum_of_squares < best.back().sum_of_squares) {
@@ -244,14 +270,15 @@ std::vector<Screened> screen(const CauseFitter& fitter, std::span<const Candidat
 
 std::vector<Screened> screen_each_start(const CauseFitter& fitter, const CandidateCause& cause,
                                         const Hypothesis& present, const SeriesWeights& weights) {
-    std::vector<Screened> all = screened(fitter, probes_of({&cause, 1}, present), present, weights);
+    std::vector<Screened> all = screened(fitter, probes_of({&cause, 1}, present, {}), present, weights);
     sort_by_promise(all);
     return all;
 }
 
 std::vector<ScreenedPair> screen_pairs(const CauseFitter& fitter, std::span<const CandidateCause> causes,
-                                       const Hypothesis& present, const SeriesWeights& weights) {
-    const std::vector<Probe> probes = probes_of(causes, present);
+                                       const Hypothesis& present, const SeriesWeights& weights,
+                                       const PromisingStarts& promising) {
+    const std::vector<Probe> probes = probes_of(causes, present, promising);
     const LinearModel model(fitter, probes, present, weights);
     std::map<std::pair<const CandidateCause*, const CandidateCause*>, ScreenedPair> best;
     for (std::size_t i = 0; i < probes.size(); ++i) {

@@ -126,6 +126,36 @@ TEST(Screening, PutsTheStartWithTheTrueNumberOfPeriodsFirst) {
     EXPECT_LT(screened.front().sum_of_squares, 0.5 * screened[1].sum_of_squares);
 }
 
+// Of many numbers of periods only the most promising are screened again, beside another cause.
+TEST(Screening, KeepsTheTrueNumberOfPeriodsAmongThePromisingStarts) {
+    BenchNumbers numbers;
+    numbers.effects.of<MotorCogging>() = {0.02, -0.01, 6.0};
+    numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 2.0;
+    const Recording recording = exact_session(numbers, coarse_twin);
+    const CauseFitter fitter(recording, coarse_twin, 1);
+    const std::vector<CandidateCause> causes = only_named(recording, {"motor_cogging", "viscous_friction"});
+    const auto cogging = std::find_if(causes.begin(), causes.end(), [](const CandidateCause& cause) {
+        return cause.effect == "motor_cogging";
+    });
+    const auto start_of_cogging = [&](const std::vector<Screened>& screened) {
+        const auto found = std::find_if(screened.begin(), screened.end(),
+                                        [&](const Screened& each) { return each.cause == &*cogging; });
+        return found == screened.end() ? Eigen::VectorXd() : found->start;
+    };
+    PromisingStarts promising;
+    screen(fitter, causes, nominal, {}, &promising);
+    ASSERT_EQ(promising.size(), 1u);
+    EXPECT_LT(promising.at(&*cogging).size(), screen_each_start(fitter, *cogging, nominal, {}).size() / 2);
+    const auto drag = std::find_if(causes.begin(), causes.end(), [](const CandidateCause& cause) {
+        return cause.effect != "motor_cogging";
+    });
+    Hypothesis present{{&*drag}, Eigen::VectorXd::Zero(nominal_coordinates + 1)};
+    present.coordinates[nominal_coordinates] = 1.0;
+    EXPECT_EQ(start_of_cogging(screen(fitter, causes, present, {}, &promising)),
+              start_of_cogging(screen(fitter, causes, present)));
+    EXPECT_EQ(promising.size(), 1u);
+}
+
 // Half a degree of freedom: drag cannot be negative, so a bench with too little of it gains nothing from it.
 TEST(Screening, ASizeThatCannotBeNegativeExplainsNothingTheOtherWay) {
     Recording recording = exact_session({}, coarse_twin);
