@@ -96,7 +96,8 @@ class CauseSearch {
     bool is_out_of_time();
     Model& model_of(const Level& level) { return level.bench.is_measured() ? fine_ : rough_model(); }
     Model& rough_model() { return draft_ ? *draft_ : coarse_; }
-    /// A drive's numbers may lead nowhere without its causes, so that a first screening says little there.
+    /// Those of the first screening. Of a drive there are none: its numbers may lead nowhere without its
+    /// causes, so that the first screening tells little.
     PromisingStarts& promising_starts() {
         if (recording_.nominal_is_fitted) promising_starts_.clear();
         return promising_starts_;

@@ -221,8 +221,8 @@ std::vector<Screened> screened(const CauseFitter& fitter, std::span<const Probe>
     return all;
 }
 
-// `screened`: one for each probe. The probes of a cause follow one another. Of the sizes at which an inertia
-// rings and the periods of a ripple, beside other causes too, the best are among the first.
+// `screened`: one for each probe. The probes of a cause follow one another. An inertia rings at one frequency
+// and a ripple has one number of periods, whatever acts beside them, so that a few starts are enough later.
 void keep_promising(const std::vector<Probe>& probes, const std::vector<Screened>& screened,
                     PromisingStarts& promising) {
     constexpr std::size_t many = 20;
