@@ -53,6 +53,9 @@ inline bool is_greater(double a, double b) {
 inline bool either(bool a, bool b) {
     return a || b;
 }
+inline bool is_not(bool condition) {
+    return !condition;
+}
 inline bool all(bool condition) {
     return condition;
 }

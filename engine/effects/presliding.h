@@ -65,22 +65,29 @@ CAPSTAN_LAW Bristle<Number> bristle_after(const PreslidingLaw<Number>& law, Numb
     const auto is_straight = is_equal(law.exponent, zero);
     if (all(is_straight)) return straight;
 
-    const Number decayed = gap * exp(negative(path));
-    const Bristle<Number> exponential = {way * (one - decayed), quotient(decayed, law.length_m)};
     const auto is_exponential = is_equal(law.exponent, one);
-    const Bristle<Number> common = choose(is_straight, straight, exponential);
-    if (all(either(is_straight, is_exponential))) return common;
+    Bristle<Number> common = straight;
+    if (!all(is_not(is_exponential))) {
+        const Number decayed = gap * exp(negative(path));
+        common = choose(is_straight, straight,
+                        Bristle<Number>{way * (one - decayed), quotient(decayed, law.length_m)});
+    }
+    const auto is_common = either(is_straight, is_exponential);
+    if (all(is_common)) return common;
 
-    // gap^(1 - exponent) falls linearly along the path.
+    // gap^(1 - exponent) falls linearly along the path. The gap is at most 2, and so is that power of it.
     const Number power = select(is_exponential, one, one - law.exponent);
+    const Bristle<Number> full = {way, zero};
+    if (all(either(is_common, is_greater(power * path, constant<Number>(2.0)))))
+        return choose(is_common, common, full);
     const Number left_power = pow(gap, power) - power * path;
     const auto is_left = is_greater(left_power, zero);
     const Number positive_power = select(is_left, left_power, one);
     const Number left = pow(positive_power, one / power);
     const Number left_to_exponent = quotient(left, positive_power);  // of left and left^(1 - exponent)
-    const Bristle<Number> general = {select(is_left, way * (one - left), way),
-                                     select(is_left, quotient(left_to_exponent, law.length_m), zero)};
-    return choose(either(is_straight, is_exponential), common, general);
+    const Bristle<Number> general =
+        choose(is_left, Bristle<Number>{way * (one - left), quotient(left_to_exponent, law.length_m)}, full);
+    return choose(is_common, common, general);
 }
 
 CAPSTAN_LAWS_END

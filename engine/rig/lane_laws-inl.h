@@ -142,6 +142,10 @@ HWY_INLINE Condition either(Condition a, Condition b) {
     return hn::Or(a, b);
 }
 template <class Condition>
+HWY_INLINE Condition is_not(Condition condition) {
+    return hn::Not(condition);
+}
+template <class Condition>
 HWY_INLINE bool all(Condition condition) {
     return hn::AllTrue(typename OfCondition<Condition>::Type(), condition);
 }
