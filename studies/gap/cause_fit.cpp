@@ -249,8 +249,8 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     bool holds = false;
     for (int round = 0; round < max_rounds; ++round) {
         const bool is_last = holds || round + 1 == max_rounds;
-        fit = is_last ? fit_with(weights, from, options, max_iterations, fine_step)
-                      : fit_with(weights, from, options, rough_iterations, rough_step);
+        fit = is_last || options.is_close ? fit_with(weights, from, options, max_iterations, fine_step)
+                                          : fit_with(weights, from, options, rough_iterations, rough_step);
         evaluations += fit.evaluations;
         if (is_last || fit.sum_of_squares > not_converged * options.pruned_sum_of_squares) break;
         from.coordinates = fit.coordinates;
@@ -258,6 +258,7 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
         holds = std::equal(next.begin(), next.end(), weights.begin(), [](double one, double other) {
             return std::max(one, other) < clearly * std::min(one, other);
         });
+        if (holds && options.is_close) break;
         if (!holds) weights = next;
     }
     fit.evaluations = evaluations;
@@ -268,7 +269,47 @@ CauseFit CauseFitter::fit_close_to(const Hypothesis& start, const FitOptions& op
     return fit_with({}, start, options, max_iterations, fine_step);
 }
 
-CauseFit CauseFitter::rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights) const {
+WideDerivatives CauseFitter::wide_derivatives(const Hypothesis& at) const {
+    std::vector<Hypothesis> moved = {at};
+    for (Eigen::Index k = 0; k < at.coordinates.size(); ++k) {
+        moved.push_back(at);
+        moved.back().coordinates[k] += rough_step;
+    }
+    const Eigen::MatrixXd values = data_residuals(moved);
+    return {at.coordinates, values.col(0),
+            (values.rightCols(values.cols() - 1).colwise() - values.col(0)) / rough_step};
+}
+
+// What the numbers of a set do hardly changes with a further cause beside them. So only that cause's own
+// derivatives are computed; a search corrects the others along its steps, and computes them where they lead
+// nowhere.
+LeastSquaresFit CauseFitter::beside_known(const Hypothesis& start, const SeriesWeights& weights,
+                                          const WideDerivatives& known) const {
+    const Eigen::Index count = start.coordinates.size();
+    const Eigen::Index own = count - known.at.size();
+    Eigen::MatrixXd tried = start.coordinates.replicate(1, 1 + own);
+    for (Eigen::Index k = 0; k < own; ++k) tried(known.at.size() + k, 1 + k) += rough_step;
+    const Eigen::MatrixXd values = residuals(start, tried);
+    LeastSquaresFit fit;
+    fit.parameters = start.coordinates;
+    fit.residuals = values.col(0);
+    fit.jacobian.resize(values.rows(), count);
+    fit.jacobian.topLeftCorner(known.jacobian.rows(), known.at.size()) = known.jacobian;
+    const Eigen::VectorXd priors = fit.residuals.tail(count);
+    for (Eigen::Index k = 0; k < known.at.size(); ++k) {
+        Eigen::VectorXd moved = start.coordinates;
+        moved[k] += rough_step;
+        fit.jacobian.col(k).tail(count) = (prior_residuals(start, moved) - priors) / rough_step;
+    }
+    fit.jacobian.rightCols(own) = (values.rightCols(own).colwise() - fit.residuals) / rough_step;
+    apply(weights, fit.residuals);
+    apply(weights, fit.jacobian);
+    fit.evaluations = static_cast<int>(1 + own);
+    return fit;
+}
+
+CauseFit CauseFitter::rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights,
+                                const WideDerivatives& known) const {
     constexpr int few_iterations = 3;
     constexpr std::size_t max_continued = 2;
     int evaluations = 0;
@@ -290,7 +331,15 @@ CauseFit CauseFitter::rough_fit(std::span<const Hypothesis> starts, const Series
     }
     std::optional<CauseFit> least;
     for (const Hypothesis& from : sized) {
-        CauseFit fit = fit_with(weights, from, {}, few_iterations, rough_step);
+        LeastSquaresOptions search = search_from(from);
+        search.difference_step = rough_step;
+        search.max_iterations = few_iterations;
+        const ResidualFunction function = weighted(from, weights, {});
+        const bool is_known = known.at.size() > 0 && from.coordinates.head(known.at.size()) == known.at;
+        CauseFit fit =
+            completed(from, weights,
+                      is_known ? fit_least_squares(function, beside_known(from, weights, known), search)
+                               : fit_least_squares(function, from.coordinates, search));
         evaluations += fit.evaluations;
         Eigen::VectorXd weighted = fit.residuals;
         apply(weights, weighted);

@@ -81,6 +81,13 @@ struct CauseFit {
     Hypothesis hypothesis() const { return {causes, coordinates, bench}; }
 };
 
+/// How the residuals of the data change with all coordinates of a hypothesis, over wide steps.
+struct WideDerivatives {
+    Eigen::VectorXd at;
+    Eigen::VectorXd residuals;  // of the data, there, without weights
+    Eigen::MatrixXd jacobian;   // rows of the data x coordinates, without weights
+};
+
 /// The rms change of the clearest channel when one cause or number alone is removed, in units of noise and
 /// floor. A wrong nominal number is compared with the nominal bench; a cause that lets one go far by the
 /// smaller of two changes, without and with that number.
@@ -111,6 +118,8 @@ class CauseFitter {
         /// Otherwise a channel with little noise decides alone, although the model's error is larger, and the
         /// priors count for nothing.
         bool balanced = false;
+        /// The start is where a fit with a coarser model ended: a search begins with small steps there.
+        bool is_close = false;
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
     /// The same without weights, from where a fit with a coarser model ended.
@@ -118,8 +127,11 @@ class CauseFitter {
     /// The same causes with the same weights, fitted without each part in turn, from the numbers of `all`.
     std::vector<CauseFit> fits_without(const CauseFit& all, std::span<const LeftOut> parts) const;
     /// A few rough steps of a search, everything free, with these weights, from the more promising of the
-    /// starts: at least one. The sum of squares has weights.
-    CauseFit rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights) const;
+    /// starts: at least one. The sum of squares has weights. A start that has its first coordinates where
+    /// derivatives are `known` begins with these.
+    CauseFit rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights,
+                       const WideDerivatives& known = {}) const;
+    WideDerivatives wide_derivatives(const Hypothesis& at) const;
     /// Residuals of the data, a column a hypothesis.
     Eigen::MatrixXd data_residuals(std::span<const Hypothesis> hypotheses,
                                    std::optional<LeftOut> left_out = {}) const;
@@ -175,6 +187,8 @@ class CauseFitter {
     ResidualFunction weighted(const Hypothesis& hypothesis, const SeriesWeights& weights,
                               std::optional<LeftOut> left_out) const;
     CauseFit fit_over_ripples(const Hypothesis& start, const FitOptions& options) const;
+    LeastSquaresFit beside_known(const Hypothesis& start, const SeriesWeights& weights,
+                                 const WideDerivatives& known) const;
     CauseFit fit_with(const SeriesWeights& weights, const Hypothesis& start, const FitOptions& options,
                       int iterations, double difference_step) const;
     CauseFit completed(const Hypothesis& hypothesis, const SeriesWeights& weights,

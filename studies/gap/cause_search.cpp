@@ -102,7 +102,7 @@ void sort_by_evidence(std::vector<ScoredFit>& fits) {
 
 // A search is pruned if its linear model promises more than this many times the best misfit so far.
 double CauseSearch::pruned_at(const Fits& fits) {
-    constexpr double factor = 2.5;
+    constexpr double factor = 1.6;
     double least = std::numeric_limits<double>::infinity();
     for (const ScoredFit& each : fits) least = std::min(least, each.fit.sum_of_squares);
     return factor * least;
@@ -151,11 +151,7 @@ FoundCauses CauseSearch::run() & {
     found.fits = search_one(described_);
     bool built = is_measured && should_be_taken_as_built(found.fits.front());
     if (built) {
-        // Two causes may look like one that asks for far numbers, and so may one that is sought last.
-        Fits pairs = larger_sets(described_, found.fits);
-        std::move(pairs.begin(), pairs.end(), std::back_inserter(found.fits));
-        sort_by_evidence(found.fits);
-        try_without_idle_causes(described_, found.fits);
+        // A cause that is sought last may look like one that asks for far numbers.
         try_last(described_, found.fits);
     } else {
         search_several(described_, found.fits);
@@ -167,10 +163,10 @@ FoundCauses CauseSearch::run() & {
     if (built) {
         evidence_.set_below_noise_weight(below_noise_weight_beside_floating_numbers);
         for (ScoredFit& each : found.fits) each.evidence = evidence_.of(each);
-        Fits rougher = search_one(built_);
-        search_several(built_, rougher);
-        rougher = fitted_again(fine_, rougher, max_fitted_finely);
-        try_fewer_finely(rougher);
+        Fits coarse = search_one(built_);
+        search_several(built_, coarse);
+        Fits rougher = fitted_again(fine_, coarse, max_fitted_finely);
+        try_fewer_finely(coarse, rougher);
         const ScoredFit best = rougher.front();
         std::move(rougher.begin(), rougher.end(), std::back_inserter(found.fits));
         sort_by_evidence(found.fits);
@@ -253,6 +249,7 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     // Where the numbers of an undescribed bench lead nowhere without the right cause, the screening beside
     // them says nothing, and every cause is fitted.
     const bool is_told = !is_undescribed(level.bench) || leads_somewhere;
+    constexpr std::size_t always_fitted = 2;  // each is tried with a further cause
     const std::size_t max_count = is_told ? max_fitted : all.size();
     // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal
     // numbers; and so is a cause that the values themselves show.
@@ -260,7 +257,8 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     std::size_t fitted = 0;
     for (const Further& each : all) {
         const bool is_always_fitted = each.cause->numbers.empty() || each.cause->is_seen;
-        if (fitted == max_count && !is_always_fitted) continue;
+        if ((fitted == max_count || (fitted >= always_fitted && each.is_behind)) && !is_always_fitted)
+            continue;
         if (!is_always_fitted) ++fitted;
         chosen.push_back(each);
     }
@@ -402,8 +400,9 @@ ScoredFit CauseSearch::fitted(const Level& level, const Hypothesis& start,
     return scored(model_of(level), fit_on(level, start, options));
 }
 
-CauseFit CauseSearch::roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights) {
-    CauseFit rough = rough_model().fitter.rough_fit(starts, weights);
+CauseFit CauseSearch::roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights,
+                                     const WideDerivatives& known) {
+    CauseFit rough = rough_model().fitter.rough_fit(starts, weights, known);
     evaluations_ += rough.evaluations;
     return rough;
 }
@@ -473,6 +472,10 @@ void CauseSearch::weigh(Model& model, ScoredFit& fit) {
     }
     if (fit.has_unknown_scales) fit.beside = beside_own_scales(model, fit.fit);
     fit.evidence = evidence_.of(fit);
+    if (fit.fit.bench == &built_.bench && &model == &coarse_ && fit.evidence > best_evidence_) {
+        best_evidence_ = fit.evidence;
+        best_leaves_ = fit.fit.residuals;
+    }
 }
 
 ScoredFit CauseSearch::scored(Model& model, CauseFit fit) {

@@ -62,6 +62,10 @@ class CauseSearch {
     static constexpr std::size_t max_after_draft = 9;     // sets that are fitted again
     // Where the numbers of an undescribed bench leave more than this, they lead nowhere without its causes.
     static constexpr double leads_nowhere = 10.0;
+    // A set that is so far behind the best one in evidence after a few steps of a search does not lead in the
+    // end, nor does one of which the linear screening says the second.
+    static constexpr double far_behind = 30.0;
+    static constexpr double hopeless = 100.0;
     // A refinement that gains less evidence than this ends.
     static constexpr double clear_gain = 1.0;
     // What is known of the bench, and what could be wrong with it.
@@ -80,6 +84,8 @@ class CauseSearch {
         const CandidateCause* cause = nullptr;
         Hypothesis start;
         double sum_of_squares = 0.0;
+        /// A few steps of a search show that it will not lead.
+        bool is_behind = false;
     };
     struct Model {
         Model(const Recording& recording, const EffectsTwinOptions& options, int threads);
@@ -105,7 +111,8 @@ class CauseSearch {
     void begin_draft(Fits& fits);
     void end_draft(Fits& fits);
     CauseFit fit_on(const Level& level, const Hypothesis& start, CauseFitter::FitOptions options);
-    CauseFit roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights);
+    CauseFit roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights,
+                            const WideDerivatives& known = {});
     ScoredFit measured(const Model& model, CauseFit fit) const;
     void weigh(Model& model, ScoredFit& fit);
     Marginals beside_own_scales(const Model& model, const CauseFit& fit) const;
@@ -131,7 +138,7 @@ class CauseSearch {
     void search_several(const Level& level, Fits& all);
     void try_without_idle_causes(const Level& level, Fits& all);
     bool try_fewer(const Level& level, Fits& all);
-    void try_fewer_finely(Fits& all);
+    void try_fewer_finely(const Fits& coarse, Fits& all);
     bool try_more(const Level& level, Fits& all);
     static const ScoredFit* with_one_cause_fewer(const Fits& all);
     bool replace_the_weakest(const Level& level, Fits& all);
@@ -152,8 +159,11 @@ class CauseSearch {
     std::vector<Further> screened(const Level& level, std::span<const CandidateCause> causes,
                                   const Hypothesis& present, const SeriesWeights& weights,
                                   bool begins_elsewhere);
+    double behind_the_best(double sum_of_squares, const SeriesWeights& weights) const;
+    void mark_those_behind(const Hypothesis& present, const SeriesWeights& weights,
+                           const WideDerivatives& there, std::vector<Further>& all);
     void fit_roughly(std::vector<Further>& all, const SeriesWeights& weights,
-                     std::span<const Eigen::VectorXd> elsewhere);
+                     std::span<const Eigen::VectorXd> elsewhere, const WideDerivatives& known = {});
     void add_from_elsewhere(const Level& level, std::span<const Further> some, const SeriesWeights& weights,
                             Fits& singles);
     void add_confusable(const Level& level, const CandidateCause& confused,
@@ -179,6 +189,10 @@ class CauseSearch {
     PromisingStarts promising_starts_;  // of the causes of both
     Eigen::VectorXd built_numbers_;     // of the bench as built, beside the best causes of the measured bench
     double nominal_misfit_ = 0.0;
+    // The best fit so far of the bench as built by the rough model: what it leaves of the data, then the
+    // priors.
+    Eigen::VectorXd best_leaves_;
+    double best_evidence_ = -std::numeric_limits<double>::infinity();
     bool is_sharper_ = false;  // the evidence, because little correlation is left
     int fitted_ = 0;
     // Fits that are made side by side count and look at the time.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -27,29 +28,6 @@ bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
             return true;
     }
     return false;
-}
-
-// Those without a cause, whose misfit limits how visible one can be, and the best others: of several starts
-// with the same causes the best. The best single cause is one of them, because another model may show that
-// those beside it do nothing. A set that is `far_behind` the best one in evidence stays behind it.
-std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_sets, double far_behind) {
-    const double tenable = fits.front().evidence - far_behind;
-    std::stable_partition(fits.begin(), fits.end(),
-                          [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
-    std::vector<Hypothesis> best;
-    bool has_single = false;
-    for (auto each = fits.begin(); each != fits.end(); ++each) {
-        const bool is_nothing = each->fit.causes.front()->effect == "none";
-        const bool is_single = each->fit.causes.size() == 1 && !is_nothing;
-        const bool is_needed = is_nothing || (is_single && !has_single);
-        if (!is_needed && (best.size() >= max_sets || each->evidence < tenable)) continue;
-        has_single |= is_single;
-        const auto has_same_causes = [&](const ScoredFit& other) {
-            return are_same_causes(other.fit.causes, each->fit.causes);
-        };
-        if (std::none_of(fits.begin(), each, has_same_causes)) best.push_back(each->fit.hypothesis());
-    }
-    return best;
 }
 
 }  // namespace
@@ -90,46 +68,6 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     }
     if (!level.bench.is_measured()) try_others(level, all);
     try_confusable(level, all);
-}
-
-// The best sets, from where another model led them. Out of time the best one is still fitted.
-CauseSearch::Fits CauseSearch::fitted_again(Model& model, const Fits& fits, std::size_t max_sets) {
-    constexpr std::size_t at_least = 2;  // without a cause, and the best
-    constexpr double far_behind = 10.0;
-    // From the draft to the coarse model the evidence changes more.
-    const std::vector<Hypothesis> best =
-        best_sets(fits, max_sets, &model == &fine_ ? far_behind : std::numeric_limits<double>::infinity());
-    report("fitting the best explanations again");
-    CauseFitter::FitOptions options;
-    options.any_size = false;
-    options.balanced = true;
-    Fits again = made_side_by_side(
-        model, best.size(), [&](std::size_t k) { return model.fitter.fit(best[k], options); }, at_least);
-    sort_by_evidence(again);
-    return again;
-}
-
-// The best set without each of its causes, where the fine model has not seen that. The coarse model skips
-// samples, except where an inertia rings, so that a little inertia may stand for what the others miss.
-void CauseSearch::try_fewer_finely(Fits& all) {
-    while (all.front().fit.causes.size() > 1 && !is_out_of_time()) {
-        const double before = all.front().evidence;
-        std::vector<Hypothesis> fewer = without_each(all.front().fit.hypothesis());
-        std::erase_if(fewer, [&](const Hypothesis& set) {
-            return std::any_of(all.begin(), all.end(), [&](const ScoredFit& each) {
-                return are_same_causes(each.fit.causes, set.causes);
-            });
-        });
-        report("trying fewer causes");
-        CauseFitter::FitOptions options;
-        options.any_size = false;
-        options.balanced = true;
-        Fits made = made_side_by_side(fine_, fewer.size(),
-                                      [&](std::size_t k) { return fine_.fitter.fit(fewer[k], options); });
-        std::move(made.begin(), made.end(), std::back_inserter(all));
-        sort_by_evidence(all);
-        if (all.front().evidence == before) return;
-    }
 }
 
 // Others in the place of a single cause, from where it led the bench's own numbers: where these float widely,
@@ -396,6 +334,7 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
     std::vector<Further> all;
     for (const Screened& each : screen(rough_model().fitter, causes, present, weights, &promising_starts())) {
         if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
+        if (&level == &built_ && behind_the_best(each.sum_of_squares, weights) > hopeless) continue;
         all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
     }
     if (level.bench.is_measured()) return all;
@@ -404,14 +343,49 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
         elsewhere = further_starts(level.bench);
         elsewhere.push_back(nominal_hypothesis(level.bench).coordinates);
     }
-    fit_roughly(all, weights, elsewhere);
+    if (is_undescribed(level.bench)) {
+        fit_roughly(all, weights, elsewhere);
+        return all;
+    }
+    const WideDerivatives there = rough_model().fitter.wide_derivatives(present);
+    fit_roughly(all, weights, elsewhere, there);
+    mark_those_behind(present, weights, there, all);
     return all;
+}
+
+// After a few steps of a search, what a cause leaves tells whether it can still lead. Where nothing is
+// described, the steps begin too far off.
+void CauseSearch::mark_those_behind(const Hypothesis& present, const SeriesWeights& weights,
+                                    const WideDerivatives& there, std::vector<Further>& all) {
+    constexpr double least_gain = 2.0;  // a further cause costs more
+    const CauseFitter& fitter = rough_model().fitter;
+    Eigen::VectorXd left = there.residuals;
+    fitter.apply(weights, left);
+    const double without =
+        left.squaredNorm() + fitter.prior_residuals(present, present.coordinates).squaredNorm();
+    const double least = all.empty() ? without : all.front().sum_of_squares;
+    const double samples = fitter.independent_samples();
+    for (Further& each : all) {
+        each.is_behind =
+            0.5 * samples * std::log(each.sum_of_squares / least) > far_behind ||
+            behind_the_best(each.sum_of_squares, weights) > far_behind ||
+            (!present.causes.empty() && 0.5 * samples * std::log(without / each.sum_of_squares) < least_gain);
+    }
+}
+
+// By how much evidence what is left here, with these weights, is behind what the best fit so far leaves.
+double CauseSearch::behind_the_best(double sum_of_squares, const SeriesWeights& weights) const {
+    const CauseFitter& fitter = coarse_.fitter;
+    if (best_leaves_.size() == 0) return 0.0;
+    Eigen::VectorXd left = best_leaves_;
+    fitter.apply(weights, left);
+    return 0.5 * fitter.independent_samples() * std::log(sum_of_squares / left.squaredNorm());
 }
 
 // A few steps of a search for each, also with these numbers of the bench without other causes; the most
 // promising first.
 void CauseSearch::fit_roughly(std::vector<Further>& all, const SeriesWeights& weights,
-                              std::span<const Eigen::VectorXd> elsewhere) {
+                              std::span<const Eigen::VectorXd> elsewhere, const WideDerivatives& known) {
     parallel_for_each_index(static_cast<int>(all.size()), options_.threads, [&](int index) {
         Further& further = all[static_cast<std::size_t>(index)];
         further.sum_of_squares = std::numeric_limits<double>::infinity();
@@ -421,7 +395,7 @@ void CauseSearch::fit_roughly(std::vector<Further>& all, const SeriesWeights& we
         for (const Eigen::VectorXd& numbers : elsewhere)
             starts.push_back(with_cause({{}, numbers, further.start.bench}, further.cause,
                                         further.start.coordinates.tail(own)));
-        const CauseFit rough = roughly_fitted(starts, weights);
+        const CauseFit rough = roughly_fitted(starts, weights, known);
         further.start = rough.hypothesis();
         further.sum_of_squares = rough.sum_of_squares;
     });
@@ -443,7 +417,7 @@ void CauseSearch::add_sets(const Level& level, std::span<const CandidateCause> c
                        is_part_of(*each.cause, *cause) ||
                        is_slowness_of_one_sensor(each.cause->effect, each.cause->variant, *cause);
             });
-        if (known) continue;
+        if (known || each.is_behind) continue;
         ++further;
         std::vector<const CandidateCause*> set = hypothesis.causes;
         set.push_back(each.cause);

@@ -1,8 +1,9 @@
-// What becomes of a set of causes that was built up one by one: it is refined, weighed by what it leaves, and
-// judged on runs that its fit did not see.
+// What becomes of a set of causes that was built up one by one: it is refined, fitted to every sample,
+// weighed by what it leaves, and judged on runs that its fit did not see.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -57,7 +58,78 @@ Hypothesis with_usual_numbers(Hypothesis hypothesis) {
     return hypothesis;
 }
 
+// Those without a cause, whose misfit limits how visible one can be, and the best others: of several starts
+// with the same causes the best. The best single cause is one of them, because another model may show that
+// those beside it do nothing. A set that is `behind` the best one in evidence stays behind it.
+std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_sets, double behind) {
+    const double tenable = fits.front().evidence - behind;
+    std::stable_partition(fits.begin(), fits.end(),
+                          [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
+    std::vector<Hypothesis> best;
+    bool has_single = false;
+    for (auto each = fits.begin(); each != fits.end(); ++each) {
+        const bool is_nothing = each->fit.causes.front()->effect == "none";
+        const bool is_single = each->fit.causes.size() == 1 && !is_nothing;
+        const bool is_needed = is_nothing || (is_single && !has_single);
+        if (!is_needed && (best.size() >= max_sets || each->evidence < tenable)) continue;
+        has_single |= is_single;
+        const auto has_same_causes = [&](const ScoredFit& other) {
+            return are_same_causes(other.fit.causes, each->fit.causes);
+        };
+        if (std::none_of(fits.begin(), each, has_same_causes)) best.push_back(each->fit.hypothesis());
+    }
+    return best;
+}
+
 }  // namespace
+
+// The best sets, from where another model led them. Out of time the best one is still fitted.
+CauseSearch::Fits CauseSearch::fitted_again(Model& model, const Fits& fits, std::size_t max_sets) {
+    constexpr std::size_t at_least = 2;  // without a cause, and the best
+    constexpr double behind = 10.0;
+    // From the draft to the coarse model the evidence changes more.
+    const std::vector<Hypothesis> best =
+        best_sets(fits, max_sets, &model == &fine_ ? behind : std::numeric_limits<double>::infinity());
+    report("fitting the best explanations again");
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    options.balanced = true;
+    options.is_close = &model == &fine_ && !is_undescribed(*fits.front().fit.bench);
+    Fits again = made_side_by_side(
+        model, best.size(), [&](std::size_t k) { return model.fitter.fit(best[k], options); }, at_least);
+    sort_by_evidence(again);
+    return again;
+}
+
+// The best set without each of its causes, where the fine model has not seen that. The coarse model skips
+// samples, except where an inertia rings, so that a little inertia may stand for what the others miss.
+void CauseSearch::try_fewer_finely(const Fits& coarse, Fits& all) {
+    const auto is_behind = [&](const Hypothesis& set) {
+        const auto same = std::find_if(coarse.begin(), coarse.end(), [&](const ScoredFit& each) {
+            return each.fit.bench == set.bench && are_same_causes(each.fit.causes, set.causes);
+        });
+        return same != coarse.end() && same->evidence < coarse.front().evidence - far_behind;
+    };
+    while (all.front().fit.causes.size() > 1 && !is_out_of_time()) {
+        const double before = all.front().evidence;
+        std::vector<Hypothesis> fewer = without_each(all.front().fit.hypothesis());
+        std::erase_if(fewer, [&](const Hypothesis& set) {
+            return is_behind(set) || std::any_of(all.begin(), all.end(), [&](const ScoredFit& each) {
+                       return are_same_causes(each.fit.causes, set.causes);
+                   });
+        });
+        report("trying fewer causes");
+        CauseFitter::FitOptions options;
+        options.any_size = false;
+        options.balanced = true;
+        options.is_close = true;
+        Fits made = made_side_by_side(fine_, fewer.size(),
+                                      [&](std::size_t k) { return fine_.fitter.fit(fewer[k], options); });
+        std::move(made.begin(), made.end(), std::back_inserter(all));
+        sort_by_evidence(all);
+        if (all.front().evidence == before) return;
+    }
+}
 
 // On a bench of unknown geometry a set that was built up cause by cause may hold one that stands for
 // another, and so may a number of the bench.
