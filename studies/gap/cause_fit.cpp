@@ -280,7 +280,7 @@ WideDerivatives CauseFitter::wide_derivatives(const Hypothesis& at) const {
             (values.rightCols(values.cols() - 1).colwise() - values.col(0)) / rough_step};
 }
 
-// What the numbers of a set do hardly changes with a further cause beside them. So only that cause's own
+// A further cause changes little of what the other numbers of a set do. So only that cause's own
 // derivatives are computed; a search corrects the others along its steps, and computes them where they lead
 // nowhere.
 LeastSquaresFit CauseFitter::beside_known(const Hypothesis& start, const SeriesWeights& weights,

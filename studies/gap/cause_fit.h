@@ -81,7 +81,8 @@ struct CauseFit {
     Hypothesis hypothesis() const { return {causes, coordinates, bench}; }
 };
 
-/// How the residuals of the data change with all coordinates of a hypothesis, over wide steps.
+/// How the residuals of the data change with all coordinates of a hypothesis, over steps that are wide
+/// enough to lead over the ripples that fronts make.
 struct WideDerivatives {
     Eigen::VectorXd at;
     Eigen::VectorXd residuals;  // of the data, there, without weights
@@ -131,6 +132,7 @@ class CauseFitter {
     /// derivatives are `known` begins with these.
     CauseFit rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights,
                        const WideDerivatives& known = {}) const;
+    /// Takes a simulation more than the hypothesis has coordinates.
     WideDerivatives wide_derivatives(const Hypothesis& at) const;
     /// Residuals of the data, a column a hypothesis.
     Eigen::MatrixXd data_residuals(std::span<const Hypothesis> hypotheses,
@@ -187,6 +189,7 @@ class CauseFitter {
     ResidualFunction weighted(const Hypothesis& hypothesis, const SeriesWeights& weights,
                               std::optional<LeftOut> left_out) const;
     CauseFit fit_over_ripples(const Hypothesis& start, const FitOptions& options) const;
+    /// A search that begins with the derivatives of all numbers but the last cause's.
     LeastSquaresFit beside_known(const Hypothesis& start, const SeriesWeights& weights,
                                  const WideDerivatives& known) const;
     CauseFit fit_with(const SeriesWeights& weights, const Hypothesis& start, const FitOptions& options,

@@ -100,7 +100,8 @@ void sort_by_evidence(std::vector<ScoredFit>& fits) {
                      [](const ScoredFit& a, const ScoredFit& b) { return a.evidence > b.evidence; });
 }
 
-// A search is pruned if its linear model promises more than this many times the best misfit so far.
+// A search is pruned if its linear model promises more than this many times the best misfit so far: with 300
+// independent samples, 70 units of evidence.
 double CauseSearch::pruned_at(const Fits& fits) {
     constexpr double factor = 1.6;
     double least = std::numeric_limits<double>::infinity();

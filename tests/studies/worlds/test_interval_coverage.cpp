@@ -1,7 +1,6 @@
 // What a study says of the error to expect, against what many worlds say.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -46,10 +45,11 @@ void expect_that_intervals_cover(int studies, int many) {
                 studies, 100.0 * held / studies, chosen.size());
     const double three_deviations = 3.0 * std::sqrt(0.95 * 0.05 / studies);
     EXPECT_GT(held, (0.95 - three_deviations) * studies);
-    EXPECT_LE(held, std::min(1.0, 0.95 + three_deviations) * studies);
+    EXPECT_LT(held, (0.95 + three_deviations) * studies);
     EXPECT_EQ(worse_than_none, 0);
 }
 
+// Of so few studies only an interval that is too narrow shows.
 TEST(IntervalCoverage, TheMonteCarloIntervalHoldsTheExpectedErrorAboutAsOftenAsItSays) {
     expect_that_intervals_cover(60, 1000);
 }
