@@ -161,6 +161,7 @@ Eigen::MatrixXd CauseFitter::residuals(const Hypothesis& hypothesis, const Eigen
 
 // E53. Where the scale of a channel's error is not known, less than noise and floor is one, too (E54).
 SeriesWeights CauseFitter::balancing_weights(const Eigen::VectorXd& residuals) const {
+    if (weighs_blocks_) return block_weights(residuals);
     const double least = recording_.nominal_is_fitted ? 1e-6 : 1.0;
     const std::map<std::size_t, double> left = mean_squares(residuals);
     SeriesWeights weights;
@@ -170,6 +171,46 @@ SeriesWeights CauseFitter::balancing_weights(const Eigen::VectorXd& residuals) c
         weights.push_back(std::sqrt(samples_of_a_row / std::max(least, left.at(series.channel))));
     }
     return weights;
+}
+
+std::map<std::size_t, double> CauseFitter::block_mean_squares(const Eigen::VectorXd& residuals) const {
+    const std::size_t rows = rows_of_a_block(recording_.sample_rate_Hz, twin_.stride());
+    std::map<std::size_t, double> squares;
+    std::map<std::size_t, double> blocks;
+    for (const ResidualSeries& series : series_) {
+        for (std::size_t row = 0; row < series.rows; row += rows) {
+            const std::size_t end = std::min(row + rows, series.rows);
+            const auto determined = static_cast<double>(series.determined_rows(row, end));
+            if (determined == 0.0) continue;
+            const double mean = residuals
+                                    .segment(static_cast<Eigen::Index>(series.first_row + row),
+                                             static_cast<Eigen::Index>(end - row))
+                                    .sum() /
+                                determined;
+            squares[series.channel] += mean * mean;
+            blocks[series.channel] += 1.0;
+        }
+    }
+    for (auto& [channel, mean_square] : squares) mean_square /= blocks.at(channel);
+    return squares;
+}
+
+// E69. A row counts as the part of its block that it is.
+SeriesWeights CauseFitter::block_weights(const Eigen::VectorXd& residuals) const {
+    const auto rows = static_cast<double>(rows_of_a_block(recording_.sample_rate_Hz, twin_.stride()));
+    const std::map<std::size_t, double> left = block_mean_squares(residuals);
+    SeriesWeights weights;
+    for (const ResidualSeries& series : series_) {
+        const double least =
+            smallest_floor * smallest_floor * (1.0 - series.noise_part) + series.noise_part / rows;
+        weights.push_back(prior_weight_ / std::sqrt(rows * std::max(least, left.at(series.channel))));
+    }
+    return weights;
+}
+
+double CauseFitter::behind(double sum_of_squares, double other) const {
+    if (weighs_blocks_) return 0.5 * (sum_of_squares - other) / (prior_weight_ * prior_weight_);
+    return 0.5 * independent_samples() * std::log(sum_of_squares / other);
 }
 
 void CauseFitter::apply(const SeriesWeights& weights, Eigen::Ref<Eigen::MatrixXd> residuals) const {

@@ -36,6 +36,14 @@ struct ResidualSeries {
 /// The correlation time of residuals, as long as nothing is known of them.
 inline constexpr double usual_correlation_time_s = 0.25;
 
+/// Rows of a series in that time, at least one.
+std::size_t rows_of_a_block(double sample_rate_Hz, int stride);
+
+/// Of the model's own error, as parts of the floor. The floor is an upper value, known to a factor of about
+/// two.
+inline constexpr double smallest_floor = 0.5;
+inline constexpr double largest_floor = 1.4;
+
 /// The series of every channel that the twin predicts, run by run.
 std::vector<ResidualSeries> residual_series(const Recording& recording, const EffectsTwin& twin);
 
@@ -153,6 +161,8 @@ class CauseFitter {
     double misfit(const CauseFit& fit) const;
     /// The same of each predicted channel.
     std::vector<double> channel_misfits(const CauseFit& fit) const;
+    /// The mean square of the model's floor in each predicted channel, in units of noise and floor.
+    std::vector<double> channel_floors() const;
     /// Half widths of 95% intervals of the coordinates of a fit, the widest of three: the sandwich over
     /// blocks of a second of all channels, what the independent samples and the priors leave open, and the
     /// jackknife over `without_a_run`, if there are at least three.
@@ -171,6 +181,10 @@ class CauseFitter {
     std::map<std::size_t, double> correlation_times_s(const Eigen::VectorXd& residuals) const;
     /// Independent samples, and balanced weights of the channels, follow these from now on.
     void set_correlation_times(std::map<std::size_t, double> times_s);
+    /// From now on balanced weights are those of the likelihood of blocks (E69).
+    void weigh_blocks() { weighs_blocks_ = true; }
+    /// By how much evidence the one sum of squares with weights and priors is behind the other.
+    double behind(double sum_of_squares, double other) const;
 
   private:
     void write_residuals(std::size_t run, const TwinRun& twin,
@@ -180,6 +194,9 @@ class CauseFitter {
     std::map<std::size_t, double> mean_squares(const Eigen::VectorXd& residuals) const;
     double clearest_change(const Eigen::VectorXd& change) const;
     SeriesWeights balancing_weights(const Eigen::VectorXd& residuals) const;
+    SeriesWeights block_weights(const Eigen::VectorXd& residuals) const;
+    /// Mean squares of the means of blocks of each channel, by its index.
+    std::map<std::size_t, double> block_mean_squares(const Eigen::VectorXd& residuals) const;
     /// Fills in what follows from the residuals and their Jacobian.
     void integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) const;
     /// The rows of a part.
@@ -207,6 +224,7 @@ class CauseFitter {
     std::size_t data_rows_ = 0;
     double determined_rows_ = 0.0;
     double prior_weight_ = 1.0;
+    bool weighs_blocks_ = false;
     double duration_s_ = 0.0;             // of all runs
     std::map<std::size_t, double> rows_;  // that count, of each channel
     std::map<std::size_t, double> correlation_time_s_;

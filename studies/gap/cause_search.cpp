@@ -163,7 +163,12 @@ FoundCauses CauseSearch::run() & {
     }
     if (built) {
         evidence_.set_below_noise_weight(below_noise_weight_beside_floating_numbers);
-        for (ScoredFit& each : found.fits) each.evidence = evidence_.of(each);
+        in_blocks_ = true;
+        for (Model* model : {&fine_, &coarse_}) model->fitter.weigh_blocks();
+        for (ScoredFit& each : found.fits) {
+            take_likelihoods(fine_, each);
+            each.evidence = evidence_.of(each);
+        }
         Fits coarse = search_one(built_);
         search_several(built_, coarse);
         Fits rougher = fitted_again(fine_, coarse, max_fitted_finely);
@@ -424,12 +429,14 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
     const Visibility visibility = model.fitter.visibility(scored.fit);
     scored.visibility = visibility.of_causes;
     constexpr double visible = 2.0;
+    constexpr double visible_in_blocks = 0.5;
     for (std::size_t k = 0; k < visibility.of_the_bench.size(); ++k) {
         const FloatingNumber& number = scored.fit.bench->numbers[k];
         const double coordinate = scored.fit.coordinates[static_cast<Eigen::Index>(k)];
-        if (visibility.of_the_bench[k] <= visible || number.effect.empty()) continue;
-        scored.visible_numbers.push_back(k);
         const bool is_stated = k < nominal_coordinates;
+        const double enough = in_blocks_ && is_stated ? visible_in_blocks : visible;
+        if (visibility.of_the_bench[k] <= enough || number.effect.empty()) continue;
+        scored.visible_numbers.push_back(k);
         const auto row = static_cast<Eigen::Index>(k);
         // A law may hold for another reference than the stated number does.
         const auto is_one_with = [&](const CandidateCause* cause) {
@@ -454,10 +461,20 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
     }
     scored.has_unknown_scales = is_undescribed(*scored.fit.bench);
     if (!scored.has_unknown_scales) {
-        scored.beside = model.discrepancy.of(scored.fit.residuals);
+        take_likelihoods(model, scored);
         scored.channel_misfits = model.fitter.channel_misfits(scored.fit);
+        scored.channel_floors = model.fitter.channel_floors();
     }
     return scored;
+}
+
+void CauseSearch::take_likelihoods(const Model& model, ScoredFit& scored) const {
+    if (!in_blocks_) {
+        scored.beside = model.discrepancy.of(scored.fit.residuals);
+        return;
+    }
+    scored.beside = model.discrepancy.within_blocks(scored.fit.residuals);
+    scored.of_blocks = model.discrepancy.of_blocks(scored.fit.residuals);
 }
 
 // In the order of the fits.

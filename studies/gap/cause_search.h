@@ -66,6 +66,8 @@ class CauseSearch {
     // end, nor does one of which the linear screening says the second.
     static constexpr double far_behind = 30.0;
     static constexpr double hopeless = 100.0;
+    // The means of blocks are sharper by so much.
+    double sharpness() const { return in_blocks_ ? 4.0 : 1.0; }
     // A refinement that gains less evidence than this ends.
     static constexpr double clear_gain = 1.0;
     // What is known of the bench, and what could be wrong with it.
@@ -114,6 +116,7 @@ class CauseSearch {
     CauseFit roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights,
                             const WideDerivatives& known = {});
     ScoredFit measured(const Model& model, CauseFit fit) const;
+    void take_likelihoods(const Model& model, ScoredFit& fit) const;
     void weigh(Model& model, ScoredFit& fit);
     Marginals beside_own_scales(const Model& model, const CauseFit& fit) const;
     Fits made_side_by_side(Model& model, std::size_t count, const std::function<CauseFit(std::size_t)>& fit,
@@ -128,6 +131,7 @@ class CauseSearch {
     double held_out_log_misfit(const Hypothesis& hypothesis, const SeriesWeights& weights,
                                const std::vector<LeftOut>& parts);
     void charge_corrections(Fits& fits);
+    void add_fitted_finely(const std::vector<Hypothesis>& starts, Fits& all);
     void drop_unearned_causes(Fits& fits);
     bool take_correlation_of(const ScoredFit& best);
     bool should_be_taken_as_built(const ScoredFit& best);
@@ -193,6 +197,7 @@ class CauseSearch {
     // priors.
     Eigen::VectorXd best_leaves_;
     double best_evidence_ = -std::numeric_limits<double>::infinity();
+    bool in_blocks_ = false;   // the evidence is of blocks (E69)
     bool is_sharper_ = false;  // the evidence, because little correlation is left
     int fitted_ = 0;
     // Fits that are made side by side count and look at the time.

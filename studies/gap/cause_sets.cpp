@@ -334,7 +334,8 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
     std::vector<Further> all;
     for (const Screened& each : screen(rough_model().fitter, causes, present, weights, &promising_starts())) {
         if (!level.bench.is_measured() && !present.causes.empty() && all.size() == most_promising) break;
-        if (&level == &built_ && behind_the_best(each.sum_of_squares, weights) > hopeless) continue;
+        if (&level == &built_ && behind_the_best(each.sum_of_squares, weights) > hopeless * sharpness())
+            continue;
         all.push_back({each.cause, with_cause(present, each.cause, each.start), each.sum_of_squares});
     }
     if (level.bench.is_measured()) return all;
@@ -364,12 +365,11 @@ void CauseSearch::mark_those_behind(const Hypothesis& present, const SeriesWeigh
     const double without =
         left.squaredNorm() + fitter.prior_residuals(present, present.coordinates).squaredNorm();
     const double least = all.empty() ? without : all.front().sum_of_squares;
-    const double samples = fitter.independent_samples();
     for (Further& each : all) {
         each.is_behind =
-            0.5 * samples * std::log(each.sum_of_squares / least) > far_behind ||
-            behind_the_best(each.sum_of_squares, weights) > far_behind ||
-            (!present.causes.empty() && 0.5 * samples * std::log(without / each.sum_of_squares) < least_gain);
+            fitter.behind(each.sum_of_squares, least) > far_behind * sharpness() ||
+            behind_the_best(each.sum_of_squares, weights) > far_behind * sharpness() ||
+            (!present.causes.empty() && fitter.behind(without, each.sum_of_squares) < least_gain);
     }
 }
 
@@ -379,7 +379,7 @@ double CauseSearch::behind_the_best(double sum_of_squares, const SeriesWeights& 
     if (best_leaves_.size() == 0) return 0.0;
     Eigen::VectorXd left = best_leaves_;
     fitter.apply(weights, left);
-    return 0.5 * fitter.independent_samples() * std::log(sum_of_squares / left.squaredNorm());
+    return fitter.behind(sum_of_squares, left.squaredNorm());
 }
 
 // A few steps of a search for each, also with these numbers of the bench without other causes; the most

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "capstan/recording/channel_range.h"
 #include "capstan/simple_models/stop_operator.h"
@@ -16,6 +17,19 @@ namespace {
 constexpr double above_noise_weight = 1.3;
 
 constexpr double stop_widths[] = {0.02, 0.05, 0.1, 0.2, 0.4};  // of a channel's span
+
+// Of the model's own error, as parts of the floor; the larger ones are errors of any kind.
+constexpr std::array<double, 10> error_sizes = {smallest_floor, 0.7,  1.0, largest_floor, 2.0, 2.8, 5.6,
+                                                11.0,           22.0, 45.0};
+// Of the part of it that comes again when the motion does, in units of noise and floor.
+constexpr double own_functions[] = {0.0, 0.08, 0.16, 0.32};
+
+double log_mean(const std::vector<double>& logs) {
+    const double most = *std::max_element(logs.begin(), logs.end());
+    double sum = 0.0;
+    for (const double each : logs) sum += std::exp(each - most);
+    return most + std::log(sum / static_cast<double>(logs.size()));
+}
 
 // A channel that drives some run, with what is needed to make it dimensionless.
 struct Driving {
@@ -101,6 +115,7 @@ Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualS
     std::vector<Features> features;
     for (const RecordedRun& run : recording.runs)
         features.push_back(features_of(recording, run, driving, stride));
+    const auto block_rows = static_cast<Eigen::Index>(rows_of_a_block(recording.sample_rate_Hz, stride));
     double all_determined = 0.0;
     for (const ResidualSeries& each : series_) all_determined += static_cast<double>(each.determined_rows());
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
@@ -130,22 +145,124 @@ Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualS
             const double mean_square = all.col(k).squaredNorm() / determined;
             if (mean_square > 0.0) all.col(k) /= std::sqrt(mean_square * static_cast<double>(count));
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(all.transpose() * all / determined);
-        std::vector<Eigen::Index> kept;
-        constexpr double negligible = 1e-9;
-        for (Eigen::Index k = 0; k < count; ++k) {
-            if (parts.eigenvalues()[k] > negligible) kept.push_back(k);
+        add_features(channels_, channel, all, determined, all_determined, independent_samples);
+        ChannelBlocks own{blocks_of(channel, block_rows), {}};
+        Eigen::MatrixXd means(static_cast<Eigen::Index>(own.blocks.size()), count);
+        for (Eigen::Index b = 0; b < means.rows(); ++b) {
+            const Block& block = own.blocks[static_cast<std::size_t>(b)];
+            auto rows_of_block = all.middleRows(block.first_own, block.rows);
+            means.row(b) = rows_of_block.colwise().sum() / block.determined_rows;
+            for (Eigen::Index row = 0; row < block.rows; ++row) {
+                if (rows_of_block.row(row).any()) rows_of_block.row(row) -= means.row(b);
+            }
         }
-        ChannelFeatures of_channel;
-        of_channel.channel = channel;
-        of_channel.rows = determined;
-        of_channel.part = determined / all_determined;
-        of_channel.samples = independent_samples * of_channel.part;
-        of_channel.variances = parts.eigenvalues()(kept);
-        of_channel.directions = all * parts.eigenvectors()(Eigen::all, kept) *
-                                of_channel.variances.cwiseSqrt().cwiseInverse().asDiagonal();
-        channels_.push_back(std::move(of_channel));
+        for (const double size : error_sizes) own.models.push_back(block_model(own.blocks, means, size));
+        blocks_.push_back(std::move(own));
+        add_features(within_blocks_, channel, all, determined, all_determined, independent_samples);
     }
+}
+
+// The features of a channel as directions that are orthogonal.
+void Discrepancy::add_features(std::vector<ChannelFeatures>& channels, std::size_t channel,
+                               const Eigen::MatrixXd& features, double determined, double all_determined,
+                               double independent_samples) const {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(features.transpose() * features / determined);
+    std::vector<Eigen::Index> kept;
+    constexpr double negligible = 1e-9;
+    for (Eigen::Index k = 0; k < features.cols(); ++k) {
+        if (parts.eigenvalues()[k] > negligible) kept.push_back(k);
+    }
+    ChannelFeatures of_channel;
+    of_channel.channel = channel;
+    of_channel.rows = determined;
+    of_channel.part = determined / all_determined;
+    of_channel.samples = independent_samples * of_channel.part;
+    of_channel.variances = parts.eigenvalues()(kept);
+    of_channel.directions = features * parts.eigenvectors()(Eigen::all, kept) *
+                            of_channel.variances.cwiseSqrt().cwiseInverse().asDiagonal();
+    channels.push_back(std::move(of_channel));
+}
+
+// Of so many rows each; the last one of a series may have fewer.
+std::vector<Discrepancy::Block> Discrepancy::blocks_of(std::size_t channel, Eigen::Index rows) const {
+    std::vector<Block> blocks;
+    Eigen::Index own = 0;
+    for (const ResidualSeries& each : series_) {
+        if (each.channel != channel) continue;
+        const auto count = static_cast<Eigen::Index>(each.rows);
+        for (Eigen::Index row = 0; row < count; row += rows) {
+            const Eigen::Index end = std::min(row + rows, count);
+            const std::size_t determined =
+                each.determined_rows(static_cast<std::size_t>(row), static_cast<std::size_t>(end));
+            if (determined > 0)
+                blocks.push_back({static_cast<Eigen::Index>(each.first_row) + row, own + row, end - row,
+                                  static_cast<double>(determined), each.noise_part});
+        }
+        own += count;
+    }
+    return blocks;
+}
+
+Discrepancy::BlockModel Discrepancy::block_model(const std::vector<Block>& blocks,
+                                                 const Eigen::MatrixXd& features, double error_size) {
+    BlockModel model;
+    model.precisions.resize(features.rows());
+    for (Eigen::Index b = 0; b < features.rows(); ++b) {
+        const Block& block = blocks[static_cast<std::size_t>(b)];
+        const double variance =
+            error_size * error_size * (1.0 - block.noise_part) + block.noise_part / block.determined_rows;
+        model.precisions[b] = 1.0 / variance;
+        model.log_determinant += std::log(variance);
+    }
+    const Eigen::MatrixXd weighed = model.precisions.asDiagonal() * features;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(features.transpose() * weighed);
+    model.gains = parts.eigenvalues().cwiseMax(0.0);
+    model.projections = parts.eigenvectors().transpose() * weighed.transpose();
+    return model;
+}
+
+// E69.
+BlockLikelihoods Discrepancy::of_blocks(const Eigen::VectorXd& residuals) const {
+    BlockLikelihoods all;
+    for (const ChannelBlocks& channel : blocks_) {
+        Eigen::VectorXd means(static_cast<Eigen::Index>(channel.blocks.size()));
+        for (Eigen::Index b = 0; b < means.size(); ++b) {
+            const Block& block = channel.blocks[static_cast<std::size_t>(b)];
+            means[b] = residuals.segment(block.first_row, block.rows).sum() / block.determined_rows;
+        }
+        std::array<std::vector<double>, discrepancy_sizes.size()> each;
+        std::vector<double> any;
+        for (std::size_t m = 0; m < channel.models.size(); ++m) {
+            const BlockModel& model = channel.models[m];
+            const double left = means.cwiseAbs2().dot(model.precisions) + model.log_determinant;
+            const Eigen::ArrayXd along = (model.projections * means).array().square();
+            any.push_back(-0.5 * left);
+            if (error_sizes[m] > largest_floor) continue;
+            for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
+                for (const double own : own_functions) {
+                    const double variance = std::pow(discrepancy_sizes[k], 2) + own * own;
+                    const Eigen::ArrayXd gained = variance * model.gains.array();
+                    each[k].push_back(-0.5 * (left - (variance * along / (1.0 + gained)).sum() +
+                                              (1.0 + gained).log().sum()));
+                }
+            }
+        }
+        for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) all.beside[k] += log_mean(each[k]);
+        all.beside_any += log_mean(any);
+    }
+    return all;
+}
+
+Marginals Discrepancy::within_blocks(const Eigen::VectorXd& residuals) const {
+    Eigen::VectorXd deviations = residuals;
+    for (const ChannelBlocks& channel : blocks_) {
+        for (const Block& block : channel.blocks) {
+            auto rows = deviations.segment(block.first_row, block.rows);
+            const double mean = rows.sum() / block.determined_rows;
+            for (double& each : rows) each -= each == 0.0 ? 0.0 : mean;
+        }
+    }
+    return of(within_blocks_, deviations);
 }
 
 Marginals Discrepancy::of_channel(const ChannelFeatures& channel, const Eigen::VectorXd& residuals) const {
@@ -170,8 +287,13 @@ Marginals Discrepancy::of_channel(const ChannelFeatures& channel, const Eigen::V
 }
 
 Marginals Discrepancy::of(const Eigen::VectorXd& residuals) const {
+    return of(channels_, residuals);
+}
+
+Marginals Discrepancy::of(const std::vector<ChannelFeatures>& channels,
+                          const Eigen::VectorXd& residuals) const {
     Marginals marginals;
-    for (const ChannelFeatures& channel : channels_) {
+    for (const ChannelFeatures& channel : channels) {
         const Marginals own = of_channel(channel, residuals);
         for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
             marginals[k].misfit += channel.part * own[k].misfit;

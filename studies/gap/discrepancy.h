@@ -27,6 +27,13 @@ struct Marginal {
 };
 using Marginals = std::array<Marginal, discrepancy_sizes.size()>;
 
+/// What the means of residuals over blocks of a correlation time say (E69): their log-likelihoods beside a
+/// discrepancy of each size, and beside an error of any kind and size in each channel.
+struct BlockLikelihoods {
+    std::array<double, discrepancy_sizes.size()> beside{};
+    double beside_any = 0.0;
+};
+
 /// A Gaussian process for what a model lacks: a function of what drives the bench, so that it comes again
 /// when the motion does (M. Kennedy and A. O'Hagan, Bayesian calibration of computer models, J. R. Stat. Soc.
 /// B 63, 2001). Each predicted channel has one. Its kernel is a sum over features of equal prior variance:
@@ -46,6 +53,11 @@ class Discrepancy {
     /// nothing.
     Marginals with_own_scales(const Eigen::VectorXd& residuals,
                               const std::vector<double>& of_laws = {}) const;
+    /// Noise averages out over a block, and the model's own error does not. The latter has a size of its own
+    /// in each channel, about that of the floor, and a part of it may be a function of the motion.
+    BlockLikelihoods of_blocks(const Eigen::VectorXd& residuals) const;
+    /// As `of`, of residuals and features without the means of blocks.
+    Marginals within_blocks(const Eigen::VectorXd& residuals) const;
     /// Independent ones, of each channel by its index.
     void set_samples(const std::function<double(std::size_t channel)>& samples_of);
 
@@ -59,10 +71,39 @@ class Discrepancy {
         Eigen::VectorXd variances;   // of each direction under a discrepancy of size 1
     };
 
+    // Neighbouring rows of one series.
+    struct Block {
+        Eigen::Index first_row = 0;  // in a vector of all residuals
+        Eigen::Index first_own = 0;  // among the rows of its channel
+        Eigen::Index rows = 0;
+        double determined_rows = 0.0;
+        double noise_part = 0.0;  // of the square of noise and floor
+    };
+    // The means of a channel's blocks beside noise and an error of one size.
+    struct BlockModel {
+        Eigen::VectorXd precisions;    // of each block
+        double log_determinant = 0.0;  // of the variances
+        Eigen::MatrixXd projections;   // directions of the features x blocks
+        Eigen::VectorXd gains;         // of each direction, by a discrepancy of size 1
+    };
+    struct ChannelBlocks {
+        std::vector<Block> blocks;
+        std::vector<BlockModel> models;  // by the size of the error
+    };
+
+    void add_features(std::vector<ChannelFeatures>& channels, std::size_t channel,
+                      const Eigen::MatrixXd& features, double determined, double all_determined,
+                      double independent_samples) const;
+    static BlockModel block_model(const std::vector<Block>& blocks, const Eigen::MatrixXd& features,
+                                  double error_size);
+    std::vector<Block> blocks_of(std::size_t channel, Eigen::Index rows) const;
     Marginals of_channel(const ChannelFeatures& channel, const Eigen::VectorXd& residuals) const;
+    Marginals of(const std::vector<ChannelFeatures>& channels, const Eigen::VectorXd& residuals) const;
 
     std::vector<ResidualSeries> series_;
     std::vector<ChannelFeatures> channels_;
+    std::vector<ChannelFeatures> within_blocks_;  // the same of features without the means of blocks
+    std::vector<ChannelBlocks> blocks_;
 };
 
 }  // namespace capstan::gap

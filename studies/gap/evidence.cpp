@@ -25,6 +25,9 @@ constexpr double invisible_penalty_beside_floating_numbers = 8.0;
 constexpr double none_log_prior = 1.0;
 // The model's own error resembles a faulty sensor, so a sensor fault has to explain more than that.
 constexpr double sensor_fault_penalty = 2.0;
+// That error is not independent from block to block, and so a fault of one reading that changes it by less
+// than noise and floor is none, however well it follows what is left of that channel (E70).
+constexpr double faint_fault_penalty = 200.0;
 // A further cause is one of about fifty: ln 50. That a recording has one is as probable as that it has none.
 constexpr double further_cause_penalty = 3.9;
 // On a bench whose zeros and bearings float, these explain what is usual; a cause beside them is one of about
@@ -52,6 +55,8 @@ constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty + u
 // cause that is fainter than that only corrects the law of the clearest one.
 constexpr double faint = law_error;
 constexpr double faint_penalty = 60.0;
+// What follows the model's own error is no cause, however clearly the means of blocks show it (E70).
+constexpr double within_floor_penalty = 40.0;
 // The list of hypotheses is never complete: of verdicts on trials that the evidence had no doubt of, six in a
 // hundred were wrong. This probability is shared equally by all effects.
 constexpr double anything_fraction = 0.05;
@@ -135,6 +140,17 @@ double unknown_fraction(const ScoredFit& fit, double without_cause) {
     return left + closed > 0.0 ? left / (left + closed) : neither_leaves;
 }
 
+// What the second leaves less than the first, rms in the channel where that is clearest, as a part of what
+// floor and laws may be wrong by there.
+double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, double law) {
+    constexpr double least_floor = 0.02;
+    double most = 0.0;
+    for (std::size_t c = 0; c < fit.channel_misfits.size(); ++c)
+        most = std::max(most, (without.channel_misfits[c] - fit.channel_misfits[c]) /
+                                  (std::max(least_floor, fit.channel_floors[c]) + law * law));
+    return std::sqrt(most);
+}
+
 // Several zeros or bearings' friction and nothing else, searched as causes: what is usual of a bench as
 // built.
 bool are_usual_numbers(const ScoredFit& fit) {
@@ -198,7 +214,7 @@ double ScoredFit::probability_of(const FarNumber& far) const {
 }
 
 void ScoredFit::widen_stated_numbers(const Eigen::Vector3d& deviations) {
-    if (fit.bench->is_measured() || clearest_law(*this) == 0.0) return;
+    if (fit.bench->is_measured() || (clearest_law(*this) == 0.0 && !of_blocks)) return;
     const Eigen::Vector3d own = fit.nominal_covariance.diagonal().cwiseSqrt();
     const Eigen::Vector3d wider = deviations.cwiseMax(own).cwiseQuotient(own);
     const StatedNumbers stated =
@@ -232,6 +248,21 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
     };
     const std::vector<const CandidateCause*>& causes = fit.fit.causes;
     double penalty = 0.0;
+    if (fit.of_blocks) {
+        for (std::size_t k = 0; k < causes.size(); ++k) {
+            if (causes[k]->effect == "none" || causes[k]->is_seen) continue;
+            Effects others = effects_of(fit.fit);
+            others.erase(std::find(others.begin(), others.end(), causes[k]->effect));
+            if (others.empty()) others.push_back("none");
+            double closed = std::numeric_limits<double>::infinity();
+            for (const ScoredFit& other : fits) {
+                if (other.fit.bench == fit.fit.bench && effects_of(other.fit) == others)
+                    closed = std::min(closed, closed_of_floor(other, fit, law_error * clearest_law(fit, k)));
+            }
+            penalty += within_floor_penalty * std::max(0.0, 1.0 - closed);
+        }
+        return penalty;
+    }
     for (std::size_t k = 0; k < causes.size(); ++k) {
         const CandidateCause* cause = causes[k];
         if (causes.size() == 1 || cause->is_seen || fit.has_unknown_scales) continue;
@@ -270,6 +301,9 @@ double Evidence::with_unknown(const ScoredFit& fit) const {
 double Evidence::of_any_residuals(const ScoredFit& fit) const {
     const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());
     const double size = std::sqrt(std::max(0.0, most - tenable_mean_square(fit)));
+    if (fit.of_blocks)
+        return log_likelihood(fit, fit.beside.front().misfit) + fit.of_blocks->beside_any +
+               fit.fit.log_volume_ratio - invisible(fit, size);
     const double of_the_size = 0.5 * std::log(samples_);
     return log_likelihood(fit, fit.misfit) + fit.fit.log_volume_ratio - of_the_size - invisible(fit, size);
 }
@@ -279,7 +313,8 @@ double Evidence::marginal(const ScoredFit& fit, const std::function<double(doubl
     double most = -std::numeric_limits<double>::infinity();
     std::array<double, discrepancy_sizes.size()> each{};
     for (std::size_t k = 0; k < each.size(); ++k) {
-        each[k] = log_likelihood(fit, fit.beside[k].misfit) - 0.5 * fit.beside[k].log_determinant;
+        each[k] = log_likelihood(fit, fit.beside[k].misfit) - 0.5 * fit.beside[k].log_determinant +
+                  (fit.of_blocks ? fit.of_blocks->beside[k] : 0.0);
         if (weight(absolute_size(fit, k)) > 0.0) most = std::max(most, each[k]);
     }
     double sum = 0.0;
@@ -306,6 +341,8 @@ double Evidence::priors(const ScoredFit& fit) const {
         inferred += 1.0;
         evidence -= invisible(fit, fit.visibility[k]);
         if (cause.family == "sensor") evidence -= sensor_fault_penalty;
+        if (cause.family == "sensor" && fit.of_blocks)
+            evidence -= faint_fault_penalty * std::max(0.0, 1.0 - fit.visibility[k] / visible);
         if (cause.is_rare) evidence -= rare_cause_penalty;
         if (cause.is_outside_the_list) evidence -= unknown_penalty;
         const double law = clearest_law(fit, k);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,11 +45,14 @@ struct ScoredFit {
                                      ///< noise and floor
     /// Beside numbers that float widely a cause is no more visible than what is left without any, by rms.
     double max_visibility = std::numeric_limits<double>::infinity();
-    Marginals beside{};               ///< what the fit leaves beside a discrepancy of each size
+    Marginals beside{};  ///< what the fit leaves beside a discrepancy of each size
+    /// What the means of blocks say; then `beside` is of the deviations from them. None: `beside` is of all.
+    std::optional<BlockLikelihoods> of_blocks{};
     bool has_unknown_scales = false;  ///< of the channels' errors (E54)
     /// Mean square residual of each predicted channel, in units of noise and floor. Empty where the scale of
     /// a channel's error is not known.
     std::vector<double> channel_misfits{};
+    std::vector<double> channel_floors{};  ///< the same of the model's floor alone
     /// Of the bench's floating numbers those that visibly change what is measured,
     std::vector<std::size_t> visible_numbers{};
     /// and of these those that may be further from what was stated than is usual, and how probably.
@@ -70,7 +74,8 @@ struct ScoredFit {
     double evidence = 0.0;  ///< logarithm, up to a constant
 
     /// Weighs the stated numbers again (E63) where these standard deviations of their logarithms are wider
-    /// than those of the fit. Beside a law that is an idealisation a fit is too sure of them.
+    /// than those of the fit. Beside a law that is an idealisation, and where the means of blocks are weighed
+    /// (E69), a fit is too sure of them.
     void widen_stated_numbers(const Eigen::Vector3d& deviations);
     /// Lowers the evidence of its causes, also beside an unknown one.
     void charge_unproven(double penalty) {

@@ -52,11 +52,18 @@ void CauseFitter::integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) cons
             ++row;
         }
     }
-    Eigen::VectorXd left = fit.residuals;
-    apply(fit.weights, left);
-    constexpr double as_good_as_noise = 1.0;  // less than noise and floor determines no number better
-    const double scale = std::max(as_good_as_noise, left.head(data_rows).squaredNorm() / determined_rows_);
-    const Eigen::MatrixXd told = jacobian.topRows(data_rows) * widths.asDiagonal();
+    Eigen::MatrixXd told = jacobian.topRows(data_rows) * widths.asDiagonal();
+    double scale = 1.0;
+    if (!weighs_blocks_) {
+        Eigen::VectorXd left = fit.residuals;
+        apply(fit.weights, left);
+        constexpr double as_good_as_noise = 1.0;  // less than noise and floor determines no number better
+        scale = std::max(as_good_as_noise, left.head(data_rows).squaredNorm() / determined_rows_);
+    } else {
+        SeriesWeights weights = block_weights(fit.residuals);
+        for (std::size_t k = 0; k < fit.weights.size(); ++k) weights[k] /= fit.weights[k];
+        apply(weights, told);
+    }
     const Eigen::MatrixXd information = told.transpose() * told / (prior_weight_ * prior_weight_ * scale);
     const Eigen::Index count = widths.size();
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
@@ -165,6 +172,15 @@ std::vector<double> CauseFitter::channel_misfits(const CauseFit& fit) const {
     std::vector<double> misfits;
     for (const auto& [channel, mean_square] : mean_squares(fit.residuals)) misfits.push_back(mean_square);
     return misfits;
+}
+
+std::vector<double> CauseFitter::channel_floors() const {
+    std::map<std::size_t, double> sums;
+    for (const ResidualSeries& series : series_)
+        sums[series.channel] += (1.0 - series.noise_part) * static_cast<double>(series.determined_rows());
+    std::vector<double> floors;
+    for (const auto& [channel, sum] : sums) floors.push_back(sum / std::max(1.0, rows_.at(channel)));
+    return floors;
 }
 
 double CauseFitter::nominal_penalty(const CauseFit& fit) const {

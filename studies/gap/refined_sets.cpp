@@ -86,8 +86,9 @@ std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_s
 // The best sets, from where another model led them. Out of time the best one is still fitted.
 CauseSearch::Fits CauseSearch::fitted_again(Model& model, const Fits& fits, std::size_t max_sets) {
     constexpr std::size_t at_least = 2;  // without a cause, and the best
-    constexpr double behind = 10.0;
-    // From the draft to the coarse model the evidence changes more.
+    // The means of blocks are sharper, so that the coarse model's error changes the evidence more; from the
+    // draft to the coarse model it changes more than that.
+    const double behind = 10.0 * sharpness();
     const std::vector<Hypothesis> best =
         best_sets(fits, max_sets, &model == &fine_ ? behind : std::numeric_limits<double>::infinity());
     report("fitting the best explanations again");
@@ -105,6 +106,8 @@ CauseSearch::Fits CauseSearch::fitted_again(Model& model, const Fits& fits, std:
 // samples, except where an inertia rings, so that a little inertia may stand for what the others miss.
 void CauseSearch::try_fewer_finely(const Fits& coarse, Fits& all) {
     const auto is_behind = [&](const Hypothesis& set) {
+        if (in_blocks_)
+            return false;  // what it leaves tells whether a cause closes more than the floor (E70)
         const auto same = std::find_if(coarse.begin(), coarse.end(), [&](const ScoredFit& each) {
             return each.fit.bench == set.bench && are_same_causes(each.fit.causes, set.causes);
         });
@@ -118,15 +121,7 @@ void CauseSearch::try_fewer_finely(const Fits& coarse, Fits& all) {
                        return are_same_causes(each.fit.causes, set.causes);
                    });
         });
-        report("trying fewer causes");
-        CauseFitter::FitOptions options;
-        options.any_size = false;
-        options.balanced = true;
-        options.is_close = true;
-        Fits made = made_side_by_side(fine_, fewer.size(),
-                                      [&](std::size_t k) { return fine_.fitter.fit(fewer[k], options); });
-        std::move(made.begin(), made.end(), std::back_inserter(all));
-        sort_by_evidence(all);
+        add_fitted_finely(fewer, all);
         if (all.front().evidence == before) return;
     }
 }
@@ -348,11 +343,40 @@ double CauseSearch::held_out_log_misfit(const Hypothesis& hypothesis, const Seri
     return sum / static_cast<double>(parts.size());
 }
 
+void CauseSearch::add_fitted_finely(const std::vector<Hypothesis>& starts, Fits& all) {
+    report("trying fewer causes");
+    CauseFitter::FitOptions options;
+    options.any_size = false;
+    options.balanced = true;
+    options.is_close = true;
+    Fits made = made_side_by_side(fine_, starts.size(),
+                                  [&](std::size_t k) { return fine_.fitter.fit(starts[k], options); });
+    std::move(made.begin(), made.end(), std::back_inserter(all));
+    sort_by_evidence(all);
+}
+
+// What the set that leads in the end leaves without each of its causes has to be known.
 void CauseSearch::charge_corrections(Fits& fits) {
-    std::vector<double> penalties;
-    for (const ScoredFit& each : fits) penalties.push_back(evidence_.penalty_of_corrections(each, fits));
-    for (std::size_t k = 0; k < fits.size(); ++k) fits[k].charge_unproven(penalties[k]);
-    sort_by_evidence(fits);
+    for (;;) {
+        Fits charged = fits;
+        for (ScoredFit& each : charged) each.charge_unproven(evidence_.penalty_of_corrections(each, fits));
+        sort_by_evidence(charged);
+        const ScoredFit& best = charged.front();
+        std::vector<Hypothesis> fewer;
+        if (best.of_blocks && best.fit.causes.size() > 1 && best.fit.bench == &built_.bench &&
+            !is_out_of_time())
+            fewer = without_each(best.fit.hypothesis());
+        std::erase_if(fewer, [&](const Hypothesis& set) {
+            return std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& each) {
+                return each.fit.bench == set.bench && are_same_causes(each.fit.causes, set.causes);
+            });
+        });
+        if (fewer.empty()) {
+            fits = std::move(charged);
+            return;
+        }
+        add_fitted_finely(fewer, fits);
+    }
 }
 
 // A cause that does not help to predict what the fit did not see may only have fitted the rest. It goes where

@@ -162,6 +162,10 @@ std::vector<bool> determined_rows(const Recording& recording, const ResidualSeri
 
 }  // namespace
 
+std::size_t rows_of_a_block(double sample_rate_Hz, int stride) {
+    return static_cast<std::size_t>(std::max(1.0, std::round(usual_correlation_time_s * sample_rate_Hz / stride)));
+}
+
 std::size_t ResidualSeries::determined_rows(std::size_t from, std::size_t to) const {
     std::size_t count = 0;
     for (std::size_t row = from; row < to; ++row) count += determines(row) ? 1 : 0;

@@ -106,5 +106,67 @@ TEST_F(OnASession, WithOwnScalesAChannelCountsByItsSamplesAndByWhatItsLawsMayBeW
     EXPECT_LT(weighed.with_own_scales(left)[0].misfit, 1e-6);
 }
 
+// E69. Of the square of noise and floor this part is noise.
+class InNoise : public OnASession {
+  protected:
+    static constexpr double noise_part = 0.9;
+    const Discrepancy in_noise{recording, hidden_by_noise(), coarse_twin.stride,
+                               fitter.independent_samples()};
+    const std::size_t block_rows = rows_of_a_block(recording.sample_rate_Hz, coarse_twin.stride);
+    const std::size_t first = fitter.series().front().channel;
+
+    std::vector<ResidualSeries> hidden_by_noise() const {
+        std::vector<ResidualSeries> series = fitter.series();
+        for (ResidualSeries& each : series) each.noise_part = noise_part;
+        return series;
+    }
+    // Noise, and an error that holds for a block and then has the other sign, in units of the floor.
+    Eigen::VectorXd with_error(double of_first, double of_others) const {
+        std::mt19937_64 random(3);
+        std::normal_distribution<double> normal;
+        return residuals([&](const ResidualSeries& series, std::size_t row) {
+            const double sign = (row / block_rows) % 3 == 0 ? 1.0 : -1.0;
+            const double error = sign * (series.channel == first ? of_first : of_others);
+            return std::sqrt(noise_part) * normal(random) + std::sqrt(1.0 - noise_part) * error;
+        });
+    }
+};
+
+TEST_F(InNoise, TheMeansOfBlocksShowAnErrorThatTheMeanSquareHides) {
+    const Eigen::VectorXd none = with_error(0.0, 0.0);
+    const Eigen::VectorXd large_error = with_error(3.0, 0.0);
+    const double of_all = 0.5 * fitter.independent_samples() *
+                          std::log(in_noise.of(large_error)[0].misfit / in_noise.of(none)[0].misfit);
+    const double of_blocks = in_noise.of_blocks(none).beside[0] - in_noise.of_blocks(large_error).beside[0];
+    EXPECT_GT(of_blocks, 10.0 * of_all);
+    EXPECT_GT(of_blocks, 40.0);
+}
+
+TEST_F(InNoise, TheFloorIsAnUpperValueOfTheModelsError) {
+    const auto likelihood = [&](double error) {
+        return in_noise.of_blocks(with_error(error, error)).beside[0];
+    };
+    const double blocks = static_cast<double>(fitter.data_rows()) / static_cast<double>(block_rows);
+    EXPECT_LT(likelihood(0.0) - likelihood(0.5), 0.2 * blocks);
+    EXPECT_LT(likelihood(0.5) - likelihood(1.0), likelihood(2.0) - likelihood(2.5));
+}
+
+TEST_F(InNoise, AnErrorOfAnyKindIsMoreProbableThanALargeOneOfTheModel) {
+    const BlockLikelihoods little = in_noise.of_blocks(with_error(0.7, 0.7));
+    const BlockLikelihoods much = in_noise.of_blocks(with_error(20.0, 0.7));
+    EXPECT_LT(little.beside_any, little.beside[0]);
+    EXPECT_GT(much.beside_any, much.beside[0]);
+}
+
+TEST_F(InNoise, ADeviationFromTheMeansOfBlocksHasNoMeans) {
+    const Eigen::VectorXd steps = residuals([&](const ResidualSeries&, std::size_t row) {
+        return 1.0 + static_cast<double>((row / block_rows) % 5);
+    });
+    EXPECT_LT(in_noise.within_blocks(steps)[0].misfit, 1e-20);
+    const Eigen::VectorXd ripple =
+        residuals([&](const ResidualSeries&, std::size_t row) { return row % 2 == 0 ? 1.0 : -1.0; });
+    EXPECT_GT(in_noise.within_blocks(ripple)[0].misfit, 0.9);
+}
+
 }  // namespace
 }  // namespace capstan::gap

@@ -433,6 +433,47 @@ TEST(Evidence, ASetIsChargedForACauseThatOnlyCorrectsTheModel) {
     EXPECT_EQ(evidence.penalty_of_corrections(single, {single}), 0.0);
 }
 
+// E70. The means of blocks are so sharp that they also see what the model itself is wrong by.
+TEST(Evidence, BesideMeansOfBlocksACauseThatClosesLessThanTheFloorIsCharged) {
+    const Known known;
+    const auto in_blocks = [&](std::vector<const CandidateCause*> causes, std::vector<double> visibility,
+                               std::vector<double> left) {
+        ScoredFit fit = fitted(evidence, std::move(causes), 1.0, std::move(visibility));
+        fit.of_blocks = BlockLikelihoods{};
+        fit.channel_misfits = std::move(left);
+        fit.channel_floors = {0.25, 0.64};
+        return fit;
+    };
+    const ScoredFit nothing = in_blocks({&known.none}, {0.0}, {1.25, 1.16});
+    const auto charge = [&](std::vector<double> left) {
+        return evidence.penalty_of_corrections(in_blocks({&known.drag}, {1.0}, std::move(left)), {nothing});
+    };
+    EXPECT_EQ(charge({1.0, 1.16}), 0.0) << "all of one channel's floor";
+    EXPECT_EQ(charge({1.25, 0.5}), 0.0);
+    EXPECT_NEAR(charge({1.25, 1.0}), 40.0 * 0.5, 1e-9) << "half of the other's";
+    EXPECT_NEAR(charge({1.25, 1.2}), 40.0, 1e-9) << "nothing";
+    // Beside a cause whose law is good to a tenth it also has to close more than that.
+    const ScoredFit drag = in_blocks({&known.drag}, {8.0}, {1.25, 1.16});
+    const ScoredFit both = in_blocks({&known.drag, &known.gain}, {8.0, 1.0}, {1.0, 1.16});
+    EXPECT_NEAR(evidence.penalty_of_corrections(both, {drag}),
+                40.0 * (1.0 - std::sqrt(0.25 / (0.25 + 0.8 * 0.8))), 1e-9);
+}
+
+// A loop of a sensor follows the model's own error of that channel best.
+TEST(Evidence, BesideMeansOfBlocksAFaintFaultOfAReadingIsNone) {
+    Known known;
+    known.gain.family = "sensor";
+    const auto gained = [&](const CandidateCause& cause, double visibility) {
+        ScoredFit fit = fitted(evidence, {&cause}, 1.0, {visibility});
+        const double before = fit.evidence;
+        fit.of_blocks = BlockLikelihoods{};
+        return evidence.of(fit) - before;
+    };
+    EXPECT_NEAR(gained(known.gain, 0.4), -200.0 * 0.6, 1e-9);
+    EXPECT_EQ(gained(known.gain, 1.0), 0.0);
+    EXPECT_EQ(gained(known.drag, 0.4), 0.0);
+}
+
 // What a strong cause leaves because its law is an idealisation is no second cause. A sensor's gain has no
 // such law.
 TEST(Evidence, ACauseThatOnlyCorrectsTheLawOfAnotherIsCharged) {
