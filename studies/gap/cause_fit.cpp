@@ -178,6 +178,7 @@ std::map<std::size_t, double> CauseFitter::block_mean_squares(const Eigen::Vecto
     std::map<std::size_t, double> squares;
     std::map<std::size_t, double> blocks;
     for (const ResidualSeries& series : series_) {
+        double& sum = squares[series.channel];
         for (std::size_t row = 0; row < series.rows; row += rows) {
             const std::size_t end = std::min(row + rows, series.rows);
             const auto determined = static_cast<double>(series.determined_rows(row, end));
@@ -187,11 +188,11 @@ std::map<std::size_t, double> CauseFitter::block_mean_squares(const Eigen::Vecto
                                              static_cast<Eigen::Index>(end - row))
                                     .sum() /
                                 determined;
-            squares[series.channel] += mean * mean;
+            sum += mean * mean;
             blocks[series.channel] += 1.0;
         }
     }
-    for (auto& [channel, mean_square] : squares) mean_square /= blocks.at(channel);
+    for (auto& [channel, mean_square] : squares) mean_square /= std::max(1.0, blocks[channel]);
     return squares;
 }
 

@@ -429,7 +429,7 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
     const Visibility visibility = model.fitter.visibility(scored.fit);
     scored.visibility = visibility.of_causes;
     constexpr double visible = 2.0;
-    constexpr double visible_in_blocks = 0.5;
+    constexpr double visible_in_blocks = 0.5;  // a stated number; its probability is that of E63
     for (std::size_t k = 0; k < visibility.of_the_bench.size(); ++k) {
         const FloatingNumber& number = scored.fit.bench->numbers[k];
         const double coordinate = scored.fit.coordinates[static_cast<Eigen::Index>(k)];
@@ -468,6 +468,7 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
     return scored;
 }
 
+// Of the mean square, or of the means of blocks and the deviations from them.
 void CauseSearch::take_likelihoods(const Model& model, ScoredFit& scored) const {
     if (!in_blocks_) {
         scored.beside = model.discrepancy.of(scored.fit.residuals);

@@ -66,7 +66,7 @@ class CauseSearch {
     // end, nor does one of which the linear screening says the second.
     static constexpr double far_behind = 30.0;
     static constexpr double hopeless = 100.0;
-    // The means of blocks are sharper by so much.
+    // The means of blocks are sharper, by a factor of a few (E69): what is behind by so much more may lead.
     double sharpness() const { return in_blocks_ ? 4.0 : 1.0; }
     // A refinement that gains less evidence than this ends.
     static constexpr double clear_gain = 1.0;

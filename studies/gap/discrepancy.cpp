@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "capstan/recording/channel_range.h"
 #include "capstan/simple_models/stop_operator.h"

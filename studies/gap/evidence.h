@@ -103,7 +103,8 @@ struct WeighedHypothesis {
 /// their priors by Laplace's method (E57). Residuals are correlated in time, so only independent samples
 /// count. They are noise plus a discrepancy (Discrepancy), whose size is integrated over: small beside named
 /// causes, whose laws are good to a tenth; of any visible size for a cause outside the list, which may also
-/// be no function of the motion at all. Two terms go beyond that: the prior probability of each kind of
+/// be no function of the motion at all. On a bench that is taken as built, the means of blocks are weighed
+/// apart from the deviations from them (E69). Two terms go beyond that: the prior probability of each kind of
 /// hypothesis, and that of the scale of each channel's residuals, which is known where noise and floor are
 /// (E56). The constants stand in evidence.cpp, each with its reason.
 class Evidence {

@@ -13,6 +13,9 @@ const pages = ["index", "first-hour/place-sensors", "first-hour/log-disagrees", 
   "gallery/pulley_friction", "gallery/layout-even", "notebooks/5-study-with-sql-and-pandas", "theory/over-time", "theory/equations",
   "reference/python", "reference/database"];
 
+const all_views = [{ width: 1280, dark: false }, { width: 1280, dark: true }, { width: 390, dark: false }, { width: 390, dark: true }];
+const few_views = [all_views[0], all_views[3]];  // the pages share their style
+
 const brightness = (colour) => colour.match(/[\d.]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0) / 3;
 
 async function look(browser, name, { width, dark }) {
@@ -71,8 +74,7 @@ async function toggle(browser) {
 const browser = await launch(profile);
 try {
   for (const name of pages)
-    for (const view of [{ width: 1280, dark: false }, { width: 1280, dark: true }, { width: 390, dark: false }, { width: 390, dark: true }])
-      await look(browser, name, view);
+    for (const view of name === pages[0] ? all_views : few_views) await look(browser, name, view);
   await search(browser);
   await toggle(browser);
 } finally {

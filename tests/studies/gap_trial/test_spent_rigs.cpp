@@ -180,6 +180,27 @@ TEST(SlowSpentBenches, ABendDoesNotStandForWhatIsUsualBesideAPair) {
     EXPECT_LT(present(diagnosis, "local_bend"), 0.1);
 }
 
+// The noise of the tensions is larger than what the bend changes, but averages out.
+TEST(SpentBenches, ABendThatNoiseHidesIsNamed) {
+    const gap::Diagnosis diagnosis = diagnosed_hard(262407, 16, 1);
+    EXPECT_GT(present(diagnosis, "local_bend"), 0.9);
+    EXPECT_LT(present(diagnosis, "none"), 0.1);
+}
+
+TEST(SlowSpentBenches, PreslidingThatNoiseHidesIsNamedAlone) {
+    const gap::Diagnosis diagnosis = diagnosed_hard(262407, 16, 6);
+    EXPECT_GT(present(diagnosis, "presliding"), 0.9);
+    for (const char* effect : {"sensor_hysteresis", "local_bend", "conduit_compliance"})
+        EXPECT_LT(present(diagnosis, effect), 0.1) << effect;
+}
+
+// A zero, bearings' friction and the like stand for no part of a friction 5% off on a single cable.
+TEST(SpentBenches, AFrictionThatIsALittleOffIsNamedBesideZerosAndBearings) {
+    const gap::Diagnosis diagnosis = diagnosed_hard(262407, 16, 7);
+    EXPECT_GT(present(diagnosis, "param_mu"), 0.5);
+    EXPECT_LT(present(diagnosis, "none"), 0.5);
+}
+
 // Without the run that moves, the other one does not tell how slow the sensor is, so that a lag closes
 // nothing on held-out data. Nor does a delay, which took the place of the lag.
 TEST(SpentBenches, ALagThatOnlyOneRunTellsIsNoDelay) {
