@@ -175,25 +175,14 @@ SeriesWeights CauseFitter::balancing_weights(const Eigen::VectorXd& residuals) c
 
 std::map<std::size_t, double> CauseFitter::block_mean_squares(const Eigen::VectorXd& residuals) const {
     const std::size_t rows = rows_of_a_block(recording_.sample_rate_Hz, twin_.stride());
-    std::map<std::size_t, double> squares;
-    std::map<std::size_t, double> blocks;
-    for (const ResidualSeries& series : series_) {
-        double& sum = squares[series.channel];
-        for (std::size_t row = 0; row < series.rows; row += rows) {
-            const std::size_t end = std::min(row + rows, series.rows);
-            const auto determined = static_cast<double>(series.determined_rows(row, end));
-            if (determined == 0.0) continue;
-            const double mean = residuals
-                                    .segment(static_cast<Eigen::Index>(series.first_row + row),
-                                             static_cast<Eigen::Index>(end - row))
-                                    .sum() /
-                                determined;
-            sum += mean * mean;
-            blocks[series.channel] += 1.0;
-        }
+    std::map<std::size_t, double> mean_squares;
+    for (const auto& [channel, its_rows] : rows_) {
+        const std::vector<ResidualBlock> blocks = blocks_of(series_, channel, rows);
+        double squares = 0.0;
+        for (const ResidualBlock& block : blocks) squares += std::pow(block.mean_of(residuals), 2);
+        mean_squares[channel] = squares / std::max(1.0, static_cast<double>(blocks.size()));
     }
-    for (auto& [channel, mean_square] : squares) mean_square /= std::max(1.0, blocks[channel]);
-    return squares;
+    return mean_squares;
 }
 
 // E69. A row counts as the part of its block that it is.

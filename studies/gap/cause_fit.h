@@ -39,6 +39,24 @@ inline constexpr double usual_correlation_time_s = 0.25;
 /// Rows of a series in that time, at least one.
 std::size_t rows_of_a_block(double sample_rate_Hz, int stride);
 
+/// Neighbouring rows of one series, over which noise averages out (E69).
+struct ResidualBlock {
+    Eigen::Index first_row = 0;             // in a vector of all residuals
+    Eigen::Index first_row_of_channel = 0;  // where the channel's series lie one after the other
+    Eigen::Index rows = 0;
+    double determined_rows = 0.0;
+    double noise_part = 0.0;  ///< of the square of noise and floor
+
+    double mean_of(const Eigen::VectorXd& residuals) const {
+        return residuals.segment(first_row, rows).sum() / determined_rows;
+    }
+};
+
+/// Those of a channel, of so many rows each; the last one of a series may have fewer. Without those that
+/// determine nothing.
+std::vector<ResidualBlock> blocks_of(const std::vector<ResidualSeries>& series, std::size_t channel,
+                                     std::size_t rows);
+
 /// Of the model's own error, as parts of the floor. The floor is an upper value, known to a factor of about
 /// two.
 inline constexpr double smallest_floor = 0.5;

@@ -66,8 +66,6 @@ class CauseSearch {
     // end, nor does one of which the linear screening says the second.
     static constexpr double far_behind = 30.0;
     static constexpr double hopeless = 100.0;
-    // The means of blocks are sharper, by a factor of a few (E69): what is behind by so much more may lead.
-    double sharpness() const { return in_blocks_ ? 4.0 : 1.0; }
     // A refinement that gains less evidence than this ends.
     static constexpr double clear_gain = 1.0;
     // What is known of the bench, and what could be wrong with it.
@@ -103,6 +101,8 @@ class CauseSearch {
     void report(const std::string& activity);
     bool is_out_of_time();
     Model& model_of(const Level& level) { return level.bench.is_measured() ? fine_ : rough_model(); }
+    // The means of blocks are sharper, by a factor of a few (E69): what is behind by so much more may lead.
+    double sharpness() const { return in_blocks_ ? 4.0 : 1.0; }
     Model& rough_model() { return draft_ ? *draft_ : coarse_; }
     /// Those of the first screening. Of a drive there are none: its numbers may lead nowhere without its
     /// causes, so that the first screening tells little.

@@ -21,7 +21,7 @@ constexpr double stop_widths[] = {0.02, 0.05, 0.1, 0.2, 0.4};  // of a channel's
 constexpr std::array<double, 10> error_sizes = {smallest_floor, 0.7,  1.0, largest_floor, 2.0, 2.8, 5.6,
                                                 11.0,           22.0, 45.0};
 // Of the part of it that comes again when the motion does, in units of noise and floor.
-constexpr double own_functions[] = {0.0, 0.08, 0.16, 0.32};
+constexpr double function_sizes[] = {0.0, 0.08, 0.16, 0.32};
 
 double log_mean(const std::vector<double>& logs) {
     const double most = *std::max_element(logs.begin(), logs.end());
@@ -114,7 +114,7 @@ Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualS
     std::vector<Features> features;
     for (const RecordedRun& run : recording.runs)
         features.push_back(features_of(recording, run, driving, stride));
-    const auto block_rows = static_cast<Eigen::Index>(rows_of_a_block(recording.sample_rate_Hz, stride));
+    const std::size_t block_rows = rows_of_a_block(recording.sample_rate_Hz, stride);
     double all_determined = 0.0;
     for (const ResidualSeries& each : series_) all_determined += static_cast<double>(each.determined_rows());
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
@@ -145,11 +145,11 @@ Discrepancy::Discrepancy(const Recording& recording, const std::vector<ResidualS
             if (mean_square > 0.0) all.col(k) /= std::sqrt(mean_square * static_cast<double>(count));
         }
         add_features(channels_, channel, all, determined, all_determined, independent_samples);
-        ChannelBlocks own{blocks_of(channel, block_rows), {}};
+        ChannelBlocks own{blocks_of(series_, channel, block_rows), {}};
         Eigen::MatrixXd means(static_cast<Eigen::Index>(own.blocks.size()), count);
         for (Eigen::Index b = 0; b < means.rows(); ++b) {
-            const Block& block = own.blocks[static_cast<std::size_t>(b)];
-            auto rows_of_block = all.middleRows(block.first_own, block.rows);
+            const ResidualBlock& block = own.blocks[static_cast<std::size_t>(b)];
+            auto rows_of_block = all.middleRows(block.first_row_of_channel, block.rows);
             means.row(b) = rows_of_block.colwise().sum() / block.determined_rows;
             for (Eigen::Index row = 0; row < block.rows; ++row) {
                 if (rows_of_block.row(row).any()) rows_of_block.row(row) -= means.row(b);
@@ -182,32 +182,12 @@ void Discrepancy::add_features(std::vector<ChannelFeatures>& channels, std::size
     channels.push_back(std::move(of_channel));
 }
 
-// Of so many rows each; the last one of a series may have fewer.
-std::vector<Discrepancy::Block> Discrepancy::blocks_of(std::size_t channel, Eigen::Index rows) const {
-    std::vector<Block> blocks;
-    Eigen::Index own = 0;
-    for (const ResidualSeries& each : series_) {
-        if (each.channel != channel) continue;
-        const auto count = static_cast<Eigen::Index>(each.rows);
-        for (Eigen::Index row = 0; row < count; row += rows) {
-            const Eigen::Index end = std::min(row + rows, count);
-            const std::size_t determined =
-                each.determined_rows(static_cast<std::size_t>(row), static_cast<std::size_t>(end));
-            if (determined > 0)
-                blocks.push_back({static_cast<Eigen::Index>(each.first_row) + row, own + row, end - row,
-                                  static_cast<double>(determined), each.noise_part});
-        }
-        own += count;
-    }
-    return blocks;
-}
-
-Discrepancy::BlockModel Discrepancy::block_model(const std::vector<Block>& blocks,
+Discrepancy::BlockModel Discrepancy::block_model(const std::vector<ResidualBlock>& blocks,
                                                  const Eigen::MatrixXd& features, double error_size) {
     BlockModel model;
     model.precisions.resize(features.rows());
     for (Eigen::Index b = 0; b < features.rows(); ++b) {
-        const Block& block = blocks[static_cast<std::size_t>(b)];
+        const ResidualBlock& block = blocks[static_cast<std::size_t>(b)];
         const double variance =
             error_size * error_size * (1.0 - block.noise_part) + block.noise_part / block.determined_rows;
         model.precisions[b] = 1.0 / variance;
@@ -226,8 +206,8 @@ BlockLikelihoods Discrepancy::of_blocks(const Eigen::VectorXd& residuals) const 
     for (const ChannelBlocks& channel : blocks_) {
         Eigen::VectorXd means(static_cast<Eigen::Index>(channel.blocks.size()));
         for (Eigen::Index b = 0; b < means.size(); ++b) {
-            const Block& block = channel.blocks[static_cast<std::size_t>(b)];
-            means[b] = residuals.segment(block.first_row, block.rows).sum() / block.determined_rows;
+            const ResidualBlock& block = channel.blocks[static_cast<std::size_t>(b)];
+            means[b] = block.mean_of(residuals);
         }
         std::array<std::vector<double>, discrepancy_sizes.size()> each;
         std::vector<double> any;
@@ -238,8 +218,8 @@ BlockLikelihoods Discrepancy::of_blocks(const Eigen::VectorXd& residuals) const 
             any.push_back(-0.5 * left);
             if (error_sizes[m] > largest_floor) continue;
             for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
-                for (const double own : own_functions) {
-                    const double variance = std::pow(discrepancy_sizes[k], 2) + own * own;
+                for (const double of_model : function_sizes) {
+                    const double variance = std::pow(discrepancy_sizes[k], 2) + of_model * of_model;
                     const Eigen::ArrayXd gained = variance * model.gains.array();
                     each[k].push_back(-0.5 * (left - (variance * along / (1.0 + gained)).sum() +
                                               (1.0 + gained).log().sum()));
@@ -255,9 +235,9 @@ BlockLikelihoods Discrepancy::of_blocks(const Eigen::VectorXd& residuals) const 
 Marginals Discrepancy::within_blocks(const Eigen::VectorXd& residuals) const {
     Eigen::VectorXd deviations = residuals;
     for (const ChannelBlocks& channel : blocks_) {
-        for (const Block& block : channel.blocks) {
+        for (const ResidualBlock& block : channel.blocks) {
             auto rows = deviations.segment(block.first_row, block.rows);
-            const double mean = rows.sum() / block.determined_rows;
+            const double mean = block.mean_of(residuals);
             for (double& each : rows) each -= each == 0.0 ? 0.0 : mean;
         }
     }

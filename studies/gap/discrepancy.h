@@ -71,14 +71,6 @@ class Discrepancy {
         Eigen::VectorXd variances;   // of each direction under a discrepancy of size 1
     };
 
-    // Neighbouring rows of one series.
-    struct Block {
-        Eigen::Index first_row = 0;  // in a vector of all residuals
-        Eigen::Index first_own = 0;  // among the rows of its channel
-        Eigen::Index rows = 0;
-        double determined_rows = 0.0;
-        double noise_part = 0.0;  // of the square of noise and floor
-    };
     // The means of a channel's blocks beside noise and an error of one size.
     struct BlockModel {
         Eigen::VectorXd precisions;    // of each block
@@ -87,16 +79,15 @@ class Discrepancy {
         Eigen::VectorXd gains;         // of each direction, by a discrepancy of size 1
     };
     struct ChannelBlocks {
-        std::vector<Block> blocks;
+        std::vector<ResidualBlock> blocks;
         std::vector<BlockModel> models;  // by the size of the error
     };
 
     void add_features(std::vector<ChannelFeatures>& channels, std::size_t channel,
                       const Eigen::MatrixXd& features, double determined, double all_determined,
                       double independent_samples) const;
-    static BlockModel block_model(const std::vector<Block>& blocks, const Eigen::MatrixXd& features,
+    static BlockModel block_model(const std::vector<ResidualBlock>& blocks, const Eigen::MatrixXd& features,
                                   double error_size);
-    std::vector<Block> blocks_of(std::size_t channel, Eigen::Index rows) const;
     Marginals of_channel(const ChannelFeatures& channel, const Eigen::VectorXd& residuals) const;
     Marginals of(const std::vector<ChannelFeatures>& channels, const Eigen::VectorXd& residuals) const;
 

@@ -140,14 +140,29 @@ double unknown_fraction(const ScoredFit& fit, double without_cause) {
     return left + closed > 0.0 ? left / (left + closed) : neither_leaves;
 }
 
-// What the second leaves less than the first, rms in the channel where that is clearest, as a part of what
-// floor and laws may be wrong by there.
-double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, double law) {
-    constexpr double least_floor = 0.02;
+// The fits of the same bench with all effects of a fit but that of one cause; without any, where it was the
+// only one.
+std::vector<const ScoredFit*> fits_without(const ScoredFit& fit, std::size_t cause,
+                                           const std::vector<ScoredFit>& fits) {
+    Effects others = effects_of(fit.fit);
+    others.erase(std::find(others.begin(), others.end(), fit.fit.causes[cause]->effect));
+    if (others.empty()) others.push_back("none");
+    std::vector<const ScoredFit*> without;
+    for (const ScoredFit& other : fits) {
+        if (other.fit.bench == fit.fit.bench && effects_of(other.fit) == others) without.push_back(&other);
+    }
+    return without;
+}
+
+// E70. What a fit leaves less than one without a cause, rms in the channel where that is clearest, as a part
+// of what floor and the other causes' laws may be wrong by there.
+double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, std::size_t cause) {
+    constexpr double min_floor = 0.02;
+    const double law = law_error * clearest_law(fit, cause);
     double most = 0.0;
     for (std::size_t c = 0; c < fit.channel_misfits.size(); ++c)
         most = std::max(most, (without.channel_misfits[c] - fit.channel_misfits[c]) /
-                                  (std::max(least_floor, fit.channel_floors[c]) + law * law));
+                                  (std::max(min_floor, fit.channel_floors[c]) + law * law));
     return std::sqrt(most);
 }
 
@@ -248,33 +263,17 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
     };
     const std::vector<const CandidateCause*>& causes = fit.fit.causes;
     double penalty = 0.0;
-    if (fit.of_blocks) {
-        for (std::size_t k = 0; k < causes.size(); ++k) {
-            if (causes[k]->effect == "none" || causes[k]->is_seen) continue;
-            Effects others = effects_of(fit.fit);
-            others.erase(std::find(others.begin(), others.end(), causes[k]->effect));
-            if (others.empty()) others.push_back("none");
-            double closed = std::numeric_limits<double>::infinity();
-            for (const ScoredFit& other : fits) {
-                if (other.fit.bench == fit.fit.bench && effects_of(other.fit) == others)
-                    closed = std::min(closed, closed_of_floor(other, fit, law_error * clearest_law(fit, k)));
-            }
-            penalty += within_floor_penalty * std::max(0.0, 1.0 - closed);
-        }
-        return penalty;
-    }
     for (std::size_t k = 0; k < causes.size(); ++k) {
-        const CandidateCause* cause = causes[k];
-        if (causes.size() == 1 || cause->is_seen || fit.has_unknown_scales) continue;
-        Effects others = effects_of(fit.fit);
-        others.erase(std::find(others.begin(), others.end(), cause->effect));
-        double left_without = std::numeric_limits<double>::infinity();
-        for (const ScoredFit& other : fits) {
-            if (other.fit.bench == fit.fit.bench && effects_of(other.fit) == others)
-                left_without = std::min(left_without, left(other));
+        if (causes[k]->effect == "none" || causes[k]->is_seen || fit.has_unknown_scales) continue;
+        if (causes.size() == 1 && !fit.of_blocks) continue;
+        double closed = std::numeric_limits<double>::infinity();  // as a part of the model's own error
+        for (const ScoredFit* other : fits_without(fit, k, fits)) {
+            const double more = std::sqrt(std::max(0.0, left(*other) - left(fit)));
+            closed = std::min(closed,
+                              fit.of_blocks ? closed_of_floor(*other, fit, k) : more / model_error(fit, k));
         }
-        const double closed = std::sqrt(std::max(0.0, left_without - left(fit)));
-        penalty += invisible_at_most(fit) * std::max(0.0, 1.0 - closed / model_error(fit, k));
+        penalty +=
+            (fit.of_blocks ? within_floor_penalty : invisible_at_most(fit)) * std::max(0.0, 1.0 - closed);
     }
     return penalty;
 }

@@ -163,7 +163,27 @@ std::vector<bool> determined_rows(const Recording& recording, const ResidualSeri
 }  // namespace
 
 std::size_t rows_of_a_block(double sample_rate_Hz, int stride) {
-    return static_cast<std::size_t>(std::max(1.0, std::round(usual_correlation_time_s * sample_rate_Hz / stride)));
+    return static_cast<std::size_t>(
+        std::max(1.0, std::round(usual_correlation_time_s * sample_rate_Hz / stride)));
+}
+
+std::vector<ResidualBlock> blocks_of(const std::vector<ResidualSeries>& series, std::size_t channel,
+                                     std::size_t rows) {
+    std::vector<ResidualBlock> blocks;
+    std::size_t of_channel = 0;
+    for (const ResidualSeries& each : series) {
+        if (each.channel != channel) continue;
+        for (std::size_t row = 0; row < each.rows; row += rows) {
+            const std::size_t end = std::min(row + rows, each.rows);
+            const std::size_t determined = each.determined_rows(row, end);
+            if (determined == 0) continue;
+            blocks.push_back(
+                {static_cast<Eigen::Index>(each.first_row + row), static_cast<Eigen::Index>(of_channel + row),
+                 static_cast<Eigen::Index>(end - row), static_cast<double>(determined), each.noise_part});
+        }
+        of_channel += each.rows;
+    }
+    return blocks;
 }
 
 std::size_t ResidualSeries::determined_rows(std::size_t from, std::size_t to) const {
