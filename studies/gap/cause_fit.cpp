@@ -193,7 +193,9 @@ SeriesWeights CauseFitter::block_weights(const Eigen::VectorXd& residuals) const
     for (const ResidualSeries& series : series_) {
         const double least =
             smallest_floor * smallest_floor * (1.0 - series.noise_part) + series.noise_part / rows;
-        weights.push_back(prior_weight_ / std::sqrt(rows * std::max(least, left.at(series.channel))));
+        const double counts = ResidualBlock{0, 0, 0, rows, series.noise_part}.counts();
+        weights.push_back(prior_weight_ *
+                          std::sqrt(counts / (rows * std::max(least, left.at(series.channel)))));
     }
     return weights;
 }
@@ -294,10 +296,6 @@ CauseFit CauseFitter::fit(const Hypothesis& start, const FitOptions& options) co
     }
     fit.evaluations = evaluations;
     return fit;
-}
-
-CauseFit CauseFitter::fit_close_to(const Hypothesis& start, const FitOptions& options) const {
-    return fit_with({}, start, options, max_iterations, fine_step);
 }
 
 WideDerivatives CauseFitter::wide_derivatives(const Hypothesis& at) const {

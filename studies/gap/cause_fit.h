@@ -36,7 +36,11 @@ struct ResidualSeries {
 /// The correlation time of residuals, as long as nothing is known of them.
 inline constexpr double usual_correlation_time_s = 0.25;
 
-/// Rows of a series in that time, at least one.
+/// The model's own error is a function of where a drive is and of how it moves, which a hand leaves about as
+/// they are for half a second.
+inline constexpr double error_correlation_time_s = 0.5;
+
+/// Rows of a series in the usual correlation time, at least one.
 std::size_t rows_of_a_block(double sample_rate_Hz, int stride);
 
 /// Neighbouring rows of one series, over which noise averages out (E69).
@@ -47,6 +51,14 @@ struct ResidualBlock {
     double determined_rows = 0.0;
     double noise_part = 0.0;  ///< of the square of noise and floor
 
+    /// As what part of an independent block it counts: noise is independent from block to block, and the
+    /// model's own error is not.
+    double counts() const {
+        const double of_noise = noise_part / determined_rows;
+        const double of_model = 1.0 - noise_part;
+        return (of_noise + usual_correlation_time_s / error_correlation_time_s * of_model) /
+               (of_noise + of_model);
+    }
     double mean_of(const Eigen::VectorXd& residuals) const {
         return residuals.segment(first_row, rows).sum() / determined_rows;
     }
@@ -149,8 +161,6 @@ class CauseFitter {
         bool is_close = false;
     };
     CauseFit fit(const Hypothesis& start, const FitOptions& options) const;
-    /// The same without weights, from where a fit with a coarser model ended.
-    CauseFit fit_close_to(const Hypothesis& start, const FitOptions& options) const;
     /// The same causes with the same weights, fitted without each part in turn, from the numbers of `all`.
     std::vector<CauseFit> fits_without(const CauseFit& all, std::span<const LeftOut> parts) const;
     /// A few rough steps of a search, everything free, with these weights, from the more promising of the

@@ -65,6 +65,13 @@ bool leaves_much(const ScoredFit& fit) {
     return fit.misfit > much;
 }
 
+// A zero or a bearing's friction among several causes: a bench as built has others, too.
+bool has_a_usual_number(const ScoredFit& fit) {
+    return std::any_of(fit.fit.causes.begin(), fit.fit.causes.end(), [](const CandidateCause* cause) {
+        return cause->effect == "sensor_offset" || cause->effect == "pulley_friction";
+    });
+}
+
 // Of a bench whose numbers float widely, no number can be wrong beyond that.
 void remove_wrong_numbers(std::vector<CandidateCause>& causes) {
     std::erase_if(
@@ -122,7 +129,11 @@ CauseSearch::CauseSearch(const Recording& recording, const CauseSearchOptions& o
       described_{recording.nominal_is_fitted ? undescribed_bench(recording)
                                              : measured_bench(recording.nominal->spread),
                  candidate_causes(recording)},
-      built_{built_bench(recording), candidate_causes(recording)} {
+      built_{built_bench(recording), candidate_causes(recording)},
+      in_blocks_(described_.bench.is_measured()) {
+    if (in_blocks_) {
+        for (Model* model : {&fine_, &coarse_}) model->fitter.weigh_blocks();
+    }
     if (recording.nominal_is_fitted) {
         remove_what_is_fitted(described_.causes);
         if (recording.nominal->load_compliance_rad_per_Nm > 0.0)
@@ -151,28 +162,25 @@ FoundCauses CauseSearch::run() & {
     const bool is_measured = described_.bench.is_measured();
     found.fits = search_one(described_);
     bool built = is_measured && should_be_taken_as_built(found.fits.front());
-    if (built) {
+    if (built && leaves_much(found.fits.front())) {
         // A cause that is sought last may look like one that asks for far numbers.
         try_last(described_, found.fits);
     } else {
+        // Two causes may explain what one of them explains only beside far numbers.
         search_several(described_, found.fits);
         const ScoredFit& best = found.fits.front();
-        built = is_measured &&
-                (leaves_much(best) || (best.fit.causes.size() > 1 && (should_be_taken_as_built(best) ||
-                                                                      stands_for_usual_numbers(found.fits))));
+        built = built || (is_measured && (leaves_much(best) ||
+                                          (best.fit.causes.size() > 1 &&
+                                           (has_a_usual_number(best) || should_be_taken_as_built(best) ||
+                                            stands_for_usual_numbers(found.fits)))));
     }
     if (built) {
         evidence_.set_below_noise_weight(below_noise_weight_beside_floating_numbers);
-        in_blocks_ = true;
-        for (Model* model : {&fine_, &coarse_}) model->fitter.weigh_blocks();
-        for (ScoredFit& each : found.fits) {
-            take_likelihoods(fine_, each);
-            each.evidence = evidence_.of(each);
-        }
+        for (ScoredFit& each : found.fits) each.evidence = evidence_.of(each);
         Fits coarse = search_one(built_);
         search_several(built_, coarse);
         Fits rougher = fitted_again(fine_, coarse, max_fitted_finely);
-        try_fewer_finely(coarse, rougher);
+        try_fewer_finely(rougher);
         const ScoredFit best = rougher.front();
         std::move(rougher.begin(), rougher.end(), std::back_inserter(found.fits));
         sort_by_evidence(found.fits);
@@ -391,7 +399,11 @@ CauseFit CauseSearch::fit_on(const Level& level, const Hypothesis& start, CauseF
         CauseFitter::FitOptions coarsely = options;
         coarsely.pruned_sum_of_squares *= coarse_.fitter.determined_rows() / fine_.fitter.determined_rows();
         const CauseFit close = coarse_.fitter.fit(start, coarsely);
-        CauseFit fit = fine_.fitter.fit_close_to(close.hypothesis(), options);
+        CauseFitter::FitOptions from_there = options;
+        from_there.any_size = false;
+        from_there.balanced = true;
+        from_there.is_close = true;
+        CauseFit fit = fine_.fitter.fit(close.hypothesis(), from_there);
         fit.evaluations += close.evaluations;
         return fit;
     }
@@ -461,21 +473,12 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
     }
     scored.has_unknown_scales = is_undescribed(*scored.fit.bench);
     if (!scored.has_unknown_scales) {
-        take_likelihoods(model, scored);
+        scored.beside = model.discrepancy.within_blocks(scored.fit.residuals);
+        scored.of_blocks = model.discrepancy.of_blocks(scored.fit.residuals);
         scored.channel_misfits = model.fitter.channel_misfits(scored.fit);
         scored.channel_floors = model.fitter.channel_floors();
     }
     return scored;
-}
-
-// Of the mean square, or of the means of blocks and the deviations from them.
-void CauseSearch::take_likelihoods(const Model& model, ScoredFit& scored) const {
-    if (!in_blocks_) {
-        scored.beside = model.discrepancy.of(scored.fit.residuals);
-        return;
-    }
-    scored.beside = model.discrepancy.within_blocks(scored.fit.residuals);
-    scored.of_blocks = model.discrepancy.of_blocks(scored.fit.residuals);
 }
 
 // In the order of the fits.

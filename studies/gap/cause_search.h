@@ -116,7 +116,6 @@ class CauseSearch {
     CauseFit roughly_fitted(std::span<const Hypothesis> starts, const SeriesWeights& weights,
                             const WideDerivatives& known = {});
     ScoredFit measured(const Model& model, CauseFit fit) const;
-    void take_likelihoods(const Model& model, ScoredFit& fit) const;
     void weigh(Model& model, ScoredFit& fit);
     Marginals beside_own_scales(const Model& model, const CauseFit& fit) const;
     Fits made_side_by_side(Model& model, std::size_t count, const std::function<CauseFit(std::size_t)>& fit,
@@ -142,7 +141,7 @@ class CauseSearch {
     void search_several(const Level& level, Fits& all);
     void try_without_idle_causes(const Level& level, Fits& all);
     bool try_fewer(const Level& level, Fits& all);
-    void try_fewer_finely(const Fits& coarse, Fits& all);
+    void try_fewer_finely(Fits& all);
     bool try_more(const Level& level, Fits& all);
     static const ScoredFit* with_one_cause_fewer(const Fits& all);
     bool replace_the_weakest(const Level& level, Fits& all);
@@ -174,6 +173,7 @@ class CauseSearch {
                         const std::vector<Further>& screened, Fits& fits);
     void try_confusable(const Level& level, Fits& all);
     static double pruned_at(const Fits& fits);
+    bool only_corrects_the_model(const ScoredFit& single, const Fits& singles) const;
     Fits larger_sets(const Level& level, const Fits& smaller);
     void add_sets(const Level& level, const Hypothesis& hypothesis, const SeriesWeights& weights,
                   std::size_t max_further, Fits& sets) {
@@ -197,7 +197,7 @@ class CauseSearch {
     // priors.
     Eigen::VectorXd best_leaves_;
     double best_evidence_ = -std::numeric_limits<double>::infinity();
-    bool in_blocks_ = false;   // the evidence is of blocks (E69)
+    bool in_blocks_;           // the evidence is of blocks (E69): the scale of each channel's error is known
     bool is_sharper_ = false;  // the evidence, because little correlation is left
     int fitted_ = 0;
     // Fits that are made side by side count and look at the time.

@@ -89,7 +89,8 @@ bool CauseSearch::try_last(const Level& level, Fits& all) {
     const ScoredFit best = all.front();
     const Hypothesis found = best.fit.hypothesis();
     const bool is_nothing = found.causes.front()->effect == "none";
-    if (level.sought_last().empty() || is_out_of_time() || (is_nothing && !worth_a_further_cause(best)))
+    if (level.sought_last().empty() || is_out_of_time() ||
+        (!worth_a_further_cause(best) && (is_nothing || only_corrects_the_model(best, all))))
         return false;
     Fits sets;
     const auto add = [&](const Hypothesis& beside, std::size_t count) {
@@ -250,13 +251,25 @@ void CauseSearch::add_measured_sets(const ScoredFit& built, Fits& all) {
     sort_by_evidence(all);
 }
 
+// Whether nothing at all explains a recording better, once the best single cause has paid for following the
+// model's own error (E70).
+bool CauseSearch::only_corrects_the_model(const ScoredFit& single, const Fits& singles) const {
+    const auto nothing = std::find_if(singles.begin(), singles.end(), [](const ScoredFit& fit) {
+        return fit.fit.causes.front()->effect == "none";
+    });
+    return nothing != singles.end() && single.fit.causes.size() == 1 &&
+           single.evidence - evidence_.penalty_of_corrections(single, singles) < nothing->evidence;
+}
+
 // The best of the smaller sets, each with one cause more; then without each of its former causes in turn, for
 // the first cause may have stood for two others.
 CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& smaller) {
     Fits sets;
     const ScoredFit& best = smaller.front();
-    // A pair is tried whatever a first cause leaves, because that cause may stand for both.
-    const bool seeks_pairs = best.fit.causes.size() == 1 && best.fit.causes.front()->effect != "none";
+    // A pair is tried whatever a first cause leaves, because that cause may stand for both, unless it only
+    // corrects the model.
+    const bool seeks_pairs = best.fit.causes.size() == 1 && best.fit.causes.front()->effect != "none" &&
+                             !only_corrects_the_model(best, smaller);
     if (!seeks_pairs && !worth_a_further_cause(best)) return sets;
     std::vector<std::string> extended;  // by the cause that was added last
     for (const ScoredFit& each : smaller) {

@@ -21,6 +21,9 @@ constexpr double tenable_misfit = 1.2;
 // they take up a part of that, and less may be left of a visible gap.
 constexpr double misfit_without_gap = 0.25;
 constexpr double unproven_penalty = 4.0;
+// So much evidence of the means of blocks against `none` stands, although two short runs predict each other
+// badly: e^-20.
+constexpr double beyond_doubt = 20.0;
 
 class Diagnoser {
   public:
@@ -96,7 +99,10 @@ class Diagnoser {
                std::none_of(unproven.begin(), unproven.end(),
                             [&](const auto& set) { return are_same_causes(set, fits.front().fit.causes); })) {
             unproven.push_back(fits.front().fit.causes);
-            const bool may_be_nothing = nothing_in(fits).misfit < tenable_misfit;
+            const ScoredFit& nothing = nothing_in(fits);
+            const bool may_be_nothing =
+                nothing.misfit < tenable_misfit &&
+                !(nothing.of_blocks && nothing.evidence < fits.front().evidence - beyond_doubt);
             if (may_be_nothing) {
                 put_nothing_first(fits, Evidence::overstated);
             } else {

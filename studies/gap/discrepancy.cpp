@@ -190,8 +190,8 @@ Discrepancy::BlockModel Discrepancy::block_model(const std::vector<ResidualBlock
         const ResidualBlock& block = blocks[static_cast<std::size_t>(b)];
         const double variance =
             error_size * error_size * (1.0 - block.noise_part) + block.noise_part / block.determined_rows;
-        model.precisions[b] = 1.0 / variance;
-        model.log_determinant += std::log(variance);
+        model.precisions[b] = block.counts() / variance;
+        model.log_determinant += block.counts() * std::log(variance);
     }
     const Eigen::MatrixXd weighed = model.precisions.asDiagonal() * features;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(features.transpose() * weighed);
@@ -241,7 +241,15 @@ Marginals Discrepancy::within_blocks(const Eigen::VectorXd& residuals) const {
             for (double& each : rows) each -= each == 0.0 ? 0.0 : mean;
         }
     }
-    return of(within_blocks_, deviations);
+    Marginals marginals;
+    for (const ChannelFeatures& channel : within_blocks_) {
+        const Marginals own = of_channel(channel, deviations);
+        for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
+            marginals[k].misfit += channel.part * own[k].misfit;
+            marginals[k].log_determinant += own[k].log_determinant;
+        }
+    }
+    return marginals;
 }
 
 Marginals Discrepancy::of_channel(const ChannelFeatures& channel, const Eigen::VectorXd& residuals) const {
@@ -261,23 +269,6 @@ Marginals Discrepancy::of_channel(const ChannelFeatures& channel, const Eigen::V
         const Eigen::ArrayXd gained =
             channel.samples * std::pow(discrepancy_sizes[k], 2) * channel.variances.array();
         marginals[k] = {mean_square - (along * gained / (1.0 + gained)).sum(), (1.0 + gained).log().sum()};
-    }
-    return marginals;
-}
-
-Marginals Discrepancy::of(const Eigen::VectorXd& residuals) const {
-    return of(channels_, residuals);
-}
-
-Marginals Discrepancy::of(const std::vector<ChannelFeatures>& channels,
-                          const Eigen::VectorXd& residuals) const {
-    Marginals marginals;
-    for (const ChannelFeatures& channel : channels) {
-        const Marginals own = of_channel(channel, residuals);
-        for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) {
-            marginals[k].misfit += channel.part * own[k].misfit;
-            marginals[k].log_determinant += own[k].log_determinant;
-        }
     }
     return marginals;
 }

@@ -45,18 +45,16 @@ class Discrepancy {
     Discrepancy(const Recording& recording, const std::vector<ResidualSeries>& series, int stride,
                 double independent_samples);
 
-    /// `residuals`: all series one after the other, in units of noise and floor.
-    Marginals of(const Eigen::VectorXd& residuals) const;
-    /// The same where each channel's error has an unknown scale of its own: the misfit is
-    /// the geometric mean over the channels, each in proportion to its samples (E54). `of_laws`: what the
-    /// laws may be wrong by in each predicted channel, mean square, in the order of the channels; empty:
-    /// nothing.
+    /// Where each channel's error has an unknown scale of its own: the misfit is the geometric mean over the
+    /// channels, each in proportion to its samples (E54). `residuals`: all series one after the other, in
+    /// units of noise and floor. `of_laws`: what the laws may be wrong by in each predicted channel, mean
+    /// square, in the order of the channels; empty: nothing.
     Marginals with_own_scales(const Eigen::VectorXd& residuals,
                               const std::vector<double>& of_laws = {}) const;
     /// Noise averages out over a block, and the model's own error does not. The latter has a size of its own
     /// in each channel, about that of the floor, and a part of it may be a function of the motion.
     BlockLikelihoods of_blocks(const Eigen::VectorXd& residuals) const;
-    /// As `of`, of residuals and features without the means of blocks.
+    /// Of the deviations from the means of blocks, by the same deviations of the features.
     Marginals within_blocks(const Eigen::VectorXd& residuals) const;
     /// Independent ones, of each channel by its index.
     void set_samples(const std::function<double(std::size_t channel)>& samples_of);
@@ -89,7 +87,6 @@ class Discrepancy {
     static BlockModel block_model(const std::vector<ResidualBlock>& blocks, const Eigen::MatrixXd& features,
                                   double error_size);
     Marginals of_channel(const ChannelFeatures& channel, const Eigen::VectorXd& residuals) const;
-    Marginals of(const std::vector<ChannelFeatures>& channels, const Eigen::VectorXd& residuals) const;
 
     std::vector<ResidualSeries> series_;
     std::vector<ChannelFeatures> channels_;

@@ -51,9 +51,7 @@ constexpr double usual_number = 3.9;
 // No excess says more against named causes than that another one of some size acts beside them: noise may be
 // wrongly stated, and then all named causes leave too much.
 constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty + usual_number;
-// A cause's law in the catalogue is an idealisation, good to about a tenth of what the cause does. A further
-// cause that is fainter than that only corrects the law of the clearest one.
-constexpr double faint = law_error;
+// A further cause that is fainter than what the law of the clearest one may be wrong by only corrects that.
 constexpr double faint_penalty = 60.0;
 // What follows the model's own error is no cause, however clearly the means of blocks show it (E70).
 constexpr double within_floor_penalty = 40.0;
@@ -94,31 +92,36 @@ Effects effects_of(const CauseFit& fit) {
     return effects;
 }
 
-// The visibility of the clearest cause whose law is an idealisation, apart from one of them.
-double clearest_law(const ScoredFit& fit, std::size_t apart_from) {
-    double clearest = 0.0;
+// What the laws of the causes may be wrong by, rms in units of noise and floor, apart from the law of one of
+// them.
+double error_of_laws(const ScoredFit& fit, std::size_t apart_from) {
+    double most = 0.0;
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
-        if (k != apart_from && !fit.fit.causes[k]->is_exact) clearest = std::max(clearest, fit.visibility[k]);
+        const CandidateCause& cause = *fit.fit.causes[k];
+        if (k == apart_from || cause.is_exact) continue;
+        most = std::max(most, (cause.is_outside_the_list ? law_error_outside_the_list : law_error) *
+                                  std::min(fit.visibility[k], fit.max_visibility));
     }
-    return std::min(clearest, fit.max_visibility);
+    return most;
 }
 
-double clearest_law(const ScoredFit& fit) {
-    return clearest_law(fit, fit.fit.causes.size());
+double error_of_laws(const ScoredFit& fit) {
+    return error_of_laws(fit, fit.fit.causes.size());
 }
 
-// What floor and laws may be wrong by (rms), apart from the law of one cause.
-double model_error(const ScoredFit& fit, std::size_t apart_from) {
-    return std::hypot(floor_error, law_error * clearest_law(fit, apart_from));
-}
-
+// What floor and laws may be wrong by (rms).
 double model_error(const ScoredFit& fit) {
-    return model_error(fit, fit.fit.causes.size());
+    return std::hypot(floor_error, error_of_laws(fit));
 }
 
 // What a channel may leave where the laws are good to law_error of what their causes do.
 double tenable_mean_square(const ScoredFit& fit) {
-    return 1.0 + std::pow(law_error * clearest_law(fit), 2);
+    return 1.0 + std::pow(error_of_laws(fit), 2);
+}
+
+// What an unknown cause explains, rms in the same units.
+double left_unexplained(const ScoredFit& fit) {
+    return std::sqrt(std::max(0.0, fit.misfit - 1.0));
 }
 
 // Less than noise and floor is not a sign of anything: the floor is an upper value (E56).
@@ -155,14 +158,16 @@ std::vector<const ScoredFit*> fits_without(const ScoredFit& fit, std::size_t cau
 }
 
 // E70. What a fit leaves less than one without a cause, rms in the channel where that is clearest, as a part
-// of what floor and the other causes' laws may be wrong by there.
+// of what the model, whose error may exceed the floor, and the other causes' laws may be wrong by there.
 double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, std::size_t cause) {
     constexpr double min_floor = 0.02;
-    const double law = law_error * clearest_law(fit, cause);
+    const double law = error_of_laws(fit, cause);
     double most = 0.0;
     for (std::size_t c = 0; c < fit.channel_misfits.size(); ++c)
-        most = std::max(most, (without.channel_misfits[c] - fit.channel_misfits[c]) /
-                                  (std::max(min_floor, fit.channel_floors[c]) + law * law));
+        most = std::max(
+            most,
+            (without.channel_misfits[c] - fit.channel_misfits[c]) /
+                (std::max(min_floor, largest_floor * largest_floor * fit.channel_floors[c]) + law * law));
     return std::sqrt(most);
 }
 
@@ -220,8 +225,8 @@ std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& ef
 }  // namespace
 
 // E68.
-double ScoredFit::probability_of(const FarNumber& far) const {
-    const double law = law_error * clearest_law(*this);
+double ScoredFit::probability_of(const FarNumber& far, double left_unexplained) const {
+    const double law = std::max(left_unexplained, error_of_laws(*this));
     if (far.closes >= law || far.probability == 1.0) return far.probability;
     const double odds = far.probability / (1.0 - far.probability) *
                         std::exp(-invisible_at_most(*this) * (1.0 - far.closes / law));
@@ -229,7 +234,7 @@ double ScoredFit::probability_of(const FarNumber& far) const {
 }
 
 void ScoredFit::widen_stated_numbers(const Eigen::Vector3d& deviations) {
-    if (fit.bench->is_measured() || (clearest_law(*this) == 0.0 && !of_blocks)) return;
+    if (fit.bench->is_measured() || (error_of_laws(*this) == 0.0 && !of_blocks)) return;
     const Eigen::Vector3d own = fit.nominal_covariance.diagonal().cwiseSqrt();
     const Eigen::Vector3d wider = deviations.cwiseMax(own).cwiseQuotient(own);
     const StatedNumbers stated =
@@ -241,11 +246,11 @@ void ScoredFit::widen_stated_numbers(const Eigen::Vector3d& deviations) {
     }
 }
 
-std::map<std::string, double> ScoredFit::of_the_bench() const {
+std::map<std::string, double> ScoredFit::of_the_bench(double left_unexplained) const {
     std::map<std::string, double> effects;
     for (const FarNumber& far : far_numbers) {
         double& most = effects[fit.bench->numbers[far.number].effect];
-        most = std::max(most, probability_of(far));
+        most = std::max(most, probability_of(far, left_unexplained));
     }
     return effects;
 }
@@ -257,23 +262,23 @@ double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
 }
 
 double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const {
-    constexpr double usual_nominal_penalty = 1.5;  // half the mean squared distance of three numbers
-    const auto left = [&](const ScoredFit& each) {
-        return each.misfit + 2.0 * std::max(0.0, each.nominal_penalty - usual_nominal_penalty) / samples_;
-    };
+    if (!fit.of_blocks) return 0.0;
     const std::vector<const CandidateCause*>& causes = fit.fit.causes;
     double penalty = 0.0;
     for (std::size_t k = 0; k < causes.size(); ++k) {
-        if (causes[k]->effect == "none" || causes[k]->is_seen || fit.has_unknown_scales) continue;
-        if (causes.size() == 1 && !fit.of_blocks) continue;
+        if (causes[k]->effect == "none" || causes[k]->is_seen) continue;
         double closed = std::numeric_limits<double>::infinity();  // as a part of the model's own error
+        double gain = -std::numeric_limits<double>::infinity();   // by what the residuals say
         for (const ScoredFit* other : fits_without(fit, k, fits)) {
-            const double more = std::sqrt(std::max(0.0, left(*other) - left(fit)));
-            closed = std::min(closed,
-                              fit.of_blocks ? closed_of_floor(*other, fit, k) : more / model_error(fit, k));
+            closed = std::min(closed, closed_of_floor(*other, fit, k));
+            gain =
+                std::max(gain, fit.evidence + fit.nominal_penalty - other->evidence - other->nominal_penalty);
         }
-        penalty +=
-            (fit.of_blocks ? within_floor_penalty : invisible_at_most(fit)) * std::max(0.0, 1.0 - closed);
+        const double own = within_floor_penalty * std::max(0.0, 1.0 - closed);
+        // Numbers far from those stated ask for a cause whatever the residuals follow, but not beside a law,
+        // which they may correct (E68).
+        const bool is_beside_a_law = error_of_laws(fit, k) > 0.0;
+        penalty += is_beside_a_law ? own : std::clamp(gain + further_cause_penalty, 0.0, own);
     }
     return penalty;
 }
@@ -288,7 +293,7 @@ double Evidence::with_unknown(const ScoredFit& fit) const {
     const bool named = fit.fit.causes.front()->effect != "none";
     const double prior = priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior);
     const double function = marginal(fit, [&](double size) { return std::exp(-invisible(fit, size)); });
-    if (fit.channel_misfits.empty()) return prior + function;
+    if (!fit.of_blocks) return prior + function;
     const double any = of_any_residuals(fit);
     const double most = std::max(function, any);
     // Both kinds are equally probable beforehand.
@@ -300,11 +305,8 @@ double Evidence::with_unknown(const ScoredFit& fit) const {
 double Evidence::of_any_residuals(const ScoredFit& fit) const {
     const double most = *std::max_element(fit.channel_misfits.begin(), fit.channel_misfits.end());
     const double size = std::sqrt(std::max(0.0, most - tenable_mean_square(fit)));
-    if (fit.of_blocks)
-        return log_likelihood(fit, fit.beside.front().misfit) + fit.of_blocks->beside_any +
-               fit.fit.log_volume_ratio - invisible(fit, size);
-    const double of_the_size = 0.5 * std::log(samples_);
-    return log_likelihood(fit, fit.misfit) + fit.fit.log_volume_ratio - of_the_size - invisible(fit, size);
+    return log_likelihood(fit, fit.beside.front().misfit) + fit.of_blocks->beside_any +
+           fit.fit.log_volume_ratio - invisible(fit, size);
 }
 
 // The logarithm of the likelihood's mean over the sizes of the discrepancy.
@@ -329,7 +331,7 @@ double Evidence::marginal(const ScoredFit& fit, const std::function<double(doubl
 double Evidence::priors(const ScoredFit& fit) const {
     double evidence = -fit.nominal_penalty - fit.shape_penalty + fit.stated_gain - fit.unproven_penalty;
     double inferred = 0.0;  // causes
-    double faintest = 1.0;  // of the inferred causes, relative to the clearest law beside it
+    double faintest = 1.0;  // of the inferred causes, relative to what the laws beside it may be wrong by
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         const CandidateCause& cause = *fit.fit.causes[k];
         if (cause.effect == "none") continue;
@@ -344,13 +346,13 @@ double Evidence::priors(const ScoredFit& fit) const {
             evidence -= faint_fault_penalty * std::max(0.0, 1.0 - fit.visibility[k] / visible);
         if (cause.is_rare) evidence -= rare_cause_penalty;
         if (cause.is_outside_the_list) evidence -= unknown_penalty;
-        const double law = clearest_law(fit, k);
+        const double law = error_of_laws(fit, k);
         if (law > 0.0) faintest = std::min(faintest, fit.visibility[k] / law);
     }
     if (inferred == 0.0) return evidence + none_log_prior;
     if (!fit.fit.bench->is_measured()) evidence -= cause_beside_floating_numbers_penalty;
     return evidence - further_cause_penalty * (inferred - 1.0) -
-           faint_penalty * std::max(0.0, 1.0 - faintest / faint);
+           faint_penalty * std::max(0.0, 1.0 - faintest);
 }
 
 std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fits) const {
@@ -374,7 +376,7 @@ std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fit
             return other.fit.bench == each.fit.bench && other.fit.causes.front()->effect == "none";
         });
         const double without_cause = nothing == fits.end() ? each.misfit : nothing->misfit;
-        take({effects, each.of_the_bench(), 0.0, with_unknown(each), &each, true,
+        take({effects, each.of_the_bench(left_unexplained(each)), 0.0, with_unknown(each), &each, true,
               unknown_fraction(each, without_cause)});
     }
     std::stable_sort(weighed.begin(), weighed.end(),

@@ -32,6 +32,8 @@ inline constexpr double below_noise_weight_beside_floating_numbers = 1.0;
 
 /// A law of the catalogue is an idealisation, good to this part of what its cause does.
 inline constexpr double law_error = 0.1;
+/// One that stands for an effect outside the list has another law than that effect, and is good to this part.
+inline constexpr double law_error_outside_the_list = 0.5;
 
 /// How well a set of causes explains a recording.
 struct ScoredFit {
@@ -67,10 +69,11 @@ struct ScoredFit {
     /// usual on a bench as built; one wrong number among right ones and a sensor that is late are causes.
     double far_numbers_are_usual = 1.0;
 
-    /// That the number is far from what was stated, and does not only correct the law of a cause (E68).
-    double probability_of(const FarNumber& far) const;
+    /// That the number is far from what was stated, and does not only correct the law of a cause (E68), or
+    /// what is left for an unknown one to explain (rms in units of noise and floor).
+    double probability_of(const FarNumber& far, double left_unexplained = 0.0) const;
     /// The effects that they stand for, each by its most probable number.
-    std::map<std::string, double> of_the_bench() const;
+    std::map<std::string, double> of_the_bench(double left_unexplained = 0.0) const;
     double evidence = 0.0;  ///< logarithm, up to a constant
 
     /// Weighs the stated numbers again (E63) where these standard deviations of their logarithms are wider

@@ -104,22 +104,14 @@ CauseSearch::Fits CauseSearch::fitted_again(Model& model, const Fits& fits, std:
 
 // The best set without each of its causes, where the fine model has not seen that. The coarse model skips
 // samples, except where an inertia rings, so that a little inertia may stand for what the others miss.
-void CauseSearch::try_fewer_finely(const Fits& coarse, Fits& all) {
-    const auto is_behind = [&](const Hypothesis& set) {
-        if (in_blocks_)
-            return false;  // what it leaves tells whether a cause closes more than the floor (E70)
-        const auto same = std::find_if(coarse.begin(), coarse.end(), [&](const ScoredFit& each) {
-            return each.fit.bench == set.bench && are_same_causes(each.fit.causes, set.causes);
-        });
-        return same != coarse.end() && same->evidence < coarse.front().evidence - far_behind;
-    };
+void CauseSearch::try_fewer_finely(Fits& all) {
     while (all.front().fit.causes.size() > 1 && !is_out_of_time()) {
         const double before = all.front().evidence;
         std::vector<Hypothesis> fewer = without_each(all.front().fit.hypothesis());
         std::erase_if(fewer, [&](const Hypothesis& set) {
-            return is_behind(set) || std::any_of(all.begin(), all.end(), [&](const ScoredFit& each) {
-                       return are_same_causes(each.fit.causes, set.causes);
-                   });
+            return std::any_of(all.begin(), all.end(), [&](const ScoredFit& each) {
+                return are_same_causes(each.fit.causes, set.causes);
+            });
         });
         add_fitted_finely(fewer, all);
         if (all.front().evidence == before) return;

@@ -209,10 +209,14 @@ TEST(Evidence, ACauseThatLeavesStructureIsNamedBesideTheUnknown) {
     EXPECT_NEAR(ranked[0].probability, ranked[1].probability, 0.01);
 }
 
-// The first of `channels` channels leaves `most`, the others only noise.
-ScoredFit with_channels(const Evidence& by, ScoredFit fit, std::size_t channels, double most) {
+// The first of `channels` channels leaves `most`, the others only noise. `any_gains`: what an error of any
+// kind explains of the means of blocks.
+ScoredFit with_channels(const Evidence& by, ScoredFit fit, std::size_t channels, double most,
+                        double any_gains = 0.0) {
     fit.channel_misfits.assign(channels, 1.0);
     fit.channel_misfits.front() = most;
+    fit.of_blocks = BlockLikelihoods{};
+    fit.of_blocks->beside_any = any_gains;
     fit.evidence = by.of(fit);
     return fit;
 }
@@ -222,9 +226,9 @@ TEST(Evidence, WhatOneChannelLeavesWithoutFollowingTheMotionIsUnknown) {
     // Seven channels, of which one leaves five times its variance: 1.57 on average.
     const double mean_square = (6.0 + 5.0) / 7.0;
     const ScoredFit nothing =
-        with_channels(evidence, fitted(evidence, {&known.none}, mean_square, {0.0}), 7, 5.0);
+        with_channels(evidence, fitted(evidence, {&known.none}, mean_square, {0.0}), 7, 5.0, 60.0);
     const ScoredFit drag =
-        with_channels(evidence, fitted(evidence, {&known.drag}, 0.99 * mean_square, {2.5}), 7, 4.9);
+        with_channels(evidence, fitted(evidence, {&known.drag}, 0.99 * mean_square, {2.5}), 7, 4.9, 60.0);
     const auto ranked = ranked_by(evidence, {known.none, known.drag}, {nothing, drag});
     EXPECT_EQ(ranked.front().effect, "unknown");
     EXPECT_GT(ranked.front().probability, 0.9);
@@ -243,12 +247,14 @@ TEST(Evidence, ScatterOfTheNoisesScaleIsNoUnknownCause) {
 
 TEST(Evidence, ALawMayBeWrongByATenthOfWhatItsCauseDoes) {
     const Known known;
-    // A cause of twenty times the noise may leave a channel's variance at five times the noise's.
+    // A cause of twenty times the noise may leave a channel's variance at five times the noise's. Of the
+    // sizes of an error of any kind one in twenty explains that.
+    const double one_size = -std::log(20.0);
     const auto unknown_is_present = [&](double visibility) {
         const ScoredFit nothing =
-            with_channels(evidence, fitted(evidence, {&known.none}, 200.0, {0.0}), 1, 200.0);
+            with_channels(evidence, fitted(evidence, {&known.none}, 200.0, {0.0}), 1, 200.0, one_size);
         const ScoredFit drag =
-            with_channels(evidence, fitted(evidence, {&known.drag}, 5.0, {visibility}), 1, 5.0);
+            with_channels(evidence, fitted(evidence, {&known.drag}, 5.0, {visibility}), 1, 5.0, one_size);
         return present(ranked_by(evidence, {known.none, known.drag}, {nothing, drag}), "unknown");
     };
     EXPECT_LT(unknown_is_present(20.0), 0.03);
@@ -406,57 +412,75 @@ TEST(Evidence, APairLeadsOnlyIfBothCausesAreVisible) {
     EXPECT_NEAR(probability(ranked, "viscous_friction"), probability(ranked, "sensor_gain"), 0.01);
 }
 
-// However visible a cause is: beside numbers that make up for it, it may only correct the model's own error.
-TEST(Evidence, ASetIsChargedForACauseThatOnlyCorrectsTheModel) {
-    const Known known;
-    const BenchKnowledge& built = bench_with_a_zero();
-    const auto on_built_bench = [&](ScoredFit fit) {
-        fit.fit.bench = &built;
-        return fit;
-    };
-    const ScoredFit single = on_built_bench(fitted(evidence, {&known.drag}, 0.60, {6.0}));
-    const auto charge = [&](double misfit, const std::vector<ScoredFit>& others) {
-        return evidence.penalty_of_corrections(
-            on_built_bench(fitted(evidence, {&known.drag, &known.gain}, misfit, {6.0, 4.0})), others);
-    };
-    EXPECT_EQ(charge(0.10, {single}), 0.0);
-    // Something invisible costs 8 beside floating numbers; the floor is known to a quarter, and the drag's
-    // law to a tenth.
-    const double model_error = std::hypot(0.25, 0.1 * 6.0);
-    EXPECT_NEAR(charge(0.58, {single}), 8.0 * (1.0 - std::sqrt(0.60 - 0.58) / model_error), 1e-9);
-    EXPECT_GT(charge(0.5999, {single}), charge(0.58, {single}));
-    EXPECT_EQ(charge(0.58, {}), 0.0) << "nothing tells what the drag alone leaves";
-    EXPECT_EQ(charge(0.58, {fitted(evidence, {&known.drag}, 0.60, {6.0})}), 0.0) << "on another bench";
-    ScoredFit far = single;  // the drag alone asks for numbers that no bench has
-    far.nominal_penalty = 60.0;
-    EXPECT_EQ(charge(0.58, {far}), 0.0);
-    EXPECT_EQ(evidence.penalty_of_corrections(single, {single}), 0.0);
+// E70. What a fit leaves of two channels whose floors are 0.25 and 0.64 of the square of noise and floor.
+ScoredFit with_floors(ScoredFit fit, std::vector<double> left) {
+    fit.of_blocks = BlockLikelihoods{};
+    fit.channel_misfits = std::move(left);
+    fit.channel_floors = {0.25, 0.64};
+    return fit;
 }
 
-// E70. The means of blocks are so sharp that they also see what the model itself is wrong by.
-TEST(Evidence, BesideMeansOfBlocksACauseThatClosesLessThanTheFloorIsCharged) {
+// The means of blocks are so sharp that they also see what the model itself is wrong by.
+TEST(Evidence, ACauseThatClosesLessThanTheFloorIsCharged) {
     const Known known;
-    const auto in_blocks = [&](std::vector<const CandidateCause*> causes, std::vector<double> visibility,
-                               std::vector<double> left) {
-        ScoredFit fit = fitted(evidence, std::move(causes), 1.0, std::move(visibility));
-        fit.of_blocks = BlockLikelihoods{};
-        fit.channel_misfits = std::move(left);
-        fit.channel_floors = {0.25, 0.64};
-        return fit;
-    };
-    const ScoredFit nothing = in_blocks({&known.none}, {0.0}, {1.25, 1.16});
+    const ScoredFit nothing = with_floors(fitted(evidence, {&known.none}, 1.0, {0.0}), {2.0, 2.0});
     const auto charge = [&](std::vector<double> left) {
-        return evidence.penalty_of_corrections(in_blocks({&known.drag}, {1.0}, std::move(left)), {nothing});
+        ScoredFit drag = with_floors(fitted(evidence, {&known.drag}, 1.0, {1.0}), std::move(left));
+        drag.evidence = nothing.evidence + 60.0;
+        return evidence.penalty_of_corrections(drag, {nothing});
     };
-    EXPECT_EQ(charge({1.0, 1.16}), 0.0) << "all of one channel's floor";
-    EXPECT_EQ(charge({1.25, 0.5}), 0.0);
-    EXPECT_NEAR(charge({1.25, 1.0}), 40.0 * 0.5, 1e-9) << "half of the other's";
-    EXPECT_NEAR(charge({1.25, 1.2}), 40.0, 1e-9) << "nothing";
-    // Beside a cause whose law is good to a tenth it also has to close more than that.
-    const ScoredFit drag = in_blocks({&known.drag}, {8.0}, {1.25, 1.16});
-    const ScoredFit both = in_blocks({&known.drag, &known.gain}, {8.0, 1.0}, {1.0, 1.16});
-    EXPECT_NEAR(evidence.penalty_of_corrections(both, {drag}),
-                40.0 * (1.0 - std::sqrt(0.25 / (0.25 + 0.8 * 0.8))), 1e-9);
+    // The model's error may be 1.4 times the floor.
+    EXPECT_NEAR(charge({2.0 - 1.96 * 0.25, 2.0}), 0.0, 1e-9) << "all of one channel's";
+    EXPECT_EQ(charge({2.0, 0.7}), 0.0);
+    EXPECT_NEAR(charge({2.0, 2.0 - 0.25 * 1.96 * 0.64}), 40.0 * 0.5, 1e-9) << "half of the other's";
+    EXPECT_NEAR(charge({2.0, 2.1}), 40.0, 1e-9) << "nothing";
+    const ScoredFit drag = with_floors(fitted(evidence, {&known.drag}, 1.0, {1.0}), {2.0, 1.9});
+    EXPECT_EQ(evidence.penalty_of_corrections(drag, {}), 0.0) << "nothing tells what is left without it";
+    const BenchKnowledge& built = bench_with_a_zero();
+    ScoredFit elsewhere = nothing;
+    elsewhere.fit.bench = &built;
+    EXPECT_EQ(evidence.penalty_of_corrections(drag, {elsewhere}), 0.0) << "on another bench";
+}
+
+// What a strong cause leaves because its law is an idealisation is no second cause. A sensor's gain has no
+// such law, and a law that stands for an effect outside the list is only good to a half.
+TEST(Evidence, ACauseThatOnlyCorrectsTheLawOfAnotherIsCharged) {
+    Known known;
+    const auto charge = [&](double visibility) {
+        const ScoredFit drag = with_floors(fitted(evidence, {&known.drag}, 1.0, {visibility}), {1.25, 1.16});
+        const ScoredFit both =
+            with_floors(fitted(evidence, {&known.drag, &known.gain}, 1.0, {visibility, 1.0}), {1.0, 1.16});
+        return evidence.penalty_of_corrections(both, {drag});
+    };
+    const auto expected = [](double law) {
+        return 40.0 * (1.0 - std::sqrt(0.25 / (1.96 * 0.25 + law * law)));
+    };
+    EXPECT_NEAR(charge(8.0), expected(0.1 * 8.0), 1e-9);
+    known.drag.is_outside_the_list = true;
+    EXPECT_NEAR(charge(8.0), expected(0.5 * 8.0), 1e-9);
+    known.drag.is_exact = true;
+    EXPECT_EQ(charge(8.0), 0.0);
+}
+
+// A number that no bench has says so whatever the residuals follow; beside a law it may only correct that.
+TEST(Evidence, ACauseWithoutWhichNumbersAreFarOffIsChargedLittle) {
+    Known known;
+    known.gain.is_exact = true;
+    const double far = 30.0;
+    const auto charge = [&](std::vector<const CandidateCause*> others) {
+        std::vector<double> visibility(others.size(), 4.0);
+        ScoredFit without = with_floors(fitted(evidence, others, 1.0, visibility), {1.0, 1.0});
+        without.nominal_penalty = far;
+        without.evidence -= far;
+        std::erase(others, &known.none);
+        others.push_back(&known.gain);
+        visibility.resize(others.size(), 4.0);
+        const ScoredFit with = with_floors(fitted(evidence, others, 1.0, visibility), {1.0, 1.0});
+        EXPECT_GT(with.evidence, without.evidence);
+        return evidence.penalty_of_corrections(with, {without});
+    };
+    EXPECT_LT(charge({&known.none}), 3.9);
+    EXPECT_NEAR(charge({&known.drag}), 40.0, 1e-9);
 }
 
 // A loop of a sensor follows the model's own error of that channel best.
@@ -472,20 +496,6 @@ TEST(Evidence, BesideMeansOfBlocksAFaintFaultOfAReadingIsNone) {
     EXPECT_NEAR(gained(known.gain, 0.4), -200.0 * 0.6, 1e-9);
     EXPECT_EQ(gained(known.gain, 1.0), 0.0);
     EXPECT_EQ(gained(known.drag, 0.4), 0.0);
-}
-
-// What a strong cause leaves because its law is an idealisation is no second cause. A sensor's gain has no
-// such law.
-TEST(Evidence, ACauseThatOnlyCorrectsTheLawOfAnotherIsCharged) {
-    Known known;
-    known.gain.is_exact = true;
-    const ScoredFit both = fitted(evidence, {&known.drag, &known.gain}, 0.4, {8.0, 1.0});
-    const double beside_drag =
-        evidence.penalty_of_corrections(both, {fitted(evidence, {&known.drag}, 0.6, {8.0})});
-    const double beside_gain =
-        evidence.penalty_of_corrections(both, {fitted(evidence, {&known.gain}, 0.6, {8.0})});
-    EXPECT_GT(beside_drag, 5.0);
-    EXPECT_EQ(beside_gain, 0.0);
 }
 
 // A bench has several zeros and bearings' friction, whether they were searched as causes or float.

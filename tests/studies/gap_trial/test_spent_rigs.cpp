@@ -201,11 +201,11 @@ TEST(SpentBenches, AFrictionThatIsALittleOffIsNamedBesideZerosAndBearings) {
     EXPECT_LT(present(diagnosis, "none"), 0.5);
 }
 
-// Without the run that moves, the other one does not tell how slow the sensor is, so that a lag closes
-// nothing on held-out data. Nor does a delay, which took the place of the lag.
-TEST(SpentBenches, ALagThatOnlyOneRunTellsIsNoDelay) {
+// Without the run that moves, the other one does not tell how slow the sensor is, so that neither a lag nor a
+// delay closes anything on held-out data.
+TEST(SpentBenches, ALagThatOnlyOneRunTellsIsASlowSensor) {
     const gap::Diagnosis diagnosis = diagnosed_short(162203, 47);
-    EXPECT_GT(present(diagnosis, "sensor_lag"), 0.5);
+    EXPECT_GT(present(diagnosis, "sensor_lag") + present(diagnosis, "time_misalignment"), 0.8);
 }
 
 // The stiffness alone, 6.5% off, leaves less than half of noise and floor.
