@@ -269,16 +269,18 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
         if (causes[k]->effect == "none" || causes[k]->is_seen) continue;
         double closed = std::numeric_limits<double>::infinity();  // as a part of the model's own error
         double gain = -std::numeric_limits<double>::infinity();   // by what the residuals say
+        bool numbers_are_far = true;                              // in every fit without the cause
         for (const ScoredFit* other : fits_without(fit, k, fits)) {
             closed = std::min(closed, closed_of_floor(*other, fit, k));
             gain =
                 std::max(gain, fit.evidence + fit.nominal_penalty - other->evidence - other->nominal_penalty);
+            numbers_are_far = numbers_are_far && other->nominal_penalty > tenable_nominal_penalty;
         }
         const double own = within_floor_penalty * std::max(0.0, 1.0 - closed);
         // Numbers far from those stated ask for a cause whatever the residuals follow, but not beside a law,
         // which they may correct (E68).
-        const bool is_beside_a_law = error_of_laws(fit, k) > 0.0;
-        penalty += is_beside_a_law ? own : std::clamp(gain + further_cause_penalty, 0.0, own);
+        const bool is_asked_for = numbers_are_far && error_of_laws(fit, k) == 0.0;
+        penalty += is_asked_for ? std::clamp(gain + further_cause_penalty, 0.0, own) : own;
     }
     return penalty;
 }

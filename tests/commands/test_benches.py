@@ -142,7 +142,7 @@ class NoGap(CapstanTest):
         self.run_capstan("simulate", CONFIGS / "bench-grip.toml", "-o", "grip.csv")
         answer = json.loads(self.run_capstan("diagnose", "grip.csv", "--json", "--progress", "none").stdout)
         self.assertEqual(answer["ranked"][0]["effect"], "none")
-        self.assertGreater(answer["ranked"][0]["probability"], 0.6)
+        self.assertGreater(answer["ranked"][0]["probability"], 0.8)
         self.assertEqual(answer["causes"], [])
 
 

@@ -459,7 +459,7 @@ TEST(Evidence, ACauseThatOnlyCorrectsTheLawOfAnotherIsCharged) {
     known.drag.is_outside_the_list = true;
     EXPECT_NEAR(charge(8.0), expected(0.5 * 8.0), 1e-9);
     known.drag.is_exact = true;
-    EXPECT_EQ(charge(8.0), 0.0);
+    EXPECT_NEAR(charge(8.0), expected(0.0), 1e-9);
 }
 
 // A number that no bench has says so whatever the residuals follow; beside a law it may only correct that.
@@ -467,20 +467,21 @@ TEST(Evidence, ACauseWithoutWhichNumbersAreFarOffIsChargedLittle) {
     Known known;
     known.gain.is_exact = true;
     const double far = 30.0;
-    const auto charge = [&](std::vector<const CandidateCause*> others) {
+    const double usual = 3.0;
+    const auto charge = [&](std::vector<const CandidateCause*> others, double nominal_penalty) {
         std::vector<double> visibility(others.size(), 4.0);
         ScoredFit without = with_floors(fitted(evidence, others, 1.0, visibility), {1.0, 1.0});
-        without.nominal_penalty = far;
-        without.evidence -= far;
+        without.nominal_penalty = nominal_penalty;
+        without.evidence -= nominal_penalty;
         std::erase(others, &known.none);
         others.push_back(&known.gain);
         visibility.resize(others.size(), 4.0);
         const ScoredFit with = with_floors(fitted(evidence, others, 1.0, visibility), {1.0, 1.0});
-        EXPECT_GT(with.evidence, without.evidence);
         return evidence.penalty_of_corrections(with, {without});
     };
-    EXPECT_LT(charge({&known.none}), 3.9);
-    EXPECT_NEAR(charge({&known.drag}), 40.0, 1e-9);
+    EXPECT_LT(charge({&known.none}, far), 3.9);
+    EXPECT_NEAR(charge({&known.none}, usual), 40.0, 1e-9) << "one bench in twenty is farther off";
+    EXPECT_NEAR(charge({&known.drag}, far), 40.0, 1e-9);
 }
 
 // A loop of a sensor follows the model's own error of that channel best.
