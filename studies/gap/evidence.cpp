@@ -55,9 +55,8 @@ constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty + u
 constexpr double faint_penalty = 60.0;
 // What follows the model's own error is no cause, however clearly the means of blocks show it (E70).
 constexpr double within_floor_penalty = 40.0;
-// The list of hypotheses is never complete: of verdicts on trials that the evidence had no doubt of, six in a
-// hundred were wrong. This probability is shared equally by all effects.
-constexpr double anything_fraction = 0.05;
+// That something is there although nothing shows: the list of hypotheses is never complete.
+constexpr double mistaken_none_fraction = 0.05;
 
 // A number of the bench that is far from what was stated is named, but after the causes. That nothing else
 // acts beside such numbers comes after them, and before every cause that would.
@@ -193,6 +192,11 @@ double is_there(const WeighedHypothesis& hypothesis, const std::string& effect) 
     const bool is_cause =
         std::find(hypothesis.effects.begin(), hypothesis.effects.end(), effect) != hypothesis.effects.end();
     return is_cause || far == hypothesis.of_the_bench.end() ? 1.0 : far->second;
+}
+
+// The probability that something else is there, however clear the evidence is.
+double mistaken_fraction(const WeighedHypothesis& hypothesis) {
+    return hypothesis.effects == Effects{"none"} ? mistaken_none_fraction : mistaken_cause_fraction;
 }
 
 // Gives `unknown` this fraction of all shares; all of it where it stands alone.
@@ -405,7 +409,11 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
     };
     std::map<std::string, Best> best;
     double of_faint_causes = 0.0;
+    double mistaken = 0.0;  // shared equally by all effects
     for (const WeighedHypothesis& each : weighed) {
+        const double its_mistaken = each.probability * mistaken_fraction(each);
+        const double its_probability = each.probability - its_mistaken;
+        mistaken += its_mistaken;
         std::map<std::string, double> shares;
         for (const std::string& effect : each.effects) shares[effect] = 1.0;
         double any_far = 0.0;
@@ -424,22 +432,22 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         for (const auto& [effect, share] : shares) {
             RankedEffect& ranked = ranked_by_name[effect];
             ranked.effect = effect;
-            const double probability = each.probability * share / sum;
+            const double probability = its_probability * share / sum;
             const double faint = effect == "none" ? faint_part(*each.fit) * probability : 0.0;
             of_faint_causes += faint;
             ranked.probability += probability - faint;
-            ranked.present += each.probability * is_there(each, effect);
+            ranked.present += its_probability * is_there(each, effect);
             if (best.emplace(effect, Best{each.evidence, visibility_in(each, effect)}).second)
                 ranked.varies = varies_in(each, effect);
         }
     }
     std::vector<RankedEffect> ranked;
     const auto effects = static_cast<double>(ranked_by_name.size());
-    const double faint = (1.0 - anything_fraction) * of_faint_causes / (effects - 1.0);
+    const double faint = of_faint_causes / (effects - 1.0);
     for (auto& [effect, each] : ranked_by_name) {
-        const double anything = anything_fraction / effects + (effect == "none" ? 0.0 : faint);
-        each.probability = (1.0 - anything_fraction) * each.probability + anything;
-        each.present = (1.0 - anything_fraction) * each.present + anything;
+        const double anything = mistaken / effects + (effect == "none" ? 0.0 : faint);
+        each.probability += anything;
+        each.present += anything;
         ranked.push_back(each);
     }
     const auto best_of = [&](const RankedEffect& each) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "capstan/gap/evidence.h"
+#include "nearly_certain.h"
 
 namespace capstan::gap {
 namespace {
@@ -72,7 +73,7 @@ TEST(Evidence, FavoursNoneWhereNothingIsLeftToExplain) {
         evidence, {known.none, known.drag, known.gain},
         {fitted(evidence, {&known.none}, 0.9, {0.0}), fitted(evidence, {&known.drag}, 0.88, {0.3})});
     EXPECT_EQ(ranked.front().effect, "none");
-    EXPECT_GT(ranked.front().probability, 0.9);
+    EXPECT_GT(ranked.front().probability, nearly_certain);
 }
 
 // The floor is an upper value, and a fit may follow the model's own error below it; where the scale of an
@@ -133,7 +134,7 @@ TEST(Evidence, NamesAFaintCauseThatIsSeen) {
     };
     EXPECT_LT(probability_of_steps(), 0.1);
     known.gain.is_seen = true;
-    EXPECT_GT(probability_of_steps(), 0.9);
+    EXPECT_GT(probability_of_steps(), nearly_certain);
 }
 
 // A discrepancy in proportion to a small error of unknown scale is as small as that error.
@@ -147,7 +148,7 @@ TEST(Evidence, StructureBelowNoiseAndFloorIsNotAnUnknownCause) {
         return probability(ranked_by(evidence, {known.none}, {none}), "unknown");
     };
     EXPECT_LT(probability_of_unknown(0.05), 0.1);
-    EXPECT_GT(probability_of_unknown(20.0), 0.9);
+    EXPECT_GT(probability_of_unknown(20.0), nearly_certain);
 }
 
 TEST(Evidence, OfCausesThatActTogetherTheClearerOneLeads) {
@@ -195,7 +196,7 @@ TEST(Evidence, UnexplainedStructureIsReportedAsUnknown) {
                                   {with_structure(fitted(evidence, {&known.none}, 9.0, {0.0})),
                                    with_structure(fitted(evidence, {&known.drag}, 8.5, {3.0}))});
     EXPECT_EQ(ranked.front().effect, "unknown");
-    EXPECT_GT(ranked.front().present, 0.9);
+    EXPECT_GT(ranked.front().present, nearly_certain);
 }
 
 TEST(Evidence, ACauseThatLeavesStructureIsNamedBesideTheUnknown) {
@@ -231,7 +232,7 @@ TEST(Evidence, WhatOneChannelLeavesWithoutFollowingTheMotionIsUnknown) {
         with_channels(evidence, fitted(evidence, {&known.drag}, 0.99 * mean_square, {2.5}), 7, 4.9, 60.0);
     const auto ranked = ranked_by(evidence, {known.none, known.drag}, {nothing, drag});
     EXPECT_EQ(ranked.front().effect, "unknown");
-    EXPECT_GT(ranked.front().probability, 0.9);
+    EXPECT_GT(ranked.front().probability, nearly_certain);
 }
 
 TEST(Evidence, ScatterOfTheNoisesScaleIsNoUnknownCause) {
@@ -257,7 +258,7 @@ TEST(Evidence, ALawMayBeWrongByATenthOfWhatItsCauseDoes) {
             with_channels(evidence, fitted(evidence, {&known.drag}, 5.0, {visibility}), 1, 5.0, one_size);
         return present(ranked_by(evidence, {known.none, known.drag}, {nothing, drag}), "unknown");
     };
-    EXPECT_LT(unknown_is_present(20.0), 0.03);
+    EXPECT_LT(unknown_is_present(20.0), mistaken_cause_fraction / 3.0 + 0.01);
     // That the noise is wrongly stated is about as probable as a further cause.
     EXPECT_NEAR(unknown_is_present(3.0), 0.5, 0.3);
 }
@@ -283,9 +284,9 @@ TEST(Evidence, AnUnknownCauseHasTheShareOfTheGapThatTheNamedOneLeaves) {
     EXPECT_TRUE(weighed.front().with_unknown);
     EXPECT_NEAR(weighed.front().unknown_fraction, 0.75, 1e-12);
     weighed.front().probability = 1.0;
-    // 5% is left to all three effects alike.
+    // What is left for a mistake is left to all three effects alike.
     EXPECT_NEAR(probability(Evidence::rank({known.none, known.drag}, weighed), "unknown"),
-                0.95 * 0.75 + 0.05 / 3.0, 1e-9);
+                (1.0 - mistaken_cause_fraction) * 0.75 + mistaken_cause_fraction / 3.0, 1e-9);
 }
 
 TEST(Evidence, AnAnswerCountsCausesOutsideTheCanonicalListAsUnknown) {
@@ -481,7 +482,10 @@ TEST(Evidence, ACauseWithoutWhichNumbersAreFarOffIsChargedLittle) {
     };
     EXPECT_LT(charge({&known.none}, far), 3.9);
     EXPECT_NEAR(charge({&known.none}, usual), 40.0, 1e-9) << "one bench in twenty is farther off";
-    EXPECT_NEAR(charge({&known.drag}, far), 40.0, 1e-9);
+    // The law of the drag is good to 0.4 times noise and floor, and numbers that close less may correct it.
+    EXPECT_NEAR(charge({&known.drag}, far, 0.1), 40.0, 1e-9);
+    EXPECT_LT(charge({&known.drag}, far, 1.0), 3.9);
+    EXPECT_NEAR(charge({&known.drag}, usual, 1.0), 40.0, 1e-9);
 }
 
 // A loop of a sensor follows the model's own error of that channel best.

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "capstan/gap/evidence.h"
+
+namespace capstan::gap {
+
+/// A probability that leaves no doubt but the one that every verdict has.
+inline constexpr double nearly_certain = 0.95 * (1.0 - mistaken_cause_fraction);
+
+}  // namespace capstan::gap
