@@ -111,6 +111,8 @@ struct CauseFit {
     double log_volume_ratio = 0.0;
     /// Of the first three numbers of the bench, by the same method.
     Eigen::Matrix3d nominal_covariance = Eigen::Matrix3d::Zero();
+    /// The same if no means of blocks were weighed (E69), so that it goes with the mean square residual.
+    Eigen::Matrix3d nominal_covariance_without_blocks = Eigen::Matrix3d::Zero();
     int evaluations = 0;
     bool converged = false;
 

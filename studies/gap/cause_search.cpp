@@ -458,7 +458,7 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         if (std::any_of(scored.fit.causes.begin(), scored.fit.causes.end(), is_one_with)) continue;
         if (!number.is_far(coordinate)) continue;
         if (is_stated) {
-            const double variance = scored.fit.nominal_covariance(row, row);
+            const double variance = scored.fit.nominal_covariance_without_blocks(row, row);
             scored.far_numbers.push_back({k, stated.wrong[row],
                                           std::sqrt(std::max(1.0, scored.misfit) * coordinate * coordinate /
                                                     variance / model.fitter.independent_samples())});

@@ -53,24 +53,34 @@ void CauseFitter::integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) cons
         }
     }
     Eigen::MatrixXd told = jacobian.topRows(data_rows) * widths.asDiagonal();
-    double scale = 1.0;
-    if (!weighs_blocks_) {
-        Eigen::VectorXd left = fit.residuals;
-        apply(fit.weights, left);
-        constexpr double as_good_as_noise = 1.0;  // less than noise and floor determines no number better
-        scale = std::max(as_good_as_noise, left.head(data_rows).squaredNorm() / determined_rows_);
-    } else {
-        SeriesWeights weights = block_weights(fit.residuals);
-        for (std::size_t k = 0; k < fit.weights.size(); ++k) weights[k] /= fit.weights[k];
-        apply(weights, told);
-    }
-    const Eigen::MatrixXd information = told.transpose() * told / (prior_weight_ * prior_weight_ * scale);
     const Eigen::Index count = widths.size();
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
-    const Eigen::LLT<Eigen::MatrixXd> factor(identity + information);
+    const auto factor_of = [&](double scale) {
+        const Eigen::MatrixXd information = told.transpose() * told / (prior_weight_ * prior_weight_ * scale);
+        return Eigen::LLT<Eigen::MatrixXd>(identity + information);
+    };
+    const auto covariance_of = [&](const Eigen::LLT<Eigen::MatrixXd>& factor) -> Eigen::Matrix3d {
+        return (widths.asDiagonal() * factor.solve(identity) * widths.asDiagonal())
+            .topLeftCorner<nominal_coordinates, nominal_coordinates>();
+    };
+    SeriesWeights weights(fit.weights.size());
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = 1.0 / fit.weights[k];
+    Eigen::VectorXd left = fit.residuals;
+    if (weighs_blocks_) {
+        apply(weights, told);
+    } else {
+        apply(fit.weights, left);
+    }
+    constexpr double as_good_as_noise = 1.0;  // less than noise and floor determines no number better
+    const double scale = std::max(as_good_as_noise, left.head(data_rows).squaredNorm() / determined_rows_);
+    Eigen::LLT<Eigen::MatrixXd> factor = factor_of(scale);
+    fit.nominal_covariance_without_blocks = covariance_of(factor);
+    if (weighs_blocks_) {
+        apply(block_weights(fit.residuals), told);
+        factor = factor_of(1.0);
+    }
     fit.log_volume_ratio = log_ratio - factor.matrixLLT().diagonal().array().log().sum();
-    fit.nominal_covariance = (widths.asDiagonal() * factor.solve(identity) * widths.asDiagonal())
-                                 .topLeftCorner<nominal_coordinates, nominal_coordinates>();
+    fit.nominal_covariance = covariance_of(factor);
 }
 
 Visibility CauseFitter::visibility(const CauseFit& fit) const {
