@@ -161,7 +161,7 @@ FoundCauses CauseSearch::run() & {
     FoundCauses found;
     const bool is_measured = described_.bench.is_measured();
     found.fits = search_one(described_);
-    bool built = is_measured && should_be_taken_as_built(found.fits.front());
+    bool built = is_measured && should_be_taken_as_built(found.fits);
     if (built && leaves_much(found.fits.front())) {
         // A cause that is sought last may look like one that asks for far numbers.
         try_last(described_, found.fits);
@@ -169,10 +169,11 @@ FoundCauses CauseSearch::run() & {
         // Two causes may explain what one of them explains only beside far numbers.
         search_several(described_, found.fits);
         const ScoredFit& best = found.fits.front();
-        built = built || (is_measured && (leaves_much(best) ||
-                                          (best.fit.causes.size() > 1 &&
-                                           (has_a_usual_number(best) || should_be_taken_as_built(best) ||
-                                            stands_for_usual_numbers(found.fits)))));
+        built = built ||
+                (is_measured &&
+                 (leaves_much(best) || (best.fit.causes.size() > 1 &&
+                                        (has_a_usual_number(best) || should_be_taken_as_built(found.fits) ||
+                                         stands_for_usual_numbers(found.fits)))));
     }
     if (built) {
         evidence_.set_below_noise_weight(below_noise_weight_beside_floating_numbers);
@@ -198,12 +199,17 @@ FoundCauses CauseSearch::run() & {
     return found;
 }
 
-// Whether the best explanation asks for numbers far from those stated, or leaves much and gains clearly by
-// rough knowledge of the bench.
-bool CauseSearch::should_be_taken_as_built(const ScoredFit& best) {
+// Whether the best explanation, or a rival that one recording in twenty has, asks for numbers far from those
+// stated, or the best one leaves much and gains clearly by rough knowledge of the bench.
+bool CauseSearch::should_be_taken_as_built(const Fits& fits) {
     constexpr double clearly = 3.0;
+    constexpr double close = 3.0 * Evidence::overstated;  // ln 20
     if (is_out_of_time()) return false;
-    if (best.nominal_penalty > tenable_nominal_penalty) return true;
+    const ScoredFit& best = fits.front();
+    const auto is_rival_with_far_numbers = [&](const ScoredFit& each) {
+        return each.evidence > best.evidence - close && each.nominal_penalty > tenable_nominal_penalty;
+    };
+    if (std::any_of(fits.begin(), fits.end(), is_rival_with_far_numbers)) return true;
     return worth_a_further_cause(best) && fitted_as_built(best).evidence > best.evidence + clearly;
 }
 

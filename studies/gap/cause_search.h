@@ -133,7 +133,7 @@ class CauseSearch {
     void add_fitted_finely(const std::vector<Hypothesis>& starts, Fits& all);
     void drop_unearned_causes(Fits& fits);
     bool take_correlation_of(const ScoredFit& best);
-    bool should_be_taken_as_built(const ScoredFit& best);
+    bool should_be_taken_as_built(const Fits& fits);
     bool stands_for_usual_numbers(const Fits& fits);
     ScoredFit fitted_as_built(const ScoredFit& described);
     ScoredFit without_cause(const Level& level);
