@@ -22,7 +22,7 @@ constexpr double invisible_penalty = 20.0;
 constexpr double invisible_penalty_beside_floating_numbers = 8.0;
 // Whoever diagnoses a recording has seen a gap. One in twenty is none, and the others have one of about fifty
 // causes: e / (e + 50).
-constexpr double none_log_prior = 1.0;
+constexpr double none_log_prior_of_a_measured_bench = 1.0;
 // The model's own error resembles a faulty sensor, so a sensor fault has to explain more than that.
 constexpr double sensor_fault_penalty = 2.0;
 // That error is not independent from block to block, and so a fault of one reading that changes it by less
@@ -30,8 +30,8 @@ constexpr double sensor_fault_penalty = 2.0;
 constexpr double faint_fault_penalty = 200.0;
 // A further cause is one of about fifty: ln 50. That a recording has one is as probable as that it has none.
 constexpr double further_cause_penalty = 3.9;
-// On a bench whose zeros and bearings float, these explain what is usual; a cause beside them is one of about
-// fifty: ln 50.
+// On a bench whose zeros and bearings float, these explain what is usual. That there is a cause beside them
+// is as probable as that there is none, and it is one of about fifty: ln 50.
 constexpr double cause_beside_floating_numbers_penalty = 3.9;
 // Values of a channel lie on an unstated lattice by chance with no probability to speak of: e^-10.
 constexpr double seen_gain = 10.0;
@@ -69,6 +69,10 @@ constexpr double faint_cause_fraction = 0.5;
 // What it costs to name something, in the list or outside it, that changes no channel.
 double invisible_at_most(const ScoredFit& fit) {
     return fit.fit.bench->is_measured() ? invisible_penalty : invisible_penalty_beside_floating_numbers;
+}
+
+double none_log_prior(const ScoredFit& fit) {
+    return fit.fit.bench->is_measured() ? none_log_prior_of_a_measured_bench : 0.0;
 }
 
 // The same of what changes a channel by this rms, in units of noise and floor.
@@ -168,6 +172,16 @@ double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, std::size
             (without.channel_misfits[c] - fit.channel_misfits[c]) /
                 (std::max(min_floor, largest_floor * largest_floor * fit.channel_floors[c]) + law * law));
     return std::sqrt(most);
+}
+
+// Whether a fit has numbers that are not tenable, and that do not only correct the law of a cause (E68).
+bool has_far_numbers(const ScoredFit& fit) {
+    if (fit.nominal_penalty <= tenable_nominal_penalty) return false;
+    const auto is_wrong = [&](const ScoredFit::FarNumber& far) {
+        const FloatingNumber& number = fit.fit.bench->numbers[far.number];
+        return (far.number < nominal_coordinates || number.usual > 0.0) && fit.probability_of(far) > 0.5;
+    };
+    return error_of_laws(fit) == 0.0 || std::any_of(fit.far_numbers.begin(), fit.far_numbers.end(), is_wrong);
 }
 
 // Several zeros or bearings' friction and nothing else, searched as causes: what is usual of a bench as
@@ -278,13 +292,11 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
             closed = std::min(closed, closed_of_floor(*other, fit, k));
             gain =
                 std::max(gain, fit.evidence + fit.nominal_penalty - other->evidence - other->nominal_penalty);
-            numbers_are_far = numbers_are_far && other->nominal_penalty > tenable_nominal_penalty;
+            numbers_are_far = numbers_are_far && has_far_numbers(*other);
         }
         const double own = within_floor_penalty * std::max(0.0, 1.0 - closed);
-        // Numbers far from those stated ask for a cause whatever the residuals follow, but not beside a law,
-        // which they may correct (E68).
-        const bool is_asked_for = numbers_are_far && error_of_laws(fit, k) == 0.0;
-        penalty += is_asked_for ? std::clamp(gain + further_cause_penalty, 0.0, own) : own;
+        // Such numbers ask for a cause whatever the residuals follow.
+        penalty += numbers_are_far ? std::clamp(gain + further_cause_penalty, 0.0, own) : own;
     }
     return penalty;
 }
@@ -297,7 +309,8 @@ double Evidence::of(const ScoredFit& fit) const {
 
 double Evidence::with_unknown(const ScoredFit& fit) const {
     const bool named = fit.fit.causes.front()->effect != "none";
-    const double prior = priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior);
+    const double prior =
+        priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior(fit));
     const double function = marginal(fit, [&](double size) { return std::exp(-invisible(fit, size)); });
     if (!fit.of_blocks) return prior + function;
     const double any = of_any_residuals(fit);
@@ -355,7 +368,7 @@ double Evidence::priors(const ScoredFit& fit) const {
         const double law = error_of_laws(fit, k);
         if (law > 0.0) faintest = std::min(faintest, fit.visibility[k] / law);
     }
-    if (inferred == 0.0) return evidence + none_log_prior;
+    if (inferred == 0.0) return evidence + none_log_prior(fit);
     if (!fit.fit.bench->is_measured()) evidence -= cause_beside_floating_numbers_penalty;
     return evidence - further_cause_penalty * (inferred - 1.0) -
            faint_penalty * std::max(0.0, 1.0 - faintest);

@@ -322,9 +322,9 @@ TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
         nothing.far_numbers = {{0, probability}};
         return ranked_by(evidence, {known.none, known.drag}, {nothing});
     };
-    EXPECT_GT(present(ranked_where_far(1.0), "param_mu"), 0.9);
-    EXPECT_NEAR(present(ranked_where_far(0.3), "param_mu") - present(ranked_where_far(0.0), "param_mu"), 0.3,
-                0.05);
+    EXPECT_GT(present(ranked_where_far(1.0), "param_mu"), nearly_certain);
+    EXPECT_NEAR(present(ranked_where_far(0.3), "param_mu") - present(ranked_where_far(0.0), "param_mu"),
+                0.3 * (1.0 - mistaken_cause_fraction), 0.05);
     EXPECT_GT(probability(ranked_where_far(0.3), "none"), probability(ranked_where_far(0.9), "none"));
     EXPECT_EQ(ranked_where_far(0.3).front().effect, "none");
 }
@@ -469,14 +469,16 @@ TEST(Evidence, ACauseWithoutWhichNumbersAreFarOffIsChargedLittle) {
     known.gain.is_exact = true;
     const double far = 30.0;
     const double usual = 3.0;
-    const auto charge = [&](std::vector<const CandidateCause*> others, double nominal_penalty) {
-        std::vector<double> visibility(others.size(), 4.0);
+    const auto charge = [&](std::vector<const CandidateCause*> others, double nominal_penalty,
+                            double closes = 0.0) {
+        std::vector<double> visibility(others.size(), others.front() == &known.none ? 0.0 : 4.0);
         ScoredFit without = with_floors(fitted(evidence, others, 1.0, visibility), {1.0, 1.0});
         without.nominal_penalty = nominal_penalty;
         without.evidence -= nominal_penalty;
+        if (closes > 0.0) without.far_numbers = {{2, 0.99, closes}};
         std::erase(others, &known.none);
         others.push_back(&known.gain);
-        visibility.resize(others.size(), 4.0);
+        visibility.assign(others.size(), 4.0);
         const ScoredFit with = with_floors(fitted(evidence, others, 1.0, visibility), {1.0, 1.0});
         return evidence.penalty_of_corrections(with, {without});
     };
@@ -517,7 +519,7 @@ TEST(Evidence, SeveralUsualNumbersSayNothingAgainstNone) {
     EXPECT_FALSE(names_only_the_bench(zero));
     EXPECT_TRUE(names_only_the_bench(zero_and_bearing));
     const auto both = ranked_by(evidence, causes, {nothing, zero_and_bearing});
-    EXPECT_GT(present(both, "sensor_offset"), 0.9);
+    EXPECT_GT(present(both, "sensor_offset"), nearly_certain);
     EXPECT_NEAR(present(both, "none"), 0.5, 0.05);
     EXPECT_EQ(both[2].effect, "none");
     EXPECT_GT(both[2].probability, probability(both, "unknown"));
