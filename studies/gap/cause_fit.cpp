@@ -205,6 +205,11 @@ double CauseFitter::behind(double sum_of_squares, double other) const {
     return 0.5 * independent_samples() * std::log(sum_of_squares / other);
 }
 
+SeriesWeights inverse_of(SeriesWeights weights) {
+    for (double& weight : weights) weight = 1.0 / weight;
+    return weights;
+}
+
 void CauseFitter::apply(const SeriesWeights& weights, Eigen::Ref<Eigen::MatrixXd> residuals) const {
     for (std::size_t k = 0; k < weights.size(); ++k)
         residuals.middleRows(static_cast<Eigen::Index>(series_[k].first_row),
@@ -447,9 +452,7 @@ CauseFit CauseFitter::completed(const Hypothesis& hypothesis, const SeriesWeight
     fit.weights = weights;
     fit.coordinates = found.parameters;
     fit.residuals = found.residuals;
-    SeriesWeights inverse;
-    for (const double weight : weights) inverse.push_back(1.0 / weight);
-    apply(inverse, fit.residuals);
+    apply(inverse_of(weights), fit.residuals);
     integrate(fit, found.jacobian);
     fit.sum_of_squares = weights.empty() ? found.sum_of_squares : fit.residuals.squaredNorm();
     fit.evaluations = found.evaluations;

@@ -99,6 +99,9 @@ std::vector<LeftOut> left_out_in_turn(std::size_t runs, const std::vector<const 
 /// Of the residuals of each series in a search; empty: 1.
 using SeriesWeights = std::vector<double>;
 
+/// Those that undo the weights.
+SeriesWeights inverse_of(SeriesWeights weights);
+
 /// The best fit of one or several causes together.
 struct CauseFit {
     std::vector<const CandidateCause*> causes;

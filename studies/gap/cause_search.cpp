@@ -199,8 +199,8 @@ FoundCauses CauseSearch::run() & {
     return found;
 }
 
-// Whether the best explanation, or a rival that one recording in twenty has, asks for numbers far from those
-// stated, or the best one leaves much and gains clearly by rough knowledge of the bench.
+// Whether the best explanation, or one that is at least a twentieth as probable, asks for numbers far from
+// those stated, or the best one leaves much and gains clearly by rough knowledge of the bench.
 bool CauseSearch::should_be_taken_as_built(const Fits& fits) {
     constexpr double clearly = 3.0;
     constexpr double close = 3.0 * Evidence::overstated;  // ln 20

@@ -197,8 +197,7 @@ class Diagnoser {
         }
         put_clearest_first(diagnosis.causes, leading.visibility);
         for (const ScoredFit::FarNumber& each : leading.far_numbers) {
-            constexpr double likely = 0.5;
-            if (leading.probability_of(each) < likely) continue;
+            if (leading.probability_of(each) < far_from) continue;
             const FloatingNumber& number = fit.bench->numbers[each.number];
             FittedCause far{number.effect, number.variant, number.component, number.end, {}, {}};
             if (number.kind != FloatingNumber::Kind::ratio) {

@@ -179,7 +179,8 @@ bool has_far_numbers(const ScoredFit& fit) {
     if (fit.nominal_penalty <= tenable_nominal_penalty) return false;
     const auto is_wrong = [&](const ScoredFit::FarNumber& far) {
         const FloatingNumber& number = fit.fit.bench->numbers[far.number];
-        return (far.number < nominal_coordinates || number.usual > 0.0) && fit.probability_of(far) > 0.5;
+        return (far.number < nominal_coordinates || number.usual > 0.0) &&
+               fit.probability_of(far) >= far_from;
     };
     return error_of_laws(fit) == 0.0 || std::any_of(fit.far_numbers.begin(), fit.far_numbers.end(), is_wrong);
 }
@@ -295,7 +296,7 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
             numbers_are_far = numbers_are_far && has_far_numbers(*other);
         }
         const double own = within_floor_penalty * std::max(0.0, 1.0 - closed);
-        // Such numbers ask for a cause whatever the residuals follow.
+        // Numbers far from those stated ask for a cause whatever the residuals follow.
         penalty += numbers_are_far ? std::clamp(gain + further_cause_penalty, 0.0, own) : own;
     }
     return penalty;

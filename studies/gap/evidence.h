@@ -39,6 +39,9 @@ inline constexpr double law_error_outside_the_list = 0.5;
 /// stated with 0.9 and more on spent trials, 50 were not there.
 inline constexpr double mistaken_cause_fraction = 0.13;
 
+/// From this probability on, a stated number is far from what was stated.
+inline constexpr double far_from = 0.5;
+
 /// How well a set of causes explains a recording.
 struct ScoredFit {
     CauseFit fit;

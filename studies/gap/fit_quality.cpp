@@ -63,11 +63,10 @@ void CauseFitter::integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) cons
         return (widths.asDiagonal() * factor.solve(identity) * widths.asDiagonal())
             .topLeftCorner<nominal_coordinates, nominal_coordinates>();
     };
-    SeriesWeights weights(fit.weights.size());
-    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = 1.0 / fit.weights[k];
+    // Where blocks are weighed, what counts beside them is residuals as they are.
     Eigen::VectorXd left = fit.residuals;
     if (weighs_blocks_) {
-        apply(weights, told);
+        apply(inverse_of(fit.weights), told);
     } else {
         apply(fit.weights, left);
     }

@@ -79,7 +79,7 @@ TEST(Diagnosis, FindsViscousFrictionAndItsSize) {
     EXPECT_EQ(diagnosis.component, "conduit");
     const ChannelGap& torque = channel_of(diagnosis, "load_torque");
     EXPECT_LT(torque.after_rms, 0.25 * torque.before_rms);
-    EXPECT_LT(torque.held_out_rms, 0.55 * torque.before_rms);
+    EXPECT_LT(torque.held_out_rms, 0.5 * torque.before_rms);
 }
 
 TEST(Diagnosis, NamesFrictionThatFollowsAConditionOfTheRuns) {

@@ -11,6 +11,7 @@
 #include "capstan/gap/equivalent_bench.h"
 #include "capstan/gap_trial/trial_case.h"
 #include "capstan/recording/recording_reader.h"
+#include "nearly_certain.h"
 #include "scratch_folder.h"
 
 namespace capstan::gap_trial {
@@ -54,9 +55,6 @@ gap::Diagnosis diagnosed_hard(std::uint64_t seed, int cases, int number) {
     return gap::diagnose(read_recording(folder.path() / (label.name + ".csv")), {});
 }
 
-// A probability that leaves no doubt but the one that every verdict has.
-constexpr double nearly_certain = 0.95 * (1.0 - gap::mistaken_cause_fraction);
-
 double present(const gap::Diagnosis& diagnosis, const std::string& effect) {
     for (const gap::RankedEffect& each : diagnosis.ranked) {
         if (each.effect == effect) return each.present;
@@ -67,8 +65,8 @@ double present(const gap::Diagnosis& diagnosis, const std::string& effect) {
 // The start that is best without a cause leads a drive with lost motion of 0.02 rad to a misfit of 227.
 TEST(SlowSpentRigs, LargeLostMotionIsNamedBesideAStiffeningCable) {
     const gap::Diagnosis diagnosis = diagnosed(84517, 38);
-    EXPECT_GT(present(diagnosis, "backlash"), nearly_certain);
-    EXPECT_GT(present(diagnosis, "cable_stiffness_nonlinear"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "backlash"), gap::nearly_certain);
+    EXPECT_GT(present(diagnosis, "cable_stiffness_nonlinear"), gap::nearly_certain);
     EXPECT_LT(diagnosis.misfit_after, 1.0);
 }
 
@@ -76,14 +74,14 @@ TEST(SlowSpentRigs, LargeLostMotionIsNamedBesideAStiffeningCable) {
 TEST(SlowSpentRigs, FrictionThatFollowsAConditionIsNamedBesideCreepAndARipple) {
     const gap::Diagnosis diagnosis = diagnosed(77341, 4);
     for (const char* effect : {"param_mu", "creep", "motor_cogging"})
-        EXPECT_GT(present(diagnosis, effect), nearly_certain) << effect;
+        EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
 }
 
 // A torque that depends on the position, or a zero that follows a condition, stands for a ripple at first.
 TEST(SlowSpentRigs, ARipplePreslidingAndAStiffeningCableAreNamedTogether) {
     const gap::Diagnosis diagnosis = diagnosed(46213, 3);
     for (const char* effect : {"cable_stiffness_nonlinear", "presliding", "motor_cogging"})
-        EXPECT_GT(present(diagnosis, effect), nearly_certain) << effect;
+        EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
 }
 
 // Presliding, 2 of noise and floor. Hysteresis of the load cell explains it too, with friction, stiffness and
@@ -91,28 +89,30 @@ TEST(SlowSpentRigs, ARipplePreslidingAndAStiffeningCableAreNamedTogether) {
 TEST(SlowSpentRigs, OnlyHysteresisOfTheLoadCellCompetesWithPresliding) {
     const gap::Diagnosis diagnosis = diagnosed(90731, 39);
     EXPECT_GT(present(diagnosis, "presliding"), 0.05);
-    EXPECT_GT(present(diagnosis, "presliding") + present(diagnosis, "sensor_hysteresis"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "presliding") + present(diagnosis, "sensor_hysteresis"),
+              gap::nearly_certain);
 }
 
 // An encoder is read when its count is latched: a lag of a sample and a half is not what every encoder has. A
 // delay does much the same to so slow a motion.
 TEST(SlowSpentRigs, ASlowAngleIsToldBesideACauseThatIsFaintBesideTheNumbersOfTheBench) {
     const gap::Diagnosis diagnosis = diagnosed(90731, 22);
-    EXPECT_GT(present(diagnosis, "sensor_lag") + present(diagnosis, "time_misalignment"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "sensor_lag") + present(diagnosis, "time_misalignment"),
+              gap::nearly_certain);
     EXPECT_GT(present(diagnosis, "cable_stiffness_nonlinear"), 0.3);
 }
 
 // A ripple of seven periods and a torque over the position fit almost as well.
 TEST(SlowSpentRigs, ARippleOfFivePeriodsIsNoTorqueOverThePosition) {
     const gap::Diagnosis diagnosis = diagnosed(441209, 1);
-    EXPECT_GT(present(diagnosis, "motor_cogging"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "motor_cogging"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "position_torque"), 0.3);
 }
 
 // Where the ratio of the pulleys does not float, a pulley that is not round corrects it.
 TEST(SlowSpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
     const gap::Diagnosis diagnosis = diagnosed(118903, 5);
-    EXPECT_GT(present(diagnosis, "creep"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "creep"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "eccentric_pulley"), 0.3);
 }
 
@@ -120,21 +120,21 @@ TEST(SlowSpentRigs, ARatioThatWasMisreadIsNoEccentricPulley) {
 TEST(SlowSpentRigs, ALoopOfASensorIsNotAnEnvironmentCoupling) {
     const gap::Diagnosis diagnosis = diagnosed(996101, 28);
     for (const char* effect : {"sensor_hysteresis", "motor_cogging"})
-        EXPECT_GT(present(diagnosis, effect), nearly_certain) << effect;
+        EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
     EXPECT_LT(present(diagnosis, "environment_coupling"), 0.3);
 }
 
 // With an exponent of 1, a compliance corrected how its friction builds up.
 TEST(SlowSpentRigs, PreslidingOfADriveIsNoCompliance) {
     const gap::Diagnosis diagnosis = diagnosed(107101, 30);
-    EXPECT_GT(present(diagnosis, "presliding"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "presliding"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "conduit_compliance"), 0.3);
 }
 
 // The lag has several stages. What a lag of first order gets wrong of them looked like a delay besides.
 TEST(SlowSpentRigs, ALagOfSeveralStagesIsNotNamedADelayToo) {
     const gap::Diagnosis diagnosis = diagnosed(774501, 33);
-    EXPECT_GT(present(diagnosis, "sensor_lag"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "sensor_lag"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "time_misalignment"), 0.1);
 }
 
@@ -144,35 +144,36 @@ TEST(SlowSpentBenches, APairIsNamedThoughOneOtherCauseClosesNearlyAll) {
     EXPECT_GT(present(diagnosis, "cable_stiffness_nonlinear"), 0.7);
     // A lag leaves a little more than the delay, and both less than noise and floor.
     EXPECT_GT(present(diagnosis, "time_misalignment"), present(diagnosis, "sensor_lag"));
-    EXPECT_GT(present(diagnosis, "time_misalignment") + present(diagnosis, "sensor_lag"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "time_misalignment") + present(diagnosis, "sensor_lag"),
+              gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "creep"), 0.2);
 }
 
 // The coarse model shows an inertia beside it, and a gain with an inertia leaves less.
 TEST(SlowSpentBenches, FrictionThatDiffersByDirectionIsNotAGain) {
     const gap::Diagnosis diagnosis = diagnosed_short(996203, 34);
-    EXPECT_GT(present(diagnosis, "directional_friction"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "directional_friction"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "sensor_gain"), 0.1);
 }
 
 // A little friction of the motor's bearing shows nothing, and bending stiffness stood for it.
 TEST(SpentBenches, FrictionOfTheMotorsBearingIsNoBendingStiffness) {
     const gap::Diagnosis diagnosis = diagnosed_short(885203, 66);
-    EXPECT_GT(present(diagnosis, "pulley_friction"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "pulley_friction"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "bending_stiffness"), 0.1);
 }
 
 // Fronts make ripples in the sum of squares, at one of which a search with small differences ended.
 TEST(SpentBenches, BendingStiffnessIsFoundBeyondTheRipplesOfFronts) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 41);
-    EXPECT_GT(present(diagnosis, "bending_stiffness"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "bending_stiffness"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "local_bend"), 0.1);
 }
 
 // The set that left least also held a cause that does nothing. The hysteresis was not named then.
 TEST(SlowSpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 40);
-    EXPECT_GT(present(diagnosis, "sensor_hysteresis"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "sensor_hysteresis"), gap::nearly_certain);
 }
 
 // On a bench without zeros and friction of bearings, a bend beside the motor closes what these do beside the
@@ -180,20 +181,20 @@ TEST(SlowSpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
 TEST(SlowSpentBenches, ABendDoesNotStandForWhatIsUsualBesideAPair) {
     const gap::Diagnosis diagnosis = diagnosed_hard(239407, 32, 20);
     for (const char* effect : {"conduit_compliance", "sensor_gain"})
-        EXPECT_GT(present(diagnosis, effect), nearly_certain) << effect;
+        EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
     EXPECT_LT(present(diagnosis, "local_bend"), 0.1);
 }
 
 // The noise of the tensions is larger than what the bend changes, but averages out.
 TEST(SpentBenches, ABendThatNoiseHidesIsNamed) {
     const gap::Diagnosis diagnosis = diagnosed_hard(262407, 16, 1);
-    EXPECT_GT(present(diagnosis, "local_bend"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "local_bend"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "none"), 0.1);
 }
 
 TEST(SlowSpentBenches, PreslidingThatNoiseHidesIsNamedAlone) {
     const gap::Diagnosis diagnosis = diagnosed_hard(262407, 16, 6);
-    EXPECT_GT(present(diagnosis, "presliding"), nearly_certain);
+    EXPECT_GT(present(diagnosis, "presliding"), gap::nearly_certain);
     for (const char* effect : {"sensor_hysteresis", "local_bend", "conduit_compliance"})
         EXPECT_LT(present(diagnosis, effect), 0.1) << effect;
 }
