@@ -4,6 +4,7 @@
 #include <random>
 
 #include "capstan/gap/discrepancy.h"
+#include "capstan/recording/channel_range.h"
 #include "session_with_effects.h"
 
 namespace capstan::gap {
@@ -172,6 +173,32 @@ TEST_F(InNoise, AnErrorOfAnyKindIsMoreProbableThanALargeOneOfTheModel) {
     const BlockLikelihoods much = in_noise.of_blocks(with_error(20.0, 0.7));
     EXPECT_LT(little.beside_any, little.beside[0]);
     EXPECT_GT(much.beside_any, much.beside[0]);
+}
+
+// What the other channels show, an error of the model that is a function of the motion, does not say against
+// an error of another kind in one channel.
+TEST_F(InNoise, AnErrorOfOneChannelCostsTheChoiceOfTheChannel) {
+    std::vector<ResidualSeries> of_first;
+    std::vector<ResidualSeries> of_others;
+    for (const ResidualSeries& each : hidden_by_noise())
+        (each.channel == first ? of_first : of_others).push_back(each);
+    const Eigen::VectorXd error = with_error(20.0, 0.0);
+    const Eigen::VectorXd left = residuals([&](const ResidualSeries& series, std::size_t row) {
+        const RecordedRun& run = recording.runs[series.run];
+        const auto driving = static_cast<std::size_t>(*recording.channel(run.driven.front()));
+        const std::size_t sample = static_cast<std::size_t>(series.first_sample) + row;
+        const double of_motion = run.values[driving][sample] / (0.5 * range_of(recording, driving).span());
+        return error[static_cast<Eigen::Index>(series.first_row + row)] +
+               (series.channel == first ? 0.0 : of_motion);
+    });
+    const auto gained = [&](const std::vector<ResidualSeries>& series) {
+        const Discrepancy of{recording, series, coarse_twin.stride, fitter.independent_samples()};
+        const BlockLikelihoods blocks = of.of_blocks(left);
+        return blocks.beside_any - blocks.beside[0];
+    };
+    EXPECT_LT(gained(of_others), -2.0);
+    const double choices = 4.0;  // one of the three channels, or all of them
+    EXPECT_NEAR(gained(hidden_by_noise()), gained(of_first), std::log(choices));
 }
 
 TEST_F(InNoise, ADeviationFromTheMeansOfBlocksHasNoMeans) {
