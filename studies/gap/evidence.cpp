@@ -245,7 +245,7 @@ std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& ef
 
 // E68.
 double ScoredFit::probability_of(const FarNumber& far, double left_unexplained) const {
-    const double law = std::max(left_unexplained, error_of_laws(*this));
+    const double law = std::max(left_unexplained, model_error(*this));
     if (far.closes >= law || far.probability == 1.0) return far.probability;
     const double odds = far.probability / (1.0 - far.probability) *
                         std::exp(-invisible_at_most(*this) * (1.0 - far.closes / law));

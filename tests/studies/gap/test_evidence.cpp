@@ -344,6 +344,19 @@ TEST(Evidence, AFarNumberThatOnlyCorrectsTheLawOfACauseIsNotNamed) {
     EXPECT_GT(far_where_it_closes(known.gain, 0.3), 0.8);
 }
 
+// The floor is known to a quarter, and a number that closes less may only follow the model's own error.
+TEST(Evidence, AFarNumberThatClosesLessThanTheFloorMayBeWrongByIsNotNamed) {
+    const Known known;
+    const auto far_where_it_closes = [&](double closes) {
+        ScoredFit nothing = fitted(evidence, {&known.none}, 1.0, {0.0});
+        nothing.fit.bench = &bench_with_a_zero();
+        nothing.far_numbers = {{2, 0.9, closes}};
+        return present(ranked_by(evidence, {known.none, known.drag}, {nothing}), "param_T0");
+    };
+    EXPECT_GT(far_where_it_closes(0.25), 0.75);
+    EXPECT_LT(far_where_it_closes(0.1), far_where_it_closes(0.0) + 0.1);
+}
+
 // A pretension of e^-0.08 of what was stated, known to a hundredth by the fit and to a twentieth by the
 // scatter between runs. Where nothing but numbers acts, there is no law that a number could correct.
 TEST(Evidence, BesideALawAStatedNumberIsNoMoreCertainThanItsInterval) {
