@@ -53,8 +53,12 @@ constexpr double usual_number = 3.9;
 constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty + usual_number;
 // A further cause that is fainter than what the law of the clearest one may be wrong by only corrects that.
 constexpr double faint_penalty = 60.0;
-// What follows the model's own error is no cause, however clearly the means of blocks show it (E70).
+// What follows the model's own error is no cause, however clearly the means of blocks show it (E70). Numbers
+// that float take up a part of that error, so that a cause can follow a half of it at most, and does so more
+// clearly.
 constexpr double within_floor_penalty = 40.0;
+constexpr double within_floor_penalty_beside_floating_numbers = 80.0;
+constexpr double floor_beside_floating_numbers = 0.5;
 // That something is there although nothing shows: the list of hypotheses is never complete.
 constexpr double mistaken_none_fraction = 0.05;
 
@@ -283,6 +287,9 @@ double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
 double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const {
     if (!fit.of_blocks) return 0.0;
     const std::vector<const CandidateCause*>& causes = fit.fit.causes;
+    const bool is_measured = fit.fit.bench->is_measured();
+    const double most = is_measured ? within_floor_penalty : within_floor_penalty_beside_floating_numbers;
+    const double enough = is_measured ? 1.0 : floor_beside_floating_numbers;
     double penalty = 0.0;
     for (std::size_t k = 0; k < causes.size(); ++k) {
         if (causes[k]->effect == "none" || causes[k]->is_seen) continue;
@@ -295,7 +302,7 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
                 std::max(gain, fit.evidence + fit.nominal_penalty - other->evidence - other->nominal_penalty);
             numbers_are_far = numbers_are_far && has_far_numbers(*other);
         }
-        const double own = within_floor_penalty * std::max(0.0, 1.0 - closed);
+        const double own = most * std::max(0.0, 1.0 - closed / enough);
         // Numbers far from those stated ask for a cause whatever the residuals follow.
         penalty += numbers_are_far ? std::clamp(gain + further_cause_penalty, 0.0, own) : own;
     }

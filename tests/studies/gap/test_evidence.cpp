@@ -456,6 +456,24 @@ TEST(Evidence, ACauseThatClosesLessThanTheFloorIsCharged) {
     EXPECT_EQ(evidence.penalty_of_corrections(drag, {elsewhere}), 0.0) << "on another bench";
 }
 
+// Numbers that float take up a part of the model's error.
+TEST(Evidence, BesideFloatingNumbersACauseFollowsHalfOfTheFloorAtMost) {
+    const Known known;
+    const auto as_built = [](ScoredFit fit) {
+        fit.fit.bench = &bench_with_a_zero();
+        return fit;
+    };
+    const ScoredFit nothing = as_built(with_floors(fitted(evidence, {&known.none}, 1.0, {0.0}), {2.0, 2.0}));
+    const auto charge = [&](double closed_of_floor) {
+        const double left = 2.0 - std::pow(closed_of_floor, 2) * 1.96 * 0.25;
+        return evidence.penalty_of_corrections(
+            as_built(with_floors(fitted(evidence, {&known.drag}, 1.0, {1.0}), {left, 2.0})), {nothing});
+    };
+    EXPECT_NEAR(charge(0.51), 0.0, 1e-9);
+    EXPECT_NEAR(charge(0.25), 40.0, 1e-9);
+    EXPECT_NEAR(charge(0.0), 80.0, 1e-9);
+}
+
 // What a strong cause leaves because its law is an idealisation is no second cause. A sensor's gain has no
 // such law, and a law that stands for an effect outside the list is only good to a half.
 TEST(Evidence, ACauseThatOnlyCorrectsTheLawOfAnotherIsCharged) {
