@@ -28,7 +28,7 @@ struct Marginal {
 using Marginals = std::array<Marginal, discrepancy_sizes.size()>;
 
 /// What the means of residuals over blocks of a correlation time say (E69): their log-likelihoods beside a
-/// discrepancy of each size, and beside an error of any kind and size in each channel.
+/// discrepancy of each size, and beside an error of any kind and size in one channel or in all.
 struct BlockLikelihoods {
     std::array<double, discrepancy_sizes.size()> beside{};
     double beside_any = 0.0;

@@ -76,8 +76,8 @@ struct ScoredFit {
     /// usual on a bench as built; one wrong number among right ones and a sensor that is late are causes.
     double far_numbers_are_usual = 1.0;
 
-    /// That the number is far from what was stated, and does not only correct the law of a cause (E68), or
-    /// what is left for an unknown one to explain (rms in units of noise and floor).
+    /// That the number is far from what was stated, and does not only correct the model's error, the law of a
+    /// cause (E68) or what is left for an unknown one to explain (rms in units of noise and floor).
     double probability_of(const FarNumber& far, double left_unexplained = 0.0) const;
     /// The effects that they stand for, each by its most probable number.
     std::map<std::string, double> of_the_bench(double left_unexplained = 0.0) const;
