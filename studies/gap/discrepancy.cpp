@@ -31,16 +31,6 @@ double log_mean(const std::vector<double>& logs) {
     return most + std::log(sum / static_cast<double>(logs.size()));
 }
 
-// What is outside the list acts on all channels, as a friction does, or on one, as a fault of its reading
-// does.
-double log_of_any(const std::vector<double>& usual_of_channels, const std::vector<double>& any_of_channels) {
-    const double usual = std::accumulate(usual_of_channels.begin(), usual_of_channels.end(), 0.0);
-    std::vector<double> each = {std::accumulate(any_of_channels.begin(), any_of_channels.end(), 0.0)};
-    for (std::size_t channel = 0; channel < any_of_channels.size(); ++channel)
-        each.push_back(usual - usual_of_channels[channel] + any_of_channels[channel]);
-    return log_mean(each);
-}
-
 // A channel that drives some run, with what is needed to make it dimensionless.
 struct Driving {
     std::size_t channel = 0;
@@ -214,8 +204,7 @@ Discrepancy::BlockModel Discrepancy::block_model(const std::vector<ResidualBlock
 // E69.
 BlockLikelihoods Discrepancy::of_blocks(const Eigen::VectorXd& residuals) const {
     BlockLikelihoods all;
-    std::vector<double> usual_of_channels;
-    std::vector<double> any_of_channels;
+    std::vector<double> any_gains;  // of each channel, over an error of the model alone
     for (const ChannelBlocks& channel : blocks_) {
         Eigen::VectorXd means(static_cast<Eigen::Index>(channel.blocks.size()));
         for (Eigen::Index b = 0; b < means.size(); ++b) {
@@ -240,10 +229,12 @@ BlockLikelihoods Discrepancy::of_blocks(const Eigen::VectorXd& residuals) const 
             }
         }
         for (std::size_t k = 0; k < discrepancy_sizes.size(); ++k) all.beside[k] += log_mean(each[k]);
-        usual_of_channels.push_back(log_mean(each.front()));
-        any_of_channels.push_back(log_mean(any));
+        any_gains.push_back(log_mean(any) - log_mean(each.front()));
     }
-    all.beside_any = log_of_any(usual_of_channels, any_of_channels);
+    // What is outside the list acts on one channel, as a fault of its reading does, or on all of them, as a
+    // friction does.
+    any_gains.push_back(std::accumulate(any_gains.begin(), any_gains.end(), 0.0));
+    all.beside_any = all.beside.front() + log_mean(any_gains);
     return all;
 }
 

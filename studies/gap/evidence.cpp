@@ -54,8 +54,8 @@ constexpr double max_scale_penalty = unknown_penalty + further_cause_penalty + u
 // A further cause that is fainter than what the law of the clearest one may be wrong by only corrects that.
 constexpr double faint_penalty = 60.0;
 // What follows the model's own error is no cause, however clearly the means of blocks show it (E70). Numbers
-// that float take up a part of that error, so that a cause can follow a half of it at most, and does so more
-// clearly.
+// that float take up a part of that error, so that a cause can follow a half of it at most. On spent
+// recordings, what followed a fifth of it gained up to 50 units.
 constexpr double within_floor_penalty = 40.0;
 constexpr double within_floor_penalty_beside_floating_numbers = 80.0;
 constexpr double floor_beside_floating_numbers = 0.5;
@@ -178,7 +178,7 @@ double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, std::size
     return std::sqrt(most);
 }
 
-// Whether a fit has numbers that are not tenable, and that do not only correct the law of a cause (E68).
+// Whether a fit has numbers that are not tenable, and that do not only correct the model or a law (E68).
 bool has_far_numbers(const ScoredFit& fit) {
     if (fit.nominal_penalty <= tenable_nominal_penalty) return false;
     const auto is_wrong = [&](const ScoredFit::FarNumber& far) {
