@@ -35,6 +35,7 @@ window.capstanHand = async ({ hand, api, ask, post, element }) => {
     is_old = true;
     if (is_asking) return;
     is_asking = true;
+    place.ariaBusy = "true";
     while (is_old) {
       is_old = false;
       try {
@@ -45,6 +46,7 @@ window.capstanHand = async ({ hand, api, ask, post, element }) => {
       }
     }
     is_asking = false;
+    place.ariaBusy = "false";
   }
 
   // Of a study over worlds: any selection of what can be bought, judged in the worlds of the study.

@@ -22,10 +22,19 @@ export function check(holds, fact) {
   console.error("FAILED: " + fact);
 }
 
-// What a person did to a figure has been drawn, also on a busy machine.
+// Presses a button that starts work. Where the page asks because of what the work costs, which on a busy machine it does
+// of short work too, the answer is to start.
+export async function startHoweverLong(page, form, button = `#${form}-form button[type=submit]`) {
+  await page.click(button);
+  await page.waitForFunction((id) => /takes? (about|at least) .* on this machine\.$|could not be estimated/.test(document.querySelector(id).textContent), `#${form}-cost-words`);
+  if (await page.$(`#${form}-cost:not([hidden])`)) await page.click(`#${form}-anyway`);
+}
+
+// What a person did to a figure has been drawn, also on a busy machine: pages draw in the next frame.
 export async function settled(page) {
   await page.waitForTimeout(300);
   await page.evaluate(async () => {
+    for (let frame = 0; frame < 2; ++frame) await new Promise((drawn) => requestAnimationFrame(drawn));
     for (const figure of document.querySelectorAll("figure")) await figure.view?.runAsync();
   });
 }

@@ -1,6 +1,6 @@
 // Questions beside studies: place, sensitivity and estimate, started on the front page and answered on pages of their own.
 import { join } from "node:path";
-import { accessible, check, settled } from "./checks.mjs";
+import { accessible, check, settled, startHoweverLong } from "./checks.mjs";
 
 const text = (page, selector) => page.$eval(selector, (each) => each.textContent);
 
@@ -32,7 +32,7 @@ export async function askQuestions(page, folder, open) {
     await page.selectOption("#question", command);
     await page.selectOption("#config-name", "quick.toml");
     await page.waitForFunction(() => document.querySelector("#config-text").value.includes("repetitions"));
-    await page.click("#start-form button[type=submit]");
+    await startHoweverLong(page, "start");
     await page.waitForFunction((count) => document.querySelectorAll("#job-table tbody tr").length > count, before);
     await page.waitForFunction(() => document.querySelector("#job-table tbody tr").dataset.state === "done");
     check((await text(page, "#job-table tbody tr")).includes(command + " quick"), `${command} is in the queue`);
@@ -58,7 +58,7 @@ export async function estimateTension(page, folder, open, log) {
   await page.setInputFiles("#log", log);
   await page.setInputFiles("#sidecar", log.replace(/csv$/, "json"));
   const before = await jobs(page);
-  await page.click("#upload-form button[value=estimate]");
+  await startHoweverLong(page, "upload", "#upload-form button[value=estimate]");
   await page.waitForFunction((count) => document.querySelectorAll("#job-table tbody tr").length > count, before);
   await page.waitForFunction(() => document.querySelector("#job-table tbody tr").dataset.state === "done");
   const answer = await openAnswer(page, folder, open, "tension");

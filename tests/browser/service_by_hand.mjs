@@ -5,7 +5,8 @@ import { check } from "./checks.mjs";
 const placed = (page) => page.$$eval("#hand .place[aria-checked=true]", (all) => all.map((each) => Number(each.dataset.node)));
 const text = (page, selector) => page.$eval(selector, (each) => each.textContent);
 const answered = (page) => page.$eval("#hand-expected", (each) => Number(each.dataset.answered ?? 0));
-const answeredAfter = (page, count) => page.waitForFunction((old) => Number(document.querySelector("#hand-expected").dataset.answered ?? 0) > old, count);
+// A new answer, and no newer one to come.
+const answeredAfter = (page, count) => page.waitForFunction((old) => Number(document.querySelector("#hand-expected").dataset.answered ?? 0) > old && document.querySelector("#hand .hand").ariaBusy === "false", count);
 
 async function middle(page, node) {
   await page.locator("#hand svg.pins").scrollIntoViewIfNeeded();
@@ -23,7 +24,8 @@ async function byClick(page, folder) {
   const count = await answered(page), [chosen] = await placed(page);
   await page.click(`#hand .place[data-node="${chosen}"]`);
   await page.click(`#hand .place[data-node="${await freeNode(page, chosen)}"]`);
-  await page.waitForFunction(([old, words]) => Number(document.querySelector("#hand-expected").dataset.answered) > old && document.querySelector("#hand-expected").textContent !== words, [count, recommended]);
+  await answeredAfter(page, count);
+  check(await text(page, "#hand-expected") !== recommended, "another layout has another error: " + recommended);
   check(/The recommendation here is \d sensors? at .* on the same draws/.test(await text(page, "#hand .expected + .quiet")), "the recommendation stands beside: " + await text(page, "#hand .expected + .quiet"));
   const lines = await page.$$eval("#hand-chart .mark-line path", (all) => all.length);
   check(lines === 2 && await page.$("#hand-chart .mark-area path"), `both are drawn, with the band: ${lines} lines`);

@@ -3,7 +3,7 @@
 import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { accessible, check, finish, launch } from "./checks.mjs";
+import { accessible, check, finish, launch, startHoweverLong } from "./checks.mjs";
 import { askQuestions, estimateTension, seeProblems } from "./service_answers.mjs";
 import { markSamples } from "./brushing.mjs";
 import { placeByHand } from "./service_by_hand.mjs";
@@ -28,7 +28,7 @@ const text = (page, selector) => page.$eval(selector, (each) => each.textContent
 async function startAndWatch(page) {
   await page.selectOption("#config-name", "quick.toml");
   await page.waitForFunction(() => document.querySelector("#config-text").value.includes("repetitions"));
-  await page.click("#start-form button[type=submit]");
+  await startHoweverLong(page, "start");
   await page.waitForSelector('#job-table tr[data-state="done"]');
   check((await text(page, "#study-table tbody")).includes("complete"), "the study is complete in the list");
 
@@ -46,7 +46,7 @@ async function watchCellsFill(browser) {
   await front.waitForFunction(() => document.querySelector("#config-text").value.includes("noise"));
   await front.$eval("#config-text", (each) => { each.value = each.value.replace(/^repetitions.*$/m, "repetitions = 400"); });
   await front.dispatchEvent("#config-text", "input");
-  await front.click("#start-form button[type=submit]");
+  await startHoweverLong(front, "start");
   await front.waitForFunction(() => document.querySelectorAll("#study-table tbody tr").length === 2);
   const page = await open(browser, "/studies/2");
   await page.waitForSelector("html[data-live=yes]");
@@ -130,17 +130,10 @@ async function refusedRecording(page) {
   complaints.splice(silent);
 }
 
-// On a busy machine a short diagnosis may be asked for, too.
-async function startHoweverLong(page, form) {
-  await page.waitForFunction((id) => /The diagnosis takes about .* on this machine\.$|could not be estimated/.test(document.querySelector(id).textContent), `#${form}-cost-words`);
-  if (await page.$(`#${form}-cost:not([hidden])`)) await page.click(`#${form}-anyway`);
-}
-
 async function diagnose(page) {
   await page.setInputFiles("#log", log);
   await page.setInputFiles("#sidecar", sidecar);
   await askedBeforeALongDiagnosis(page, "#upload-form button[value=diagnose]", "upload", "**/api/diagnoses/cost");
-  await page.click("#upload-form button[type=submit]");
   await startHoweverLong(page, "upload");
   await page.waitForSelector(".verdict-card");
   const verdict = await text(page, ".verdict-card");
@@ -340,8 +333,7 @@ async function importALog(page) {
 
   const cards = (await page.$$(".verdict-card")).length;
   await askedBeforeALongDiagnosis(page, "#import-diagnose", "import", "**/api/import/diagnosis/cost");
-  await page.click("#import-diagnose");
-  await startHoweverLong(page, "import");
+  await startHoweverLong(page, "import", "#import-diagnose");
   await page.waitForFunction(() => /Job \d+ is queued/.test(document.querySelector("#import-run-status").textContent));
   await page.locator("#import").screenshot({ path: join(folder, "service_import_tried.png") });
   await page.emulateMedia({ colorScheme: "dark" });
