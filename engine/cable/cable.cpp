@@ -64,19 +64,6 @@ void check_node_places(const CableSpecification& s, std::vector<KeyProblem>& pro
     }
 }
 
-// Wrap angle [rad] of the conduit between two arc lengths.
-double wrap_between_rad(const std::vector<CurvaturePiece>& pieces, double from_m, double to_m) {
-    double wrap_rad = 0.0;
-    double start_m = 0.0;
-    for (const CurvaturePiece& piece : pieces) {
-        const double end_m = start_m + piece.length_m;
-        const double overlap_m = std::min(to_m, end_m) - std::max(from_m, start_m);
-        if (overlap_m > 0.0) wrap_rad += overlap_m / piece.bend_radius_m;
-        start_m = end_m;
-    }
-    return wrap_rad;
-}
-
 }  // namespace
 
 std::vector<KeyProblem> problems_of(const CableSpecification& s) {

@@ -14,6 +14,8 @@ inline constexpr double smallest_wrap_rad = 1e-9;
 double length_m(const std::vector<CurvaturePiece>& pieces);
 /// By how much all pieces bend together.
 double wrap_rad(const std::vector<CurvaturePiece>& pieces);
+/// The same between two places.
+double wrap_between_rad(const std::vector<CurvaturePiece>& pieces, double from_m, double to_m);
 
 /// Where bends begin and end, without the ends of the cable; rising. Between two straight pieces none does.
 std::vector<double> bend_ends_m(const std::vector<CurvaturePiece>& pieces);

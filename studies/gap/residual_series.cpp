@@ -29,15 +29,24 @@ double standard_deviation(const std::vector<double>& values) {
     return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-// E67. What the motor torque's variation would be at the load if the cables slid all the way. A held load may
-// feel little of it, but the error of where sliding ends goes with all of it. 0 where no motor torque was
-// recorded.
-double spread_brought_to_load(const Recording& recording, const RecordedRun& run) {
+// E67. How much a torque or tension would vary if the cables slid all the way to where it is measured. Where
+// the load is held it may feel little of it, but the error of where sliding ends goes with all of it. 0 for
+// other channels, and where no motor torque was recorded.
+double spread_brought_to(const std::string& channel, const Recording& recording, const RecordedRun& run) {
     const auto motor = recording.channel(channel::motor_torque);
     if (!motor) return 0.0;
     const NominalBench& bench = *recording.nominal;
-    return standard_deviation(run.values[static_cast<std::size_t>(*motor)]) * bench.load_radius_m /
-           bench.motor_radius_m * std::exp(-bench.dynamic_friction * wrap_rad(bench.curvature));
+    const double motor_N =
+        standard_deviation(run.values[static_cast<std::size_t>(*motor)]) / bench.motor_radius_m;
+    if (channel == channel::load_torque)
+        return motor_N * bench.load_radius_m * std::exp(-bench.dynamic_friction * wrap_rad(bench.curvature));
+    const double cables = recording.mode == BenchMode::single_cable ? 1.0 : 2.0;
+    for (const TensionSensor& sensor : recording.tension_sensors) {
+        if (sensor.channel != channel) continue;
+        const double turned_rad = wrap_between_rad(bench.curvature, 0.0, sensor.position_m);
+        return motor_N / cables * std::exp(-bench.dynamic_friction * turned_rad);
+    }
+    return 0.0;
 }
 
 double rms_difference(std::span<const double> a, std::span<const double> b) {
@@ -228,8 +237,8 @@ std::vector<ResidualSeries> residual_series(const Recording& recording, const Ef
             };
             const bool load_is_held = recording.runs[run].output == OutputKind::locked;
             double spread = standard_deviation(recording.runs[run].values[channel]);
-            if (described.name == channel::load_torque && load_is_held)
-                spread = std::max(spread, spread_brought_to_load(recording, recording.runs[run]));
+            if (load_is_held)
+                spread = std::max(spread, spread_brought_to(described.name, recording, recording.runs[run]));
             const double floor = model_floor(described.name, load_is_held, spread);
             std::vector<double> of_inputs;
             for (const TwinRun& each : moved_again)
