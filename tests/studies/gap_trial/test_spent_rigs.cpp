@@ -17,10 +17,10 @@
 namespace capstan::gap_trial {
 namespace {
 
-gap::Diagnosis diagnosed(std::uint64_t seed, int number) {
+gap::Diagnosis diagnosed(std::uint64_t seed, int number, int cases = 40) {
     TrialOptions options;
     options.seed = seed;
-    options.cases = 40;
+    options.cases = cases;
     const PlannedCase planned = plan_rigs(options).at(static_cast<std::size_t>(number - 1));
     const ScratchFolder folder;
     const CaseLabel label = make_rig_case(planned, options, folder.path());
@@ -168,6 +168,14 @@ TEST(SpentBenches, BendingStiffnessIsFoundBeyondTheRipplesOfFronts) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 41);
     EXPECT_GT(present(diagnosis, "bending_stiffness"), gap::nearly_certain);
     EXPECT_LT(present(diagnosis, "local_bend"), 0.1);
+}
+
+// The search for the two ended in a minimum that left twice as much as noise and floor; with a compliance that
+// does nothing it went on.
+TEST(SpentRigs, LostMotionIsNamedBesideAnInertia) {
+    const gap::Diagnosis diagnosis = diagnosed(328101, 10, 16);
+    for (const char* effect : {"backlash", "inertia"})
+        EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
 }
 
 // The set that left least also held a cause that does nothing. The hysteresis was not named then.
