@@ -127,8 +127,9 @@ void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& eff
 
 void BenchCables::set_rest(int lane, const Cable& cable, const BenchEffects& effects) {
     const double pretension_N = cable.pretension_N();
-    rest_[lane] = {cable.axial_stiffness_N(), effects.of<Creep>(), effects.of<NonlinearStiffness>(),
-                   effects.of<ConduitCompliance>().load_m_per_N};
+    const ConduitCompliance& conduit = effects.of<ConduitCompliance>();
+    rest_[lane] = {cable.axial_stiffness_N(), effects.of<Creep>(),   effects.of<NonlinearStiffness>(),
+                   conduit.load_m_per_N,      conduit.motor_m_per_N, pretension_N};
     const double motor_end_m = rest_displacement_m(lane, pretension_N);
     for (int c = 0; c < group_.cables; ++c) {
         for (int node = 0; node < group_.nodes; ++node) {
@@ -146,10 +147,21 @@ double BenchCables::crept_m(const Rest& rest, double tension_N) const {
     return laws::creep_at_rest(rest.creep, group_.segment_m) * tension_N / rest.axial_stiffness_N;
 }
 
+double BenchCables::elastic_m(const Rest& rest, double tension_N) const {
+    return group_.segment_m * (tension_N / rest.axial_stiffness_N +
+                               laws::toe_strain(rest.toe, tension_N / rest.toe.toe_tension_N).strain);
+}
+
 double BenchCables::stretched_m(const Rest& rest, double tension_N) const {
-    const double strain = tension_N / rest.axial_stiffness_N +
-                          laws::toe_strain(rest.toe, tension_N / rest.toe.toe_tension_N).strain;
-    return crept_m(rest, tension_N) + group_.segment_m * strain;
+    return crept_m(rest, tension_N) + elastic_m(rest, tension_N);
+}
+
+// E33. The ends give way by less, too.
+double BenchCables::settled_m(int bench, double tension_N) const {
+    const Rest& rest = rest_[bench];
+    const double of_ends_m =
+        (rest.motor_compliance_m_per_N + rest.load_compliance_m_per_N) * (rest.pretension_N - tension_N);
+    return elastic_m(rest, rest.pretension_N) - elastic_m(rest, tension_N) + of_ends_m / (group_.nodes - 1);
 }
 
 double BenchCables::rest_displacement_m(int bench, double tension_N) const {
@@ -159,6 +171,7 @@ double BenchCables::rest_displacement_m(int bench, double tension_N) const {
 
 void BenchCables::begin(const LaneFlags& active, const CablesMoment& moment, const LaneValues& time_step_s) {
     group_.time_step_s = time_step_s;
+    group_.settled_m = moment.settled_m;
     begin_cables(group_, active, moment);
 }
 

@@ -26,6 +26,9 @@ class BenchCables {
 
     /// Where a cable's motor end rests under a tension [m].
     double rest_displacement_m(int bench, double tension_N) const;
+    /// By how much each segment has become longer at rest when a cable whose ends stay has lost its pretension
+    /// but for this tension [m].
+    double settled_m(int bench, double tension_N) const;
 
     void begin(const LaneFlags& active, const CablesMoment& moment, const LaneValues& time_step_s);
     /// The pulleys that find their angle in any bench; the turns of the others are not solved for.
@@ -67,10 +70,13 @@ class BenchCables {
         Creep creep;
         NonlinearStiffness toe;
         double load_compliance_m_per_N = 0.0;
+        double motor_compliance_m_per_N = 0.0;
+        double pretension_N = 0.0;
     };
     void set_laws(int lane, const Cable& cable, const BenchEffects& effects);
     void set_rest(int lane, const Cable& cable, const BenchEffects& effects);
     double crept_m(const Rest& rest, double tension_N) const;
+    double elastic_m(const Rest& rest, double tension_N) const;
     double stretched_m(const Rest& rest, double tension_N) const;
 
     CablesGroup group_;  // refers to the arrays

@@ -38,13 +38,14 @@ HWY_INLINE void guess_segments(const CablesGroup& group, const LaneCable<Lanes>&
                                Which<Lanes> active, int segment, int lane,
                                LaneTension<Lanes> (&guess)[cables]) {
     Lanes stretch_m[cables], last_N[cables];
+    const Lanes settled_m = load<Lanes>(group.settled_m, lane);
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
         const Lanes crept_m = mechanics.creeps
                                   ? load<Lanes>(cable.crept_m[segment], lane) * mechanics.creep_stays
                                   : lanes_of<Lanes>(0.0);
         stretch_m[c] = load<Lanes>(cable.displacement_m[segment + 1], lane) -
-                       load<Lanes>(cable.displacement_m[segment], lane) - crept_m;
+                       load<Lanes>(cable.displacement_m[segment], lane) - crept_m - settled_m;
         last_N[c] = load<Lanes>(cable.tension_N[segment], lane);
     }
     find_tensions(mechanics, stretch_m, last_N, guess);

@@ -104,6 +104,7 @@ struct CablesGroup {
     LaneValues time_step_s;
     CableLawParameters laws;
     LaneValues stretch_m_per_N;  ///< of a segment, by its own elasticity
+    LaneValues settled_m;  ///< by how much longer each segment is at rest than under its pretension (E33)
     LaneValues dynamic_friction;
     LaneValues varying_friction;        ///< not 0: a law of the friction coefficient, or a bend that moves
     bool any_varying_friction = false;  ///< of any bench
@@ -115,6 +116,7 @@ struct CablesGroup {
 struct CablesMoment {
     LaneValues load_angle_rad;  ///< for bends that follow it
     LaneValues session_time_s;
+    LaneValues settled_m;  ///< of each segment
 };
 
 /// Begins a step of these benches where the last one ended.

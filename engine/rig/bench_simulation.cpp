@@ -79,7 +79,9 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
         if (cables_.count() == 1)
             pulleys_.back().rest(radii_[bench].motor_radius_m * pretension_N_.back(),
                                  radii_[bench].load_radius_m * pretension_N_.back());
-        motor_rest_m_.push_back(motor_rest_m(static_cast<int>(bench), 0.0));
+        motor_rest_m_.push_back(cables_.rest_displacement_m(static_cast<int>(bench), pretension_N_[bench]) -
+                                effects_[bench].of<ConduitCompliance>().motor_m_per_N * pretension_N_[bench]);
+        settled_m_.push_back(0.0);
         reels_.push_back(
             {0.0, 0.0,
              radii_[bench].motor_radius_m * effects_[bench].of<EccentricPulley>().radius_ratio(0.0)});
@@ -107,18 +109,10 @@ void BenchSimulations::begin(EachInputs inputs, const LaneFlags& active) {
         moment.load_angle_rad.of[lane] =
             given != nullptr ? given->angle_rad : pulleys(lane).angles().load_rad;
         moment.session_time_s.of[lane] = its.session_time_s;
+        moment.settled_m.of[lane] = settled_m_[static_cast<std::size_t>(lane)];
         time_step_s.of[lane] = its.time_step_s;
     }
     cables_.begin(active, moment, time_step_s);
-}
-
-// Where the motor end of a bench's cables rests follows the pretension (E33).
-double BenchSimulations::motor_rest_m(int bench, double session_time_s) const {
-    const BenchEffects& effects = effects_[static_cast<std::size_t>(bench)];
-    const double pretension_N =
-        pretension_N_[static_cast<std::size_t>(bench)] * effects.of<PretensionDrift>().ratio(session_time_s);
-    return cables_.rest_displacement_m(bench, pretension_N) -
-           effects.of<ConduitCompliance>().motor_m_per_N * pretension_N;
 }
 
 // Where the cables leave the motor pulley (E59).
@@ -362,8 +356,10 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(EachInputs inputs
         free.motor.of[lane] = pulleys.motor_is_free(inputs[bench]);
         free.load.of[lane] = pulleys.load_is_free(inputs[bench]);
         angles[bench] = pulleys.start(inputs[bench]);
-        if (effects_[bench].of<PretensionDrift>().lost_by_100_s != 0.0)
-            motor_rest_m_[bench] = motor_rest_m(lane, inputs[bench].session_time_s);
+        const PretensionDrift& drift = effects_[bench].of<PretensionDrift>();
+        if (drift.lost_by_100_s != 0.0)
+            settled_m_[bench] =
+                cables_.settled_m(lane, pretension_N_[bench] * drift.ratio(inputs[bench].session_time_s));
     }
     begin(inputs, all);
     iterate(inputs, free, all, angles, reports);

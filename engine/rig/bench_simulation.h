@@ -70,7 +70,6 @@ class BenchSimulations {
     };
 
     void begin(EachInputs inputs, const LaneFlags& active);
-    double motor_rest_m(int bench, double session_time_s) const;
     /// What the motor pulley of a bench has reeled in, and its radius, which follow from its angle.
     struct Reel {
         double angle_rad = 0.0;
@@ -92,6 +91,7 @@ class BenchSimulations {
     std::vector<BenchEffects> effects_;
     std::vector<double> pretension_N_;
     std::vector<double> motor_rest_m_;
+    std::vector<double> settled_m_;
     // Where the pulleys put the cables' ends in the present guess.
     EndPlaces motor_places_[max_cables];
     EndPlaces load_places_[max_cables];

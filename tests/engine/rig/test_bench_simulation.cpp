@@ -194,6 +194,34 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(effect_catalo
                              return name;
                          });
 
+// A cable settles everywhere at once (E33). Where nothing turns, nothing slides, so that no friction keeps
+// what is lost near the motor from reaching the load, however late in a session a run begins. A conduit that
+// gives way at its ends lets the cable slide a little; without friction that changes nothing.
+TEST(BenchSimulation, PretensionIsLostAlikeAlongTheCable) {
+    BenchEffects effects;
+    effects.of<PretensionDrift>() = {.lost_by_100_s = 0.4, .settling_s = 60.0};
+    effects.of<NonlinearStiffness>() = {.toe_strain = 1e-3, .toe_tension_N = 5.0};
+    BenchEffects with_compliance = effects;
+    with_compliance.of<ConduitCompliance>() = {.motor_m_per_N = 1e-5, .load_m_per_N = 2e-5};
+    const auto expect_alike = [](const Cable& cable, const BenchEffects& present) {
+        for (const auto arrangement : {CableArrangement::pull_pull, CableArrangement::single}) {
+            BenchSimulation bench({cable, arrangement, pulleys, {}}, present);
+            for (int step = 0; step < 50; ++step) {
+                const double session_time_s = 100.0 + 2.0 * step;
+                ASSERT_TRUE(
+                    bench.advance({MotorAngle{0.0}, LoadAngle{0.0}, time_step_s, session_time_s}).converged);
+                const double left_N =
+                    cable.pretension_N() * present.of<PretensionDrift>().ratio(session_time_s);
+                for (const double place : {0.05, 0.3, 0.6, 0.95})
+                    EXPECT_NEAR(bench.tension_at_N(0, place * cable.length_m()), left_N, 1e-6)
+                        << session_time_s;
+            }
+        }
+    };
+    expect_alike(cable_with(50), effects);
+    expect_alike(cable_with(50, 0.0), with_compliance);
+}
+
 // A tight conduit and a stiff cable: the one that is let go falls slack, and comes back.
 TEST(BenchSimulation, FollowsACableThatFallsSlack) {
     CableSpecification specification;
