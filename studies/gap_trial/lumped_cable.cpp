@@ -173,10 +173,10 @@ CAPSTAN_WIDE void LumpedCable::move_masses() {
     for (std::size_t i = 0; i < count; ++i) {
         const double coefficient = v[i] == 0.0 ? at_rest[i] : sliding[i];
         const double hold = coefficient * (tension[i] + tension[i + 1]) + constant;
-        const double free = viscous * (v[i] + per_N * (tension[i + 1] - tension[i]));
+        const double free = v[i] + per_N * (tension[i + 1] - tension[i]);
         const double below = free < hold ? free : hold;
         const double taken = below > -hold ? below : -hold;
-        v[i] = free - taken;
+        v[i] = viscous * (free - taken);
         u[i] += dt * v[i];
     }
 }
@@ -186,11 +186,11 @@ void LumpedCable::move_masses_one_way() {
     const double less = 1.0 - effects_.one_way_friction;
     for (std::size_t i = 0; i < position_m_.size(); ++i) {
         double& speed = speed_m_per_s_[i];
-        const double free = viscous_factor_ * (speed + speed_per_N_ * (tension_N_[i + 1] - tension_N_[i]));
+        const double free = speed + speed_per_N_ * (tension_N_[i + 1] - tension_N_[i]);
         const double coefficient = speed == 0.0 ? hold_static_[i] : hold_sliding_[i];
         const double hold = coefficient * (tension_N_[i] + tension_N_[i + 1]) * (free > 0.0 ? more : less) +
                             constant_hold_m_per_s_;
-        speed = free - std::clamp(free, -hold, hold);
+        speed = viscous_factor_ * (free - std::clamp(free, -hold, hold));
         position_m_[i] += time_step_s_ * speed;
     }
 }

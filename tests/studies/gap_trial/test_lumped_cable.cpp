@@ -42,6 +42,26 @@ TEST(LumpedCable, SlidingTensionFollowsTheCapstanEquation) {
     EXPECT_NEAR(cable.tension_N(1.0) / cable.motor_tension_N(), std::exp(0.105 * wrap_rad), 2e-3);
 }
 
+// dT/ds = k T + c v, k the friction of the bend by length and v rising evenly from the held end: the drag
+// adds to friction of the bend and does not change it.
+TEST(LumpedCable, ViscousDragAddsToTheFrictionOfBends) {
+    constexpr double drag_N_s_per_m2 = 26.0;
+    LumpedCableNumbers numbers = bent_cable(0.21);
+    numbers.damping_s = 1e-5;
+    const double step_s = LumpedCable::stable_time_step_s(numbers, masses);
+    const double exponent = 0.21 * 2.0 / 0.7;
+    const double of_drag_N =
+        drag_N_s_per_m2 * 0.01 / 2.0 * (std::expm1(exponent) - exponent) / std::pow(exponent / 2.0, 2);
+    for (const double one_way : {0.0, 1e-6}) {  // friction by direction has a step of its own
+        TrueEffects effects;
+        effects.viscous_drag_N_s_per_m2 = drag_N_s_per_m2;
+        effects.one_way_friction = one_way;
+        LumpedCable cable(numbers, effects, masses, step_s);
+        pull_for(cable, 1.0, step_s);
+        EXPECT_NEAR(cable.load_tension_N(), cable.motor_tension_N() * std::exp(exponent) + of_drag_N, 0.1);
+    }
+}
+
 TEST(LumpedCable, WithoutFrictionItIsASpring) {
     LumpedCableNumbers numbers = bent_cable(0.0);
     numbers.damping_s = 1e-4;
