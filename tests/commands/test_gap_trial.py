@@ -2,7 +2,9 @@
 
 import hashlib
 import json
+import pathlib
 import shutil
+import tempfile
 import unittest
 
 from capstan_program import CONFIGS, CapstanTest
@@ -11,9 +13,21 @@ SMALL = ("--cases", 2, "--seed", 4, "--length", "short", "--severity", "strong")
 
 
 class GapTrial(CapstanTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.generated = None
+        cls.kept = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.kept.cleanup)
+
     def generate(self):
-        done = self.run_capstan("gap-trial", *SMALL, "--keep", "kept", "--generate-only", "--json", "--progress", "json")
-        return json.loads(done.stdout), [json.loads(line) for line in done.stderr.splitlines()]
+        """Once; each test has a copy."""
+        kept = pathlib.Path(self.kept.name) / "kept"
+        if self.generated is None:
+            type(self).generated = self.run_capstan("gap-trial", *SMALL, "--keep", kept, "--generate-only", "--json",
+                                                    "--progress", "json")
+        shutil.copytree(kept, self.folder / "kept")
+        told = self.generated
+        return json.loads(told.stdout), [json.loads(line) for line in told.stderr.splitlines()]
 
     def labels(self):
         return json.loads((self.folder / "kept/labels.json").read_text())
