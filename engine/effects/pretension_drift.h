@@ -8,7 +8,7 @@
 namespace capstan {
 
 /// Pretension that falls over a session (E33), ever more slowly as the cable settles: T0 (1 - lost (1 -
-/// exp(-t / settling)) / (1 - exp(-100 s / settling))). It falls along the cable alike, without sliding.
+/// exp(-t / settling)) / (1 - exp(-100 s / settling))). It falls evenly along the cable, without sliding.
 struct PretensionDrift {
     double lost_by_100_s = 0.0;
     double settling_s = steady_s;

@@ -130,7 +130,7 @@ void BenchCables::set_rest(int lane, const Cable& cable, const BenchEffects& eff
     const ConduitCompliance& conduit = effects.of<ConduitCompliance>();
     rest_[lane] = {cable.axial_stiffness_N(), effects.of<Creep>(),   effects.of<NonlinearStiffness>(),
                    conduit.load_m_per_N,      conduit.motor_m_per_N, pretension_N};
-    const double motor_end_m = rest_displacement_m(lane, pretension_N);
+    const double motor_end_m = rest_displacement_m(lane);
     for (int c = 0; c < group_.cables; ++c) {
         for (int node = 0; node < group_.nodes; ++node) {
             const auto at = static_cast<std::size_t>(node);
@@ -156,17 +156,19 @@ double BenchCables::stretched_m(const Rest& rest, double tension_N) const {
     return crept_m(rest, tension_N) + elastic_m(rest, tension_N);
 }
 
-// E33. The ends give way by less, too.
-double BenchCables::settled_m(int bench, double tension_N) const {
+// The conduit's ends give way by less, too.
+double BenchCables::settled_m(int bench, double kept) const {
     const Rest& rest = rest_[bench];
+    const double tension_N = rest.pretension_N * kept;
     const double of_ends_m =
         (rest.motor_compliance_m_per_N + rest.load_compliance_m_per_N) * (rest.pretension_N - tension_N);
     return elastic_m(rest, rest.pretension_N) - elastic_m(rest, tension_N) + of_ends_m / (group_.nodes - 1);
 }
 
-double BenchCables::rest_displacement_m(int bench, double tension_N) const {
+double BenchCables::rest_displacement_m(int bench) const {
     const Rest& rest = rest_[bench];
-    return -rest.load_compliance_m_per_N * tension_N - (group_.nodes - 1) * stretched_m(rest, tension_N);
+    return -rest.load_compliance_m_per_N * rest.pretension_N -
+           (group_.nodes - 1) * stretched_m(rest, rest.pretension_N);
 }
 
 void BenchCables::begin(const LaneFlags& active, const CablesMoment& moment, const LaneValues& time_step_s) {

@@ -24,11 +24,10 @@ class BenchCables {
     BenchCables(const BenchCables&) = delete;
     BenchCables& operator=(const BenchCables&) = delete;
 
-    /// Where a cable's motor end rests under a tension [m].
-    double rest_displacement_m(int bench, double tension_N) const;
-    /// By how much each segment has become longer at rest when a cable whose ends stay has lost its pretension
-    /// but for this tension [m].
-    double settled_m(int bench, double tension_N) const;
+    /// Where a cable's motor end rests under its pretension [m].
+    double rest_displacement_m(int bench) const;
+    /// By how much each segment is longer at rest when only this part of the pretension is left [m] (E33).
+    double settled_m(int bench, double kept) const;
 
     void begin(const LaneFlags& active, const CablesMoment& moment, const LaneValues& time_step_s);
     /// The pulleys that find their angle in any bench; the turns of the others are not solved for.

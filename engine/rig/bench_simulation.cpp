@@ -72,16 +72,15 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
       effects_(effects.begin(), effects.end()),
       cables_(cables_of(descriptions), effects, descriptions.front().arrangement) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
-        pretension_N_.push_back(descriptions[bench].cable.pretension_N());
+        const double pretension_N = descriptions[bench].cable.pretension_N();
         radii_.push_back(checked(descriptions[bench].pulleys));
         pulleys_.emplace_back(radii_[bench], effects_[bench], descriptions[bench].inertia,
                               descriptions[bench].zeros);
         if (cables_.count() == 1)
-            pulleys_.back().rest(radii_[bench].motor_radius_m * pretension_N_.back(),
-                                 radii_[bench].load_radius_m * pretension_N_.back());
-        motor_rest_m_.push_back(cables_.rest_displacement_m(static_cast<int>(bench), pretension_N_[bench]) -
-                                effects_[bench].of<ConduitCompliance>().motor_m_per_N * pretension_N_[bench]);
-        settled_m_.push_back(0.0);
+            pulleys_.back().rest(radii_[bench].motor_radius_m * pretension_N,
+                                 radii_[bench].load_radius_m * pretension_N);
+        motor_rest_m_.push_back(cables_.rest_displacement_m(static_cast<int>(bench)) -
+                                effects_[bench].of<ConduitCompliance>().motor_m_per_N * pretension_N);
         reels_.push_back(
             {0.0, 0.0,
              radii_[bench].motor_radius_m * effects_[bench].of<EccentricPulley>().radius_ratio(0.0)});
@@ -109,7 +108,9 @@ void BenchSimulations::begin(EachInputs inputs, const LaneFlags& active) {
         moment.load_angle_rad.of[lane] =
             given != nullptr ? given->angle_rad : pulleys(lane).angles().load_rad;
         moment.session_time_s.of[lane] = its.session_time_s;
-        moment.settled_m.of[lane] = settled_m_[static_cast<std::size_t>(lane)];
+        const PretensionDrift& drift = effects_[static_cast<std::size_t>(lane)].of<PretensionDrift>();
+        if (drift.lost_by_100_s != 0.0)
+            moment.settled_m.of[lane] = cables_.settled_m(lane, drift.ratio(its.session_time_s));
         time_step_s.of[lane] = its.time_step_s;
     }
     cables_.begin(active, moment, time_step_s);
@@ -356,10 +357,6 @@ std::array<BenchReport, bench_lanes> BenchSimulations::advance(EachInputs inputs
         free.motor.of[lane] = pulleys.motor_is_free(inputs[bench]);
         free.load.of[lane] = pulleys.load_is_free(inputs[bench]);
         angles[bench] = pulleys.start(inputs[bench]);
-        const PretensionDrift& drift = effects_[bench].of<PretensionDrift>();
-        if (drift.lost_by_100_s != 0.0)
-            settled_m_[bench] =
-                cables_.settled_m(lane, pretension_N_[bench] * drift.ratio(inputs[bench].session_time_s));
     }
     begin(inputs, all);
     iterate(inputs, free, all, angles, reports);

@@ -89,9 +89,7 @@ class BenchSimulations {
     LaneFlags stopped_;
     std::vector<Pulleys> radii_;
     std::vector<BenchEffects> effects_;
-    std::vector<double> pretension_N_;
     std::vector<double> motor_rest_m_;
-    std::vector<double> settled_m_;
     // Where the pulleys put the cables' ends in the present guess.
     EndPlaces motor_places_[max_cables];
     EndPlaces load_places_[max_cables];

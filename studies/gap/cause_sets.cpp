@@ -30,11 +30,11 @@ bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
     return false;
 }
 
-std::vector<Hypothesis> without_each_of_the_least(const std::vector<ScoredFit>& fits) {
-    const auto least = std::min_element(
+std::vector<Hypothesis> without_each_of_closest_fit(const std::vector<ScoredFit>& fits) {
+    const auto closest = std::min_element(
         fits.begin(), fits.end(), [](const ScoredFit& a, const ScoredFit& b) { return a.misfit < b.misfit; });
-    if (least == fits.begin() || least->fit.causes.size() < 2) return {};
-    return without_each(least->fit.hypothesis());
+    if (closest == fits.begin() || closest->fit.causes.size() < 2) return {};
+    return without_each(closest->fit.hypothesis());
 }
 
 // Sets without a cause that does nothing, best first, where such a set led further than the same without it.
@@ -178,7 +178,7 @@ bool CauseSearch::try_fewer(const Level& level, Fits& all) {
 void CauseSearch::try_without_idle_causes(const Level& level, Fits& all) {
     if (is_out_of_time()) return;
     std::vector<Hypothesis> fewer =
-        level.bench.is_measured() ? without_each_of_the_least(all) : without_idle_causes(all);
+        level.bench.is_measured() ? without_each_of_closest_fit(all) : without_idle_causes(all);
     if (fewer.empty()) return;
     report("trying fewer causes");
     add_fits(level, fewer, false, all);

@@ -197,13 +197,13 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(effect_catalo
 // A cable settles everywhere at once (E33). Where nothing turns, nothing slides, so that no friction keeps
 // what is lost near the motor from reaching the load, however late in a session a run begins. A conduit that
 // gives way at its ends lets the cable slide a little; without friction that changes nothing.
-TEST(BenchSimulation, PretensionIsLostAlikeAlongTheCable) {
+TEST(BenchSimulation, PretensionFallsEvenlyAlongTheCable) {
     BenchEffects effects;
     effects.of<PretensionDrift>() = {.lost_by_100_s = 0.4, .settling_s = 60.0};
     effects.of<NonlinearStiffness>() = {.toe_strain = 1e-3, .toe_tension_N = 5.0};
     BenchEffects with_compliance = effects;
     with_compliance.of<ConduitCompliance>() = {.motor_m_per_N = 1e-5, .load_m_per_N = 2e-5};
-    const auto expect_alike = [](const Cable& cable, const BenchEffects& present) {
+    const auto expect_even = [](const Cable& cable, const BenchEffects& present) {
         for (const auto arrangement : {CableArrangement::pull_pull, CableArrangement::single}) {
             BenchSimulation bench({cable, arrangement, pulleys, {}}, present);
             for (int step = 0; step < 50; ++step) {
@@ -218,8 +218,8 @@ TEST(BenchSimulation, PretensionIsLostAlikeAlongTheCable) {
             }
         }
     };
-    expect_alike(cable_with(50), effects);
-    expect_alike(cable_with(50, 0.0), with_compliance);
+    expect_even(cable_with(50), effects);
+    expect_even(cable_with(50, 0.0), with_compliance);
 }
 
 // A tight conduit and a stiff cable: the one that is let go falls slack, and comes back.

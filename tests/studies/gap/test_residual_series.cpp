@@ -126,11 +126,17 @@ double standard_deviation(const std::vector<double>& values) {
     return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / count - mean * mean);
 }
 
-// The floor of a channel that reads the same all the time, in the first run whose load is held.
-double floor_of_constant(Recording recording, const std::string& channel) {
-    std::erase_if(recording.runs, [](const RecordedRun& run) { return run.output == OutputKind::handle; });
+// A run whose load is held, and channels without noise.
+Recording held_run() {
+    Recording recording = exact_session({}, coarse_twin);
+    std::erase_if(recording.runs, [](const RecordedRun& run) { return run.output != OutputKind::locked; });
     recording.runs.resize(1);
     for (Channel& each : recording.channels) each.noise_std.reset();
+    return recording;
+}
+
+// The floor of a channel that reads the same all the time.
+double floor_of_constant(Recording recording, const std::string& channel) {
     std::vector<double>& values =
         recording.runs.front().values[static_cast<std::size_t>(*recording.channel(channel))];
     std::fill(values.begin(), values.end(), 0.4);
@@ -139,32 +145,27 @@ double floor_of_constant(Recording recording, const std::string& channel) {
 
 // What the motor's torque changes along the cables together, at the motor.
 double motor_change_N(const Recording& recording) {
-    const auto held = std::find_if(recording.runs.begin(), recording.runs.end(), [](const RecordedRun& run) {
-        return run.output == OutputKind::locked;
-    });
-    return standard_deviation(held->values[static_cast<std::size_t>(*recording.channel("motor_torque"))]) /
-           recording.nominal->motor_radius_m;
+    const auto torque = static_cast<std::size_t>(*recording.channel("motor_torque"));
+    return standard_deviation(recording.runs.front().values[torque]) / recording.nominal->motor_radius_m;
 }
 
 // Friction may stop a motion before it reaches a held load. The error of how far it gets is a fraction of what
 // it would bring there (E67), so that a load that feels nothing has a floor, too.
 TEST(ResidualSeries, TheFloorOfAHeldLoadGoesWithTheMotorsTorque) {
-    Recording recording = exact_session({}, coarse_twin);
+    Recording recording = held_run();
     const NominalBench& bench = *recording.nominal;
     const double brought_Nm = motor_change_N(recording) * bench.load_radius_m *
                               std::exp(-bench.dynamic_friction * wrap_rad(bench.curvature));
     EXPECT_NEAR(floor_of_constant(recording, "load_torque"), 0.02 * brought_Nm, 1e-6 * brought_Nm);
 
-    for (RecordedRun& run : recording.runs) {
-        if (run.output == OutputKind::locked) run.output = OutputKind::unknown;
-    }
+    recording.runs.front().output = OutputKind::handle;
     EXPECT_LT(floor_of_constant(recording, "load_torque"), 1e-3 * brought_Nm);
 }
 
 // So has a tension sensor that the motion does not reach: what would arrive there falls over the bends between
 // (E1), and each of two cables carries a half of it.
 TEST(ResidualSeries, TheFloorOfATensionGoesWithWhatTheMotionWouldBringToItsPlace) {
-    Recording recording = exact_session({}, coarse_twin);
+    const Recording recording = held_run();
     const NominalBench& bench = *recording.nominal;
     for (const TensionSensor& sensor : recording.tension_sensors) {
         const double turned_rad = wrap_between_rad(bench.curvature, 0.0, sensor.position_m);
