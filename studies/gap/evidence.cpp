@@ -189,6 +189,11 @@ bool has_far_numbers(const ScoredFit& fit) {
     return error_of_laws(fit) == 0.0 || std::any_of(fit.far_numbers.begin(), fit.far_numbers.end(), is_wrong);
 }
 
+// Whether the cause is one of the bench's own numbers, which float beside every other cause as well.
+bool is_wrong_number(const CandidateCause& cause) {
+    return cause.effect.starts_with("param_") && !cause.is_of_runs;
+}
+
 // Several zeros or bearings' friction and nothing else, searched as causes: what is usual of a bench as
 // built.
 bool are_usual_numbers(const ScoredFit& fit) {
@@ -303,8 +308,12 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
             numbers_are_far = numbers_are_far && has_far_numbers(*other);
         }
         const double own = most * std::max(0.0, 1.0 - closed / enough);
-        // Numbers far from those stated ask for a cause whatever the residuals follow.
-        penalty += numbers_are_far ? std::clamp(gain + further_cause_penalty, 0.0, own) : own;
+        // Numbers far from those stated ask for a cause whatever the residuals follow. A wrong number is one
+        // of them: it follows no more of the model's error than the same number does without it.
+        if (!numbers_are_far)
+            penalty += own;
+        else if (!is_wrong_number(*causes[k]))
+            penalty += std::clamp(gain + further_cause_penalty, 0.0, own);
     }
     return penalty;
 }

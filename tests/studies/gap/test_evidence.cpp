@@ -521,6 +521,26 @@ TEST(Evidence, ACauseWithoutWhichNumbersAreFarOffIsChargedLittle) {
     EXPECT_NEAR(charge({&known.drag}, usual, 1.0), 40.0, 1e-9);
 }
 
+// The same number moves without the cause as well, as far as its prior lets it.
+TEST(Evidence, AWrongNumberIsNotChargedWhereItIsFarOffWithoutTheCause) {
+    Known known;
+    CandidateCause friction = known.none;
+    friction.effect = "param_mu";
+    friction.is_exact = true;
+    const auto charge = [&](double nominal_penalty) {
+        ScoredFit without = with_floors(fitted(evidence, {&known.none}, 1.0, {0.0}), {1.0, 1.0});
+        without.nominal_penalty = nominal_penalty;
+        without.evidence -= nominal_penalty;
+        ScoredFit with = with_floors(fitted(evidence, {&friction}, 1.0, {8.0}), {0.99, 1.0});
+        with.evidence = without.evidence + nominal_penalty + 7.0;
+        return evidence.penalty_of_corrections(with, {without});
+    };
+    EXPECT_EQ(charge(60.0), 0.0);
+    EXPECT_GT(charge(3.0), 20.0) << "one bench in twenty is farther off";
+    friction.is_of_runs = true;
+    EXPECT_GT(charge(60.0), 3.9) << "numbers that differ between runs are further ones";
+}
+
 // A loop of a sensor follows the model's own error of that channel best.
 TEST(Evidence, BesideMeansOfBlocksAFaintFaultOfAReadingIsNone) {
     Known known;
