@@ -308,6 +308,7 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
         add_from_elsewhere(level, promising, weights, singles);
     }
     sort_by_evidence(singles);
+    try_faults_of_the_bench(level, singles);
     if (!worth_a_further_cause(singles.front()) && !is_out_of_time()) {
         add_confusable(level, *singles.front().fit.causes.front(), all, singles);
         sort_by_evidence(singles);

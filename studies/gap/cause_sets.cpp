@@ -116,6 +116,32 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
     sort_by_evidence(all);
 }
 
+// A number of the bench that is far beyond its usual values, such as the delay of a log, is a cause. Beside
+// such a number the screening sees nothing of that cause.
+void CauseSearch::try_faults_of_the_bench(const Level& level, Fits& all) {
+    std::vector<Hypothesis> faults;
+    for (const ScoredFit& each : all) {
+        for (const ScoredFit::FarNumber& far : each.far_numbers) {
+            const FloatingNumber& number = level.bench.numbers[far.number];
+            if (each.fit.causes.front()->effect != "none" || number.usual == 0.0 || is_out_of_time())
+                continue;
+            const CandidateCause* fault = level.same_cause(number.effect, number.variant);
+            if (fault == nullptr) continue;
+            Hypothesis usual = each.fit.hypothesis();
+            const auto row = static_cast<Eigen::Index>(far.number);
+            Eigen::VectorXd sizes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fault->numbers.size()));
+            sizes[0] = fault->numbers.front().coordinate_of_size(number.value(usual.coordinates[row]));
+            usual.causes.clear();
+            usual.coordinates[row] = 0.0;
+            faults.push_back(with_cause(usual, fault, sizes));
+        }
+    }
+    if (faults.empty()) return;
+    report("fitting " + in_words(faults.front().causes));
+    add_fits(level, faults, false, all);
+    sort_by_evidence(all);
+}
+
 // Causes that are sought last: alone, beside the best set, and in the place of each of its causes. Whether
 // one is better.
 bool CauseSearch::try_last(const Level& level, Fits& all) {
