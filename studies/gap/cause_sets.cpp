@@ -78,7 +78,7 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         }
         sets = larger_sets(level, sets);
         if (sets.empty()) break;
-        if (is_undescribed(level.bench)) try_periods(level, sets);
+        if (!level.bench.is_measured()) try_periods(level, sets);
         const bool better = sets.front().evidence > all.front().evidence;
         std::copy(sets.begin(), sets.end(), std::back_inserter(all));
         sort_by_evidence(all);

@@ -221,9 +221,10 @@ void CauseSearch::try_swapping(const Level& level, Hypothesis& swapped, Fits& al
 void CauseSearch::try_periods(const Level& level, Fits& sets) {
     constexpr std::size_t max_rough = 8;
     constexpr std::size_t max_fitted_periods = 3;
-    constexpr double max_gain = 30.0;  // by another number of periods
+    // By another number of periods. Beside the numbers of a described bench a ripple that matters leads.
+    const double max_gain = is_undescribed(level.bench) ? 30.0 : 0.0;
     const auto found = std::find_if(sets.begin(), sets.end(), [&](const ScoredFit& each) {
-        return each.evidence > sets.front().evidence - max_gain &&
+        return each.evidence >= sets.front().evidence - max_gain &&
                ripple_of(each.fit.hypothesis()).cause != nullptr;
     });
     if (found == sets.end()) return;

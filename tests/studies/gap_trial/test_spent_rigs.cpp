@@ -186,6 +186,15 @@ TEST(SpentRigs, ADelayIsNamedThoughTheBenchHasItsNumber) {
     EXPECT_LT(present(diagnosis, "sensor_lag"), 0.1);
 }
 
+// Screened beside wrong numbers of the bench the ripple had 21 periods a turn instead of seven, and a cause
+// outside the list led.
+TEST(SpentRigs, ARippleOfSevenPeriodsIsFoundBesideTwoCauses) {
+    const gap::Diagnosis diagnosis = diagnosed(339101, 17, 32);
+    for (const char* effect : {"motor_cogging", "backlash"})
+        EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
+    EXPECT_LT(present(diagnosis, "unknown"), 0.1);
+}
+
 // The set that left least also held a cause that does nothing. The hysteresis was not named then.
 TEST(SlowSpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 40);
