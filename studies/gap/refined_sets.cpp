@@ -348,22 +348,28 @@ void CauseSearch::add_fitted_finely(const std::vector<Hypothesis>& starts, Fits&
     sort_by_evidence(all);
 }
 
-// What the set that leads in the end leaves without each of its causes has to be known.
+// What a set leaves without each of its causes has to be known of the one that leads in the end, and of its
+// rivals: they would lose nothing otherwise.
 void CauseSearch::charge_corrections(Fits& fits) {
+    constexpr double close = 3.0 * Evidence::overstated;  // ln 20
     for (;;) {
         Fits charged = fits;
         for (ScoredFit& each : charged) each.charge_unproven(evidence_.penalty_of_corrections(each, fits));
         sort_by_evidence(charged);
-        const ScoredFit& best = charged.front();
         std::vector<Hypothesis> fewer;
-        if (best.of_blocks && best.fit.causes.size() > 1 && best.fit.bench == &built_.bench &&
-            !is_out_of_time())
-            fewer = without_each(best.fit.hypothesis());
-        std::erase_if(fewer, [&](const Hypothesis& set) {
-            return std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& each) {
-                return each.fit.bench == set.bench && are_same_causes(each.fit.causes, set.causes);
-            });
-        });
+        for (const ScoredFit& each : charged) {
+            if (each.evidence < charged.front().evidence - close || is_out_of_time()) break;
+            if (!each.of_blocks || each.fit.causes.size() < 2) continue;
+            for (Hypothesis& set : without_each(each.fit.hypothesis())) {
+                const auto is_known = [&](const auto& other) {
+                    return other.bench == set.bench && are_same_causes(other.causes, set.causes);
+                };
+                if (std::none_of(fits.begin(), fits.end(),
+                                 [&](const ScoredFit& other) { return is_known(other.fit); }) &&
+                    std::none_of(fewer.begin(), fewer.end(), is_known))
+                    fewer.push_back(std::move(set));
+            }
+        }
         if (fewer.empty()) {
             fits = std::move(charged);
             return;
