@@ -203,11 +203,10 @@ FoundCauses CauseSearch::run() & {
 // those stated, or the best one leaves much and gains clearly by rough knowledge of the bench.
 bool CauseSearch::should_be_taken_as_built(const Fits& fits) {
     constexpr double clearly = 3.0;
-    constexpr double close = 3.0 * Evidence::overstated;  // ln 20
     if (is_out_of_time()) return false;
     const ScoredFit& best = fits.front();
     const auto is_rival_with_far_numbers = [&](const ScoredFit& each) {
-        return each.evidence > best.evidence - close && each.nominal_penalty > tenable_nominal_penalty;
+        return each.evidence > best.evidence - rival_behind && each.nominal_penalty > tenable_nominal_penalty;
     };
     if (std::any_of(fits.begin(), fits.end(), is_rival_with_far_numbers)) return true;
     return worth_a_further_cause(best) && fitted_as_built(best).evidence > best.evidence + clearly;
@@ -308,7 +307,7 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
         add_from_elsewhere(level, promising, weights, singles);
     }
     sort_by_evidence(singles);
-    try_faults_of_the_bench(level, singles);
+    try_delays_of_the_bench(level, singles);
     if (!worth_a_further_cause(singles.front()) && !is_out_of_time()) {
         add_confusable(level, *singles.front().fit.causes.front(), all, singles);
         sort_by_evidence(singles);

@@ -60,6 +60,8 @@ class CauseSearch {
     static constexpr std::size_t max_causes = 5;          // of a set
     static constexpr std::size_t max_fitted_finely = 7;   // sets
     static constexpr std::size_t max_after_draft = 9;     // sets that are fitted again
+    // An explanation so far behind the best one in evidence is a twentieth as probable: ln 20.
+    static constexpr double rival_behind = 3.0 * Evidence::overstated;
     // Where the numbers of an undescribed bench leave more than this, they lead nowhere without its causes.
     static constexpr double leads_nowhere = 10.0;
     // A set that is so far behind the best one in evidence after a few steps of a search does not lead in the
@@ -156,7 +158,7 @@ class CauseSearch {
     void try_replacing(const Level& level, Fits& sets);
     void add_promising_pairs(const Level& level, const Fits& singles, Fits& sets);
     void try_others(const Level& level, Fits& all);
-    void try_faults_of_the_bench(const Level& level, Fits& all);
+    void try_delays_of_the_bench(const Level& level, Fits& singles);
     bool try_last(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;
     void add_measured_sets(const ScoredFit& built, Fits& all);

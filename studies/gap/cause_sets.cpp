@@ -30,6 +30,13 @@ bool is_part_of(const CandidateCause& cause, const CandidateCause& first) {
     return false;
 }
 
+// The numbers of a cause that does what a number of the bench does at this coordinate.
+Eigen::VectorXd as_size_of(const CandidateCause& cause, const FloatingNumber& number, double coordinate) {
+    Eigen::VectorXd numbers = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cause.numbers.size()));
+    numbers[0] = cause.numbers.front().coordinate_of_size(number.value(coordinate));
+    return numbers;
+}
+
 std::vector<Hypothesis> without_each_of_closest_fit(const std::vector<ScoredFit>& fits) {
     const auto closest = std::min_element(
         fits.begin(), fits.end(), [](const ScoredFit& a, const ScoredFit& b) { return a.misfit < b.misfit; });
@@ -116,30 +123,28 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
     sort_by_evidence(all);
 }
 
-// A number of the bench that is far beyond its usual values, such as the delay of a log, is a cause. Beside
-// such a number the screening sees nothing of that cause.
-void CauseSearch::try_faults_of_the_bench(const Level& level, Fits& all) {
-    std::vector<Hypothesis> faults;
-    for (const ScoredFit& each : all) {
-        for (const ScoredFit::FarNumber& far : each.far_numbers) {
-            const FloatingNumber& number = level.bench.numbers[far.number];
-            if (each.fit.causes.front()->effect != "none" || number.usual == 0.0 || is_out_of_time())
-                continue;
-            const CandidateCause* fault = level.same_cause(number.effect, number.variant);
-            if (fault == nullptr) continue;
-            Hypothesis usual = each.fit.hypothesis();
-            const auto row = static_cast<Eigen::Index>(far.number);
-            Eigen::VectorXd sizes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fault->numbers.size()));
-            sizes[0] = fault->numbers.front().coordinate_of_size(number.value(usual.coordinates[row]));
-            usual.causes.clear();
-            usual.coordinates[row] = 0.0;
-            faults.push_back(with_cause(usual, fault, sizes));
-        }
+// A delay that the fit without a cause took into the numbers of the bench is a cause where it is beyond what
+// is usual. Beside such a number the screening sees nothing of that cause.
+void CauseSearch::try_delays_of_the_bench(const Level& level, Fits& singles) {
+    const auto nothing = std::find_if(singles.begin(), singles.end(), [](const ScoredFit& fit) {
+        return fit.fit.causes.front()->effect == "none";
+    });
+    if (nothing == singles.end() || is_out_of_time()) return;
+    std::vector<Hypothesis> delays;
+    for (const ScoredFit::FarNumber& far : nothing->far_numbers) {
+        const FloatingNumber& number = level.bench.numbers[far.number];
+        const CandidateCause* cause = level.same_cause(number.effect, number.variant);
+        if (number.usual == 0.0 || cause == nullptr) continue;
+        const auto row = static_cast<Eigen::Index>(far.number);
+        Hypothesis usual{{}, nothing->fit.coordinates.head(level.bench.size()), &level.bench};
+        const Eigen::VectorXd size = as_size_of(*cause, number, usual.coordinates[row]);
+        usual.coordinates[row] = 0.0;
+        delays.push_back(with_cause(usual, cause, size));
     }
-    if (faults.empty()) return;
-    report("fitting " + in_words(faults.front().causes));
-    add_fits(level, faults, false, all);
-    sort_by_evidence(all);
+    if (delays.empty()) return;
+    report("fitting " + in_words(delays.front().causes));
+    add_fits(level, delays, false, singles);
+    sort_by_evidence(singles);
 }
 
 // Causes that are sought last: alone, beside the best set, and in the place of each of its causes. Whether
@@ -277,13 +282,11 @@ std::optional<Hypothesis> CauseSearch::with_measured_numbers(const ScoredFit& fo
         // The built bench may have a cause and a floating number of the same kind, as two parts of a zero.
         if (std::find(measured.causes.begin(), measured.causes.end(), same) != measured.causes.end())
             continue;
-        Eigen::VectorXd sizes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(same->numbers.size()));
-        if (visible < nominal_coordinates) {
+        if (visible < nominal_coordinates)
             measured.coordinates[static_cast<Eigen::Index>(visible)] = coordinate;
-        } else {
-            sizes[0] = same->numbers.front().coordinate_of_size(number.value(coordinate));
-        }
-        measured = with_cause(measured, same, sizes);
+        measured = with_cause(
+            measured, same,
+            visible < nominal_coordinates ? Eigen::VectorXd() : as_size_of(*same, number, coordinate));
     }
     return measured.causes.empty() ? std::nullopt : std::optional(measured);
 }

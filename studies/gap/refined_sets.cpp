@@ -58,6 +58,26 @@ Hypothesis with_usual_numbers(Hypothesis hypothesis) {
     return hypothesis;
 }
 
+// The sets with one cause fewer than the best of these fits, and than those that are `behind` it at most, of
+// which there is no fit.
+std::vector<Hypothesis> smaller_sets_not_fitted(const std::vector<ScoredFit>& fits, double behind) {
+    std::vector<Hypothesis> missing;
+    for (const ScoredFit& each : fits) {
+        if (each.evidence < fits.front().evidence - behind) break;
+        if (!each.of_blocks || each.fit.causes.size() < 2) continue;
+        for (Hypothesis& set : without_each(each.fit.hypothesis())) {
+            const auto is_same = [&](const auto& other) {
+                return other.bench == set.bench && are_same_causes(other.causes, set.causes);
+            };
+            if (std::none_of(fits.begin(), fits.end(),
+                             [&](const ScoredFit& other) { return is_same(other.fit); }) &&
+                std::none_of(missing.begin(), missing.end(), is_same))
+                missing.push_back(std::move(set));
+        }
+    }
+    return missing;
+}
+
 // Those without a cause, whose misfit limits how visible one can be, and the best others: of several starts
 // with the same causes the best. The best single cause is one of them, because another model may show that
 // those beside it do nothing. A set that is `behind` the best one in evidence stays behind it.
@@ -348,28 +368,15 @@ void CauseSearch::add_fitted_finely(const std::vector<Hypothesis>& starts, Fits&
     sort_by_evidence(all);
 }
 
-// What a set leaves without each of its causes has to be known of the one that leads in the end, and of its
-// rivals: they would lose nothing otherwise.
+// What the set that leads in the end, and each of its rivals, leaves without one of its causes has to be
+// known: E70 takes nothing from a set of which that is not.
 void CauseSearch::charge_corrections(Fits& fits) {
-    constexpr double close = 3.0 * Evidence::overstated;  // ln 20
     for (;;) {
         Fits charged = fits;
         for (ScoredFit& each : charged) each.charge_unproven(evidence_.penalty_of_corrections(each, fits));
         sort_by_evidence(charged);
-        std::vector<Hypothesis> fewer;
-        for (const ScoredFit& each : charged) {
-            if (each.evidence < charged.front().evidence - close || is_out_of_time()) break;
-            if (!each.of_blocks || each.fit.causes.size() < 2) continue;
-            for (Hypothesis& set : without_each(each.fit.hypothesis())) {
-                const auto is_known = [&](const auto& other) {
-                    return other.bench == set.bench && are_same_causes(other.causes, set.causes);
-                };
-                if (std::none_of(fits.begin(), fits.end(),
-                                 [&](const ScoredFit& other) { return is_known(other.fit); }) &&
-                    std::none_of(fewer.begin(), fewer.end(), is_known))
-                    fewer.push_back(std::move(set));
-            }
-        }
+        const std::vector<Hypothesis> fewer =
+            is_out_of_time() ? std::vector<Hypothesis>() : smaller_sets_not_fitted(charged, rival_behind);
         if (fewer.empty()) {
             fits = std::move(charged);
             return;
