@@ -220,7 +220,9 @@ double is_there(const WeighedHypothesis& hypothesis, const std::string& effect) 
 
 // The probability that something else is there, however clear the evidence is.
 double mistaken_fraction(const WeighedHypothesis& hypothesis) {
-    return hypothesis.effects == Effects{"none"} ? mistaken_none_fraction : mistaken_cause_fraction;
+    if (hypothesis.effects == Effects{"none"}) return mistaken_none_fraction;
+    return hypothesis.fit->fit.bench->is_measured() ? mistaken_cause_fraction
+                                                    : mistaken_cause_fraction_beside_floating_numbers;
 }
 
 // Gives `unknown` this fraction of all shares; all of it where it stands alone.
