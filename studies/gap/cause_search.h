@@ -140,6 +140,7 @@ class CauseSearch {
     ScoredFit fitted_as_built(const ScoredFit& described);
     ScoredFit without_cause(const Level& level);
     Fits search_one(const Level& level);
+    void sort(const Level& level, Fits& fits) const;
     void search_several(const Level& level, Fits& all);
     void try_without_idle_causes(const Level& level, Fits& all);
     bool try_fewer(const Level& level, Fits& all);
@@ -151,6 +152,7 @@ class CauseSearch {
     void try_ripple_or_torque(const Level& level, Fits& all);
     Fits fitted_instead(const Level& level, const CauseFit& fit, const CandidateCause& cause,
                         const std::function<bool(const CandidateCause&)>& replaces);
+    static bool has_ripple(const ScoredFit& fit);
     void try_periods(const Level& level, Fits& sets);
     void try_usual_numbers(const Level& level, Fits& all);
     void try_swapping(const Level& level, Hypothesis& swapped, Fits& all);

@@ -73,7 +73,20 @@ std::vector<Hypothesis> without_idle_causes(const std::vector<ScoredFit>& fits) 
 
 }  // namespace
 
+// A set that only corrects the model leads nowhere: on a bench as built it pays for that in the search, too,
+// as far as its smaller sets are known (E70).
+void CauseSearch::sort(const Level& level, Fits& fits) const {
+    if (&level == &built_) {
+        std::vector<double> penalties;
+        for (const ScoredFit& each : fits) penalties.push_back(evidence_.penalty_of_corrections(each, fits));
+        for (std::size_t k = 0; k < fits.size(); ++k)
+            fits[k].charge_unproven(penalties[k] - fits[k].unproven_penalty);
+    }
+    sort_by_evidence(fits);
+}
+
 void CauseSearch::search_several(const Level& level, Fits& all) {
+    sort(level, all);
     Fits sets = all;
     for (std::size_t causes = 2; causes <= max_causes; ++causes) {
         if (draft_ && all.front().misfit < leads_nowhere) {
@@ -85,11 +98,14 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         }
         sets = larger_sets(level, sets);
         if (sets.empty()) break;
-        if (!level.bench.is_measured()) try_periods(level, sets);
-        const bool better = sets.front().evidence > all.front().evidence;
-        std::copy(sets.begin(), sets.end(), std::back_inserter(all));
-        sort_by_evidence(all);
-        if (!better) break;
+        if (!level.bench.is_measured() && (is_undescribed(level.bench) || !has_ripple(all.front())))
+            try_periods(level, sets);
+        std::move(sets.begin(), sets.end(), std::back_inserter(all));
+        sort(level, all);
+        const auto has_this_size = [&](const ScoredFit& fit) { return fit.fit.causes.size() == causes; };
+        if (!has_this_size(all.front())) break;
+        sets.clear();
+        std::copy_if(all.begin(), all.end(), std::back_inserter(sets), has_this_size);
     }
     if (draft_) end_draft(all);
     if (is_undescribed(level.bench)) refine(level, all);
@@ -120,7 +136,7 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
     add_sets(level, only_causes(best.hypothesis(), [](const CandidateCause&) { return false; }), best.weights,
              max_fitted_further, others);
     std::move(others.begin(), others.end(), std::back_inserter(all));
-    sort_by_evidence(all);
+    sort(level, all);
 }
 
 // A delay that the fit without a cause took into the numbers of the bench is a cause where it is beyond what
@@ -166,7 +182,7 @@ bool CauseSearch::try_last(const Level& level, Fits& all) {
     if (found.causes.size() > 1)
         for (const Hypothesis& fewer : without_each(found)) add(fewer, 1);
     std::move(sets.begin(), sets.end(), std::back_inserter(all));
-    sort_by_evidence(all);
+    sort(level, all);
     return all.front().evidence > best.evidence;
 }
 
@@ -189,14 +205,13 @@ bool CauseSearch::try_fewer(const Level& level, Fits& all) {
     bool is_better = false;
     for (Hypothesis best = all.front().fit.hypothesis(); !is_nothing(best) && !is_out_of_time();) {
         if (best.causes.size() == 1 && level.bench.is_measured()) break;
-        const double before = all.front().evidence;
         report("trying fewer causes");
         std::vector<Hypothesis> fewer = without_each(best);
         if (fewer.front().causes.empty())
             fewer.front() = with_cause(fewer.front(), &level.causes.front(), {});
         add_fits(level, fewer, false, all);
-        sort_by_evidence(all);
-        if (all.front().evidence == before) break;
+        sort(level, all);
+        if (are_same_causes(all.front().fit.causes, best.causes)) break;
         is_better = true;
         best = all.front().fit.hypothesis();
     }
@@ -213,7 +228,7 @@ void CauseSearch::try_without_idle_causes(const Level& level, Fits& all) {
     if (fewer.empty()) return;
     report("trying fewer causes");
     add_fits(level, fewer, false, all);
-    sort_by_evidence(all);
+    sort(level, all);
 }
 
 // Further causes beside a set that is better without one: what that cause stood for. Whether one is better.
@@ -222,7 +237,7 @@ bool CauseSearch::try_more(const Level& level, Fits& all) {
     const double before = all.front().evidence;
     Fits sets = larger_sets(level, {all.front()});
     std::move(sets.begin(), sets.end(), std::back_inserter(all));
-    sort_by_evidence(all);
+    sort(level, all);
     return all.front().evidence > before + clear_gain;
 }
 
@@ -247,7 +262,7 @@ bool CauseSearch::replace_the_weakest(const Level& level, Fits& all) {
     Fits sets;
     add_sets(level, fewer->fit.hypothesis(), fewer->fit.weights, max_fitted_beside_the_best, sets);
     std::move(sets.begin(), sets.end(), std::back_inserter(all));
-    sort_by_evidence(all);
+    sort(level, all);
     return all.front().evidence > best.evidence + clear_gain;
 }
 
@@ -324,7 +339,8 @@ bool CauseSearch::only_corrects_the_model(const ScoredFit& single, const Fits& s
         return fit.fit.causes.front()->effect == "none";
     });
     return nothing != singles.end() && single.fit.causes.size() == 1 &&
-           single.evidence - evidence_.penalty_of_corrections(single, singles) < nothing->evidence;
+           single.uncharged_evidence() - evidence_.penalty_of_corrections(single, singles) <
+               nothing->evidence;
 }
 
 // The best of the smaller sets, each with one cause more; then without each of its former causes in turn, for

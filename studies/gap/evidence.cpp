@@ -305,8 +305,8 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
         bool numbers_are_far = true;                              // in every fit without the cause
         for (const ScoredFit* other : fits_without(fit, k, fits)) {
             closed = std::min(closed, closed_of_floor(*other, fit, k));
-            gain =
-                std::max(gain, fit.evidence + fit.nominal_penalty - other->evidence - other->nominal_penalty);
+            gain = std::max(gain, fit.uncharged_evidence() + fit.nominal_penalty -
+                                      other->uncharged_evidence() - other->nominal_penalty);
             numbers_are_far = numbers_are_far && has_far_numbers(*other);
         }
         const double own = most * std::max(0.0, 1.0 - closed / enough);

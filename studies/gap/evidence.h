@@ -94,6 +94,7 @@ struct ScoredFit {
         unproven_penalty += penalty;
         evidence -= penalty;
     }
+    double uncharged_evidence() const { return evidence + unproven_penalty; }
 };
 
 /// An explanation and how probable it is; its best fit where several variants were tried.

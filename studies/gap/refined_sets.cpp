@@ -235,6 +235,10 @@ void CauseSearch::try_swapping(const Level& level, Hypothesis& swapped, Fits& al
     }
 }
 
+bool CauseSearch::has_ripple(const ScoredFit& fit) {
+    return ripple_of(fit.fit.hypothesis()).cause != nullptr;
+}
+
 // A ripple was screened beside numbers of the bench that had made up for it. With them free, another number
 // of periods may be better: of the best set that has a ripple, the most promising numbers are fitted, and
 // then their neighbours.
@@ -478,7 +482,7 @@ void CauseSearch::try_confusable(const Level& level, Fits& all) {
             rivals.push_back({each.cause, with_cause(others, each.cause, each.start), each.sum_of_squares});
         add_confusable(level, *cause, rivals, all);
     }
-    sort_by_evidence(all);
+    sort(level, all);
 }
 
 }  // namespace capstan::gap

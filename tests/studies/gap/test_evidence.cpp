@@ -521,6 +521,22 @@ TEST(Evidence, ACauseWithoutWhichNumbersAreFarOffIsChargedLittle) {
     EXPECT_NEAR(charge({&known.drag}, usual, 1.0), 40.0, 1e-9);
 }
 
+// In a search a set is weighed again whenever a smaller one becomes known.
+TEST(Evidence, WhatACauseIsChargedDoesNotDependOnWhatWasChargedBefore) {
+    Known known;
+    known.gain.is_exact = true;
+    ScoredFit without = with_floors(fitted(evidence, {&known.none}, 1.0, {0.0}), {1.0, 1.0});
+    without.nominal_penalty = 30.0;
+    without.evidence -= without.nominal_penalty;
+    ScoredFit with = with_floors(fitted(evidence, {&known.gain}, 1.0, {4.0}), {0.99, 1.0});
+    with.evidence = without.evidence + without.nominal_penalty + 5.0;
+    const double once = evidence.penalty_of_corrections(with, {without});
+    EXPECT_GT(once, 5.0);
+    with.charge_unproven(once);
+    without.charge_unproven(7.0);
+    EXPECT_NEAR(evidence.penalty_of_corrections(with, {without}), once, 1e-9);
+}
+
 // The same number moves without the cause as well, as far as its prior lets it.
 TEST(Evidence, AWrongNumberIsNotChargedWhereItIsFarOffWithoutTheCause) {
     Known known;
