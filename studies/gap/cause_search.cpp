@@ -65,13 +65,6 @@ bool leaves_much(const ScoredFit& fit) {
     return fit.misfit > much;
 }
 
-// A zero or a bearing's friction among several causes: a bench as built has others, too.
-bool has_a_usual_number(const ScoredFit& fit) {
-    return std::any_of(fit.fit.causes.begin(), fit.fit.causes.end(), [](const CandidateCause* cause) {
-        return cause->effect == "sensor_offset" || cause->effect == "pulley_friction";
-    });
-}
-
 // Of a bench whose numbers float widely, no number can be wrong beyond that.
 void remove_wrong_numbers(std::vector<CandidateCause>& causes) {
     std::erase_if(
@@ -170,10 +163,9 @@ FoundCauses CauseSearch::run() & {
         search_several(described_, found.fits);
         const ScoredFit& best = found.fits.front();
         built = built ||
-                (is_measured &&
-                 (leaves_much(best) || (best.fit.causes.size() > 1 &&
-                                        (has_a_usual_number(best) || should_be_taken_as_built(found.fits) ||
-                                         stands_for_usual_numbers(found.fits)))));
+                (is_measured && (leaves_much(best) || has_several_and_a_usual_number(best) ||
+                                 (best.fit.causes.size() > 1 && (should_be_taken_as_built(found.fits) ||
+                                                                 stands_for_usual_numbers(found.fits)))));
     }
     if (built) {
         evidence_.set_below_noise_weight(below_noise_weight_beside_floating_numbers);
@@ -197,6 +189,14 @@ FoundCauses CauseSearch::run() & {
     found.evaluations = evaluations_;
     found.cut_short = cut_short_;
     return found;
+}
+
+// A zero or a bearing's friction among several causes: a bench as built has others, too.
+bool CauseSearch::has_several_and_a_usual_number(const ScoredFit& fit) {
+    const std::vector<const CandidateCause*>& causes = fit.fit.causes;
+    return causes.size() > 1 && std::any_of(causes.begin(), causes.end(), [](const CandidateCause* cause) {
+               return cause->effect == "sensor_offset" || cause->effect == "pulley_friction";
+           });
 }
 
 // Whether the best explanation, or one that is at least a twentieth as probable, asks for numbers far from

@@ -137,6 +137,7 @@ class CauseSearch {
     bool take_correlation_of(const ScoredFit& best);
     bool should_be_taken_as_built(const Fits& fits);
     bool stands_for_usual_numbers(const Fits& fits);
+    static bool has_several_and_a_usual_number(const ScoredFit& fit);
     ScoredFit fitted_as_built(const ScoredFit& described);
     ScoredFit without_cause(const Level& level);
     Fits search_one(const Level& level);

@@ -117,6 +117,8 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         changes = recording_.is_undescribed_drive() &&
                   ((is_smaller && try_more(level, all)) || replace_the_weakest(level, all));
     }
+    // The other causes are sought again beside all numbers of a bench as built.
+    if (level.bench.is_measured() && has_several_and_a_usual_number(all.front())) return;
     if (try_last(level, all)) try_fewer(level, all);
     is_sharper_ = recording_.is_undescribed_drive() && take_correlation_of(all.front());
     if (is_sharper_) {
