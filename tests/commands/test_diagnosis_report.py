@@ -54,7 +54,7 @@ class DiagnosisReport(ServiceTest):
         # People read titles; JSON and CSV, above, have the names.
         words = self.report("md") + page.partition("<main")[2].partition("</main")[0]
         self.assertEqual(made["ranked"][0]["effect"], "motor_cogging")
-        self.assertIn("| motor cogging | 0.8", words)
+        self.assertIn("| motor cogging | 0.9", words)
         self.assertEqual(re.findall(r"\b(?:param|viscous|sensor|motor|load|pulley|time|local)_\w+", words), [])
 
         self.serve(db="kept.db")
