@@ -73,8 +73,8 @@ std::vector<Hypothesis> without_idle_causes(const std::vector<ScoredFit>& fits) 
 
 }  // namespace
 
-// A set that only corrects the model leads nowhere: on a bench as built it pays for that in the search, too,
-// as far as its smaller sets are known (E70).
+// Best first. On a bench as built the evidence of each set includes its penalty by E70, as far as its smaller
+// sets are known, so that a set that only corrects the model is not extended.
 void CauseSearch::sort(const Level& level, Fits& fits) const {
     if (&level == &built_) {
         std::vector<double> penalties;
