@@ -146,6 +146,7 @@ class CauseSearch {
     void try_without_idle_causes(const Level& level, Fits& all);
     bool try_fewer(const Level& level, Fits& all);
     void try_fewer_finely(Fits& all);
+    void try_from_smaller_sets(const Level& level, Fits& all);
     bool try_more(const Level& level, Fits& all);
     static const ScoredFit* with_one_cause_fewer(const Fits& all);
     bool replace_the_weakest(const Level& level, Fits& all);

@@ -109,7 +109,10 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     }
     if (draft_) end_draft(all);
     if (is_undescribed(level.bench)) refine(level, all);
-    if (!is_undescribed(level.bench)) try_without_idle_causes(level, all);
+    if (!is_undescribed(level.bench)) {
+        try_without_idle_causes(level, all);
+        if (!level.bench.is_measured()) try_from_smaller_sets(level, all);
+    }
     // A band's tension falls by a factor round its drum, and a recording often has one run of it: a wider
     // search finds causes there that other runs do not confirm.
     for (bool changes = true; changes;) {
@@ -125,7 +128,10 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         all = fitted_again(coarse_, all, max_after_draft);
         try_fewer(level, all);
     }
-    if (!level.bench.is_measured()) try_others(level, all);
+    if (!level.bench.is_measured()) {
+        try_others(level, all);
+        try_delays_of_the_bench(level, all);
+    }
     try_confusable(level, all);
 }
 
@@ -152,7 +158,12 @@ void CauseSearch::try_delays_of_the_bench(const Level& level, Fits& singles) {
     for (const ScoredFit::FarNumber& far : nothing->far_numbers) {
         const FloatingNumber& number = level.bench.numbers[far.number];
         const CandidateCause* cause = level.same_cause(number.effect, number.variant);
-        if (number.usual == 0.0 || cause == nullptr) continue;
+        const auto is_of_cause = [&](const ScoredFit& fit) {
+            return fit.fit.bench == &level.bench && fit.fit.causes.front() == cause;
+        };
+        if (number.usual == 0.0 || cause == nullptr ||
+            std::any_of(singles.begin(), singles.end(), is_of_cause))
+            continue;
         const auto row = static_cast<Eigen::Index>(far.number);
         Hypothesis usual{{}, nothing->fit.coordinates.head(level.bench.size()), &level.bench};
         const Eigen::VectorXd size = as_size_of(*cause, number, usual.coordinates[row]);
@@ -230,6 +241,32 @@ void CauseSearch::try_without_idle_causes(const Level& level, Fits& all) {
     if (fewer.empty()) return;
     report("trying fewer causes");
     add_fits(level, fewer, false, all);
+    sort(level, all);
+}
+
+// The best set from each smaller one. A set that was built up cause by cause may have been left in a local
+// minimum, which shows in what it leaves, and another order leads elsewhere.
+void CauseSearch::try_from_smaller_sets(const Level& level, Fits& all) {
+    constexpr double as_good_as_noise = 1.0;
+    const CauseFit best = all.front().fit;
+    if (best.causes.size() < 2 || all.front().misfit <= as_good_as_noise || is_out_of_time()) return;
+    std::vector<Hypothesis> starts;
+    Eigen::Index first = level.bench.size();
+    for (const CandidateCause* cause : best.causes) {
+        const auto count = static_cast<Eigen::Index>(cause->numbers.size());
+        const std::vector<const CandidateCause*> others =
+            only_causes(best.hypothesis(), [&](const CandidateCause& each) { return &each != cause; }).causes;
+        const auto smaller = std::find_if(all.begin(), all.end(), [&](const ScoredFit& each) {
+            return each.fit.bench == best.bench && are_same_causes(each.fit.causes, others);
+        });
+        if (smaller != all.end())
+            starts.push_back(
+                with_cause(smaller->fit.hypothesis(), cause, best.coordinates.segment(first, count)));
+        first += count;
+    }
+    if (starts.empty()) return;
+    report("fitting " + in_words(best.causes));
+    add_fits(level, starts, false, all);
     sort(level, all);
 }
 

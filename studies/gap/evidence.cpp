@@ -300,22 +300,20 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
     double penalty = 0.0;
     for (std::size_t k = 0; k < causes.size(); ++k) {
         if (causes[k]->effect == "none" || causes[k]->is_seen) continue;
-        double closed = std::numeric_limits<double>::infinity();  // as a part of the model's own error
-        double gain = -std::numeric_limits<double>::infinity();   // by what the residuals say
-        bool numbers_are_far = true;                              // in every fit without the cause
+        // By the fit without the cause that makes most of it.
+        double largest = 0.0;
         for (const ScoredFit* other : fits_without(fit, k, fits)) {
-            closed = std::min(closed, closed_of_floor(*other, fit, k));
-            gain = std::max(gain, fit.uncharged_evidence() + fit.nominal_penalty -
-                                      other->uncharged_evidence() - other->nominal_penalty);
-            numbers_are_far = numbers_are_far && has_far_numbers(*other);
+            const double own = most * std::max(0.0, 1.0 - closed_of_floor(*other, fit, k) / enough);
+            const double gain = fit.uncharged_evidence() + fit.nominal_penalty - other->uncharged_evidence() -
+                                other->nominal_penalty;
+            // Numbers far from those stated ask for a cause whatever the residuals follow. A wrong number is
+            // one of them: it follows no more of the model's error than the same number does without it.
+            if (!has_far_numbers(*other))
+                largest = std::max(largest, own);
+            else if (!is_wrong_number(*causes[k]))
+                largest = std::max(largest, std::clamp(gain + further_cause_penalty, 0.0, own));
         }
-        const double own = most * std::max(0.0, 1.0 - closed / enough);
-        // Numbers far from those stated ask for a cause whatever the residuals follow. A wrong number is one
-        // of them: it follows no more of the model's error than the same number does without it.
-        if (!numbers_are_far)
-            penalty += own;
-        else if (!is_wrong_number(*causes[k]))
-            penalty += std::clamp(gain + further_cause_penalty, 0.0, own);
+        penalty += largest;
     }
     return penalty;
 }
