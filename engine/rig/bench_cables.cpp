@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "capstan/cable/invalid_input.h"
 
@@ -10,12 +11,19 @@ namespace capstan {
 namespace {
 
 // Bristles so stiff that the closed-form step's fronts come out, and so soft that Newton's method sees where
-// a front goes: a front's own displacements are of this size.
-constexpr double numerical_presliding_m = 3e-6;
+// a front goes. What friction of half a segment stretches a segment by is a front's own displacement.
+double numerical_presliding_m(const Cable& cable, double end_error_m) {
+    constexpr double min_m = 1e-7;
+    const std::span<const double> wrap_rad = cable.wrap_angle_rad();
+    const double half_segment_rad =
+        0.5 * std::accumulate(wrap_rad.begin(), wrap_rad.end(), 0.0) / cable.segments();
+    const double front_m = cable.dynamic_friction() * half_segment_rad * cable.pretension_N() *
+                           cable.mean_segment_length_m() / cable.axial_stiffness_N();
+    return std::clamp(front_m, std::clamp(end_error_m, min_m, usual_end_error_m), usual_end_error_m);
+}
 
-BenchEffects with_numerical_presliding(BenchEffects effects) {
-    if (!(effects.of<Presliding>().length_m > numerical_presliding_m))
-        effects.of<Presliding>() = {numerical_presliding_m, 0.0};
+BenchEffects with_bristles(BenchEffects effects, double numerical_m) {
+    if (!(effects.of<Presliding>().length_m > numerical_m)) effects.of<Presliding>() = {numerical_m, 0.0};
     return effects;
 }
 
@@ -57,7 +65,7 @@ void add_bend(const Cable& cable, const Stretch& stretch, double angle_rad, std:
 }  // namespace
 
 BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
-                         CableArrangement arrangement) {
+                         std::span<const double> end_error_m, CableArrangement arrangement) {
     if (!std::all_of(cables.begin(), cables.end(), [](const Cable& cable) { return cable.is_evenly_cut(); }))
         throw InvalidInput(
             {"a bench with effects takes cables cut into equal segments; leave out node_places_m"});
@@ -94,13 +102,13 @@ BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEff
     for (int lane = 0; lane < bench_lanes; ++lane) {
         const std::size_t bench =
             static_cast<std::size_t>(lane) < cables.size() ? static_cast<std::size_t>(lane) : 0;
-        set_laws(lane, cables[bench], effects[bench]);
+        set_laws(lane, cables[bench], effects[bench], end_error_m[bench]);
         set_rest(lane, cables[bench], effects[bench]);
     }
 }
 
-void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& effects) {
-    group_.laws.set(lane, with_numerical_presliding(effects));
+void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& effects, double end_error_m) {
+    group_.laws.set(lane, with_bristles(effects, numerical_presliding_m(cable, end_error_m)));
     group_.stretch_m_per_N.of[lane] = group_.segment_m / cable.axial_stiffness_N();
     group_.dynamic_friction.of[lane] = cable.dynamic_friction();
     const bool varies = friction_varies(effects);

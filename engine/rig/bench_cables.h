@@ -9,6 +9,9 @@
 
 namespace capstan {
 
+/// How well the place of a cable's end is known where an encoder reads it, as a rule [m].
+inline constexpr double usual_end_error_m = 3e-6;
+
 /// The cables of up to bench_lanes benches that differ in their numbers: one each, or a pair.
 ///
 /// A node stands for the cable from the middle of one segment to that of the next: tension is constant in a
@@ -17,10 +20,10 @@ namespace capstan {
 class BenchCables {
   public:
     /// `cables`: one of each bench, all with the same length and as many equal segments; throws InvalidInput
-    /// where they are not equal. At rest under its pretension, the load end where its tension lets it, creep
-    /// at an end.
+    /// where they are not equal. `end_error_m`: of each bench, as BenchDescription has it. At rest under its
+    /// pretension, the load end where its tension lets it, creep at an end.
     BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
-                CableArrangement arrangement);
+                std::span<const double> end_error_m, CableArrangement arrangement);
     BenchCables(const BenchCables&) = delete;
     BenchCables& operator=(const BenchCables&) = delete;
 
@@ -72,7 +75,7 @@ class BenchCables {
         double motor_compliance_m_per_N = 0.0;
         double pretension_N = 0.0;
     };
-    void set_laws(int lane, const Cable& cable, const BenchEffects& effects);
+    void set_laws(int lane, const Cable& cable, const BenchEffects& effects, double end_error_m);
     void set_rest(int lane, const Cable& cable, const BenchEffects& effects);
     double crept_m(const Rest& rest, double tension_N) const;
     double elastic_m(const Rest& rest, double tension_N) const;

@@ -16,6 +16,30 @@ HWY_BEFORE_NAMESPACE();
 namespace capstan::bench::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+template <class Lanes>
+HWY_INLINE Lanes moved_m(const CableLanes& cable, int node, int lane) {
+    return load<Lanes>(cable.displacement_m[node], lane) - load<Lanes>(cable.before_m[node], lane);
+}
+
+// An end node stands for half a segment of cable, whose middle moves by this part of what the neighbour moves
+// and for the rest with the end. Cable slides up to an end that is held, although that end does not move.
+constexpr double of_neighbour = 0.25;
+
+template <class Lanes>
+HWY_INLINE Lanes slid_at_end_m(const CableLanes& cable, int node, int neighbour, int lane) {
+    return lanes_of<Lanes>(1.0 - of_neighbour) * moved_m<Lanes>(cable, node, lane) +
+           lanes_of<Lanes>(of_neighbour) * moved_m<Lanes>(cable, neighbour, lane);
+}
+
+// How far the cable that a node stands for has slid in this step.
+template <class Lanes>
+HWY_INLINE Lanes slid_m(const CablesGroup& group, const CableLanes& cable, int node, int lane) {
+    const int last = group.nodes - 1;
+    if (node == 0) return slid_at_end_m<Lanes>(cable, 0, 1, lane);
+    if (node == last) return slid_at_end_m<Lanes>(cable, last, last - 1, lane);
+    return moved_m<Lanes>(cable, node, lane);
+}
+
 // A node, and a segment, in the present guess.
 template <class Lanes>
 struct NodeGuess {
@@ -23,9 +47,7 @@ struct NodeGuess {
 };
 template <class Lanes>
 HWY_INLINE NodeGuess<Lanes> node_guess(const CableLanes& cable, const LaneCable<Lanes>& mechanics, int node,
-                                       int lane) {
-    const Lanes slid_m =
-        load<Lanes>(cable.displacement_m[node], lane) - load<Lanes>(cable.before_m[node], lane);
+                                       Lanes slid_m, int lane) {
     const PreslidingLaw<Lanes>& presliding = mechanics;
     const Bristle<Lanes> bristle =
         laws::bristle_after(presliding, load<Lanes>(cable.before_bend[node], lane), slid_m);
@@ -76,8 +98,10 @@ HWY_INLINE InnerEnd<Lanes> inner_end(const LaneCable<Lanes>& mechanics, const No
     const Lanes by_bend_N =
         lanes_of<Lanes>(2.0) * node.friction * pressing_N / ((one - q) * (one - q)) + rigid_N;
     const Lanes stiffness = segment.per_m * grown;
+    const Lanes drag = by_bend_N * node.bend_per_m + viscous_N_per_m;  // per sliding
     return {segment.value_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.slid_m),
-            way * (stiffness + by_bend_N * node.bend_per_m + viscous_N_per_m), hn::Neg(way) * stiffness};
+            way * (stiffness + lanes_of<Lanes>(1.0 - of_neighbour) * drag),
+            way * (lanes_of<Lanes>(of_neighbour) * drag - stiffness)};
 }
 
 template <class Lanes, int cables>
@@ -98,7 +122,9 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which<Lanes> active, i
     guess_segments(group, mechanics, active, 0, lane, before);
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        inner_motor[c] = inner_end(mechanics, node_guess(cable, mechanics, 0, lane), before[c], -1.0, half_m);
+        const Lanes slid = slid_m<Lanes>(group, cable, 0, lane);
+        inner_motor[c] =
+            inner_end(mechanics, node_guess(cable, mechanics, 0, slid, lane), before[c], -1.0, half_m);
         const Lanes gives = load<Lanes>(motor[c].compliance_m_per_N, lane);
         const Lanes pivot = one / (one - gives * inner_motor[c].per_end_m);
         upper[c] = hn::Neg(gives) * inner_motor[c].per_inner_m * pivot;
@@ -119,7 +145,8 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which<Lanes> active, i
         guess_segments(group, mechanics, active, node, lane, behind);
         for (int c = 0; c < cables; ++c) {
             const CableLanes& cable = group.cable[c];
-            const NodeGuess<Lanes> here = node_guess(cable, mechanics, node, lane);
+            const NodeGuess<Lanes> here =
+                node_guess(cable, mechanics, node, moved_m<Lanes>(cable, node, lane), lane);
             // A slack stretch presses on its conduit only by its bending stiffness. There the way to no drag,
             // not the slope of bristles that are fully bent, leads to equilibrium.
             const Lanes sum_N = hn::Max(zero, before[c].value_N + behind[c].value_N);
@@ -150,8 +177,9 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which<Lanes> active, i
     // Load end: u_last = at + per_rad turn - compliance T.
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
+        const Lanes slid = slid_m<Lanes>(group, cable, last, lane);
         const InnerEnd<Lanes> inner =
-            inner_end(mechanics, node_guess(cable, mechanics, last, lane), before[c], 1.0, half_m);
+            inner_end(mechanics, node_guess(cable, mechanics, last, slid, lane), before[c], 1.0, half_m);
         const Lanes gives = load<Lanes>(load_end[c].compliance_m_per_N, lane);
         const Lanes lower = gives * inner.per_inner_m;
         const Lanes pivot = one / (one + gives * inner.per_end_m - lower * upper[c]);
@@ -292,22 +320,22 @@ HWY_INLINE void keep_lanes(const CablesGroup& group, int lane, LaneValues* motor
         guess_segments(group, mechanics, all, segment, lane, final_segment);
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        store(inner_end(mechanics, node_guess(cable, mechanics, 0, lane), first[c], -1.0, half_m).value_N,
-              motor_tension_N[c], lane);
-        for (int node = 1; node < last; ++node) node_guess(cable, mechanics, node, lane);
-        store(inner_end(mechanics, node_guess(cable, mechanics, last, lane), final_segment[c], 1.0, half_m)
-                  .value_N,
-              load_tension_N[c], lane);
         for (int node = 0; node <= last; ++node) {
-            const Lanes now_m = load<Lanes>(cable.displacement_m[node], lane);
-            if (group.any_varying_friction) {
-                const Lanes speed =
-                    hn::Abs(now_m - load<Lanes>(cable.before_m[node], lane)) / mechanics.time_step_s;
-                const Lanes lagging = load<Lanes>(cable.lagging_speed_m_per_s[node], lane);
-                store(laws::lagging_speed<Lanes>(mechanics, lagging, speed, mechanics.time_step_s),
-                      cable.lagging_speed_m_per_s[node], lane);
-            }
-            store(now_m, cable.before_m[node], lane);
+            const Lanes slid = slid_m<Lanes>(group, cable, node, lane);
+            const NodeGuess<Lanes> here = node_guess(cable, mechanics, node, slid, lane);
+            if (node == 0)
+                store(inner_end(mechanics, here, first[c], -1.0, half_m).value_N, motor_tension_N[c], lane);
+            if (node == last)
+                store(inner_end(mechanics, here, final_segment[c], 1.0, half_m).value_N, load_tension_N[c],
+                      lane);
+            if (!group.any_varying_friction) continue;
+            const Lanes speed = hn::Abs(slid) / mechanics.time_step_s;
+            const Lanes lagging = load<Lanes>(cable.lagging_speed_m_per_s[node], lane);
+            store(laws::lagging_speed<Lanes>(mechanics, lagging, speed, mechanics.time_step_s),
+                  cable.lagging_speed_m_per_s[node], lane);
+        }
+        for (int node = 0; node <= last; ++node) {
+            store(load<Lanes>(cable.displacement_m[node], lane), cable.before_m[node], lane);
             store(load<Lanes>(cable.bend[node], lane), cable.before_bend[node], lane);
         }
         for (int segment = 0; segment < last; ++segment) {

@@ -60,6 +60,12 @@ std::vector<Cable> cables_of(std::span<const BenchDescription> descriptions) {
     return cables;
 }
 
+std::vector<double> end_errors_m(std::span<const BenchDescription> descriptions) {
+    std::vector<double> errors_m;
+    for (const BenchDescription& each : descriptions) errors_m.push_back(each.end_error_m);
+    return errors_m;
+}
+
 bool any(const LaneFlags& flags) {
     return std::find(std::begin(flags.of), std::end(flags.of), true) != std::end(flags.of);
 }
@@ -70,7 +76,8 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
                                    std::span<const BenchEffects> effects)
     : count_(static_cast<int>(descriptions.size())),
       effects_(effects.begin(), effects.end()),
-      cables_(cables_of(descriptions), effects, descriptions.front().arrangement) {
+      cables_(cables_of(descriptions), effects, end_errors_m(descriptions),
+              descriptions.front().arrangement) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
         const double pretension_N = descriptions[bench].cable.pretension_N();
         radii_.push_back(checked(descriptions[bench].pulleys));

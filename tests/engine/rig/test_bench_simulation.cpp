@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -124,6 +125,34 @@ TEST(BenchSimulation, WithoutEffectsASingleCableIsTheClosedFormStep) {
         EXPECT_NEAR(bench.motor_torque_Nm(), pulleys.motor_radius_m * state.tension_N.front(), 3e-3) << n;
         EXPECT_NEAR(bench.load_torque_Nm(), pulleys.load_radius_m * state.tension_N.back(), 2e-2) << n;
     }
+}
+
+// The load is held and the motor pulls to and fro, ever less. A cable slides up to an end that does not move,
+// so that a coarse cut gives the torque of the closed form.
+TEST(BenchSimulation, SlidesUpToALoadThatIsHeld) {
+    const auto cable_of = [](int segments) {
+        CableSpecification specification;
+        specification.curvature = {{2.0, 0.7}};
+        specification.segments = segments;
+        specification.axial_stiffness_N = 4000.0;
+        specification.dynamic_friction = specification.static_friction = 0.21;
+        specification.pretension_N = 3.0;
+        return Cable(specification);
+    };
+    const PullPull pair(cable_of(400), cable_of(400), pulleys);
+    PullPullState state = pair.at_rest();
+    BenchSimulation bench({.cable = cable_of(40), .pulleys = pulleys, .end_error_m = 0.0}, {});
+    std::vector<double> exact_Nm, torque_Nm;
+    for (int step = 1; step <= 1000; ++step) {
+        const double motor_Nm = 0.11 * std::sin(0.03 * step) * std::exp(-0.001 * step);
+        const BenchInputs inputs{MotorTorque{motor_Nm}, LoadAngle{0.0}, time_step_s, 0.0};
+        EXPECT_TRUE(bench.advance(inputs).converged) << step;
+        pair.advance(state, {inputs.motor, inputs.load});
+        exact_Nm.push_back(pair.load_torque_Nm(state));
+        torque_Nm.push_back(bench.load_torque_Nm());
+    }
+    const auto [least, most] = std::minmax_element(exact_Nm.begin(), exact_Nm.end());
+    EXPECT_LT(rms_difference(torque_Nm, exact_Nm), 0.012 * (*most - *least));
 }
 
 class EveryEffect : public testing::TestWithParam<Effect> {};

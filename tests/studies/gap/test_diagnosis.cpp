@@ -20,12 +20,9 @@
 namespace capstan::gap {
 namespace {
 
-// driven_session() as a bench with these numbers measures it, its sensors' noise on it. The bench has twice
+// What is driven, as a bench with these numbers measures it, its sensors' noise on it. The bench has twice
 // the segments of the model that is to explain it, and steps at every sample.
-Recording session_of(const BenchNumbers& numbers, const std::vector<double>& rolls_deg = {}) {
-    Recording recording = driven_session();
-    for (std::size_t run = 0; run < rolls_deg.size(); ++run)
-        recording.runs.at(run).conditions["roll_deg"] = rolls_deg[run];
+Recording measured(Recording recording, const BenchNumbers& numbers) {
     std::mt19937_64 random(20260202);
     std::normal_distribution<double> normal;
     const EffectsTwin bench(recording, {80, 1});
@@ -39,6 +36,23 @@ Recording session_of(const BenchNumbers& numbers, const std::vector<double>& rol
         }
     }
     return recording;
+}
+
+Recording session_of(const BenchNumbers& numbers, const std::vector<double>& rolls_deg = {}) {
+    Recording recording = driven_session();
+    for (std::size_t run = 0; run < rolls_deg.size(); ++run)
+        recording.runs.at(run).conditions["roll_deg"] = rolls_deg[run];
+    return measured(recording, numbers);
+}
+
+// With the second run once more: the first is too slow to show a drag, so that a run that is left out has
+// another that does.
+Recording long_session_of(const BenchNumbers& numbers) {
+    Recording recording = driven_session();
+    recording.runs.push_back(recording.runs.back());
+    recording.runs.back().number = 3;
+    recording.runs.back().session_start_s += 7.0;
+    return measured(recording, numbers);
 }
 
 Diagnosis diagnosed(const Recording& recording) {
@@ -72,14 +86,14 @@ TEST(Diagnosis, ProbabilitiesSumToOne) {
 TEST(Diagnosis, FindsViscousFrictionAndItsSize) {
     BenchNumbers numbers;
     numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 4.0;
-    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    const Diagnosis diagnosis = diagnosed(long_session_of(numbers));
     EXPECT_EQ(diagnosis.ranked.front().effect, "viscous_friction");
     ASSERT_EQ(diagnosis.causes.size(), 1u);
     EXPECT_NEAR(diagnosis.causes.front().numbers.front().value, 4.0, 0.4);
     EXPECT_EQ(diagnosis.component, "conduit");
     const ChannelGap& torque = channel_of(diagnosis, "load_torque");
     EXPECT_LT(torque.after_rms, 0.25 * torque.before_rms);
-    EXPECT_LT(torque.held_out_rms, 0.5 * torque.before_rms);
+    EXPECT_LT(torque.held_out_rms, 0.15 * torque.before_rms);
 }
 
 TEST(Diagnosis, NamesFrictionThatFollowsAConditionOfTheRuns) {
@@ -170,13 +184,15 @@ TEST(Diagnosis, FindsACauseBesideRoughNumbersZerosAndBearings) {
     numbers.pretension_ratio = 0.9;
     numbers.sensor_faults["load_torque"].offset = 0.03;
     numbers.effects.of<ViscousFriction>().drag_N_s_per_m2 = 6.0;
-    const Diagnosis diagnosis = diagnosed(session_of(numbers));
+    Recording session = driven_session();
+    session.tension_sensors.front().position_m = 1.8;
+    const Diagnosis diagnosis = diagnosed(measured(session, numbers));
     EXPECT_EQ(diagnosis.ranked.front().effect, "viscous_friction");
-    // Viscous bearings at both ends together do nearly the same, three units of evidence behind: of the 0.9
-    // that a named cause has at most they take less than a twentieth.
+    // Viscous bearings at both ends together do nearly the same to both pulleys. A tension near the load
+    // tells them from a drag along the cable.
     EXPECT_GT(present(diagnosis, "viscous_friction"), std::exp(3.0) * present(diagnosis, "pulley_friction"));
     EXPECT_GT(diagnosis.ranked.front().present,
-              0.96 * (1.0 - mistaken_cause_fraction_beside_floating_numbers));
+              0.99 * (1.0 - mistaken_cause_fraction_beside_floating_numbers));
     ASSERT_FALSE(diagnosis.bench.empty());
     const auto zero =
         std::find_if(diagnosis.bench.begin(), diagnosis.bench.end(),
