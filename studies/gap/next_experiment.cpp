@@ -31,18 +31,21 @@ struct Known {
     Eigen::MatrixXd jacobian;
 };
 
+// What no change of the numbers takes away.
+Eigen::VectorXd least_residuals(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
+    return residuals - jacobian * jacobian.colPivHouseholderQr().solve(residuals);
+}
+
 constexpr double step = 1e-2;  // of a coordinate
 
+// The numbers are the best there are, so that only what they cannot take away is left. Fronts make ripples,
+// at one of which a search may have ended.
 Known known_of(const CauseFitter& fitter, const CauseFit& fit) {
     const double weight = std::sqrt(fitter.independent_samples() / fitter.determined_rows());
     const Eigen::MatrixXd residuals =
         weight * fitter.residuals(fit.hypothesis(), moved_a_little(fit.coordinates, step));
-    return {fit.hypothesis(), residuals.col(0), differences(residuals, step)};
-}
-
-double min_sum(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
-    const Eigen::VectorXd best = jacobian.colPivHouseholderQr().solve(-residuals);
-    return (residuals + jacobian * best).squaredNorm();
+    const Eigen::MatrixXd jacobian = differences(residuals, step);
+    return {fit.hypothesis(), least_residuals(jacobian, residuals.col(0)), jacobian};
 }
 
 // The chi-square that an explanation leaves on data that another one generated.
@@ -60,7 +63,7 @@ double unexplained_by(const Known& rival, const CauseFitter& planned, const Hypo
     jacobian << rival.jacobian, differences(rival_change, step);
     Eigen::VectorXd off(jacobian.rows());
     off << rival.residuals, rival_change.col(0) - residuals.col(0);
-    return std::max(0.0, min_sum(jacobian, off) - min_sum(rival.jacobian, rival.residuals));
+    return std::max(0.0, least_residuals(jacobian, off).squaredNorm() - rival.residuals.squaredNorm());
 }
 
 // The bench's response without noise. It sets the model's floor.

@@ -34,7 +34,7 @@ class BendOrFriction : public testing::Test {
   protected:
     const Recording recording = ramps_of_a_bent_bench();
     const std::vector<CandidateCause> causes = candidate_causes(recording);
-    const CauseFitter fitter{recording, {24, 1}, 2};
+    const CauseFitter fitter{recording, {40, 1}, 2};
 
     ScoredFit fitted(const std::string& effect, const std::string& variant,
                      const std::vector<double>& numbers) const {
@@ -70,8 +70,9 @@ TEST_F(BendOrFriction, IsDistinguishedBetterByASensorBeyondTheBendThanByOneBefor
     ASSERT_FALSE(result.experiments.empty());
     EXPECT_GT(discrimination_probability(result, "tension sensor on cable A at 1.00 m"),
               discrimination_probability(result, "tension sensor on cable A at 0.10 m") + 0.02);
+    // Where a hand moves the load, all of the cable slides, and nothing tells where it is bent.
     EXPECT_GT(discrimination_probability(result, "tension sensor on cable A at 1.00 m"),
-              discrimination_probability(result, "steps with dwells"));
+              discrimination_probability(result, "moving hand") + 0.02);
 }
 
 TEST_F(BendOrFriction, NoExperimentDistinguishesAnExplanationFromItself) {

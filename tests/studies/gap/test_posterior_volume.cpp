@@ -38,6 +38,9 @@ double log_prior(const CandidateCause& cause, const Eigen::VectorXd& coordinates
     return sum;
 }
 
+// As a diagnosis has it: on a coarser cut fronts make the likelihood rougher than a normal density is.
+constexpr EffectsTwinOptions twin_options{.segments = 40, .stride = 1};
+
 struct Volumes {
     double laplace = 0.0;
     double sampled = 0.0;
@@ -45,8 +48,8 @@ struct Volumes {
 
 // Logarithms of the integral of likelihood and prior, with the best fit's likelihood as unit.
 Volumes volumes_of(const std::string& effect, const BenchNumbers& truth, const Eigen::VectorXd& start) {
-    const Recording recording = exact_session(truth, coarse_twin);
-    const CauseFitter fitter(recording, coarse_twin, 1);
+    const Recording recording = exact_session(truth, twin_options);
+    const CauseFitter fitter(recording, twin_options, 1);
     const std::vector<CandidateCause> causes = candidate_causes(recording);
     const auto cause = std::find_if(causes.begin(), causes.end(),
                                     [&](const CandidateCause& each) { return each.effect == effect; });
