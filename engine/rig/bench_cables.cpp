@@ -65,7 +65,7 @@ void add_bend(const Cable& cable, const Stretch& stretch, double angle_rad, std:
 }  // namespace
 
 BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
-                         std::span<const double> end_error_m, CableArrangement arrangement) {
+                         std::span<const CableEnds> ends, CableArrangement arrangement) {
     if (!std::all_of(cables.begin(), cables.end(), [](const Cable& cable) { return cable.is_evenly_cut(); }))
         throw InvalidInput(
             {"a bench with effects takes cables cut into equal segments; leave out node_places_m"});
@@ -102,13 +102,14 @@ BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEff
     for (int lane = 0; lane < bench_lanes; ++lane) {
         const std::size_t bench =
             static_cast<std::size_t>(lane) < cables.size() ? static_cast<std::size_t>(lane) : 0;
-        set_laws(lane, cables[bench], effects[bench], end_error_m[bench]);
+        set_laws(lane, cables[bench], effects[bench], ends[bench]);
         set_rest(lane, cables[bench], effects[bench]);
     }
 }
 
-void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& effects, double end_error_m) {
-    group_.laws.set(lane, with_bristles(effects, numerical_presliding_m(cable, end_error_m)));
+void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& effects, const CableEnds& ends) {
+    group_.laws.set(lane, with_bristles(effects, numerical_presliding_m(cable, ends.error_m)));
+    group_.of_neighbour.of[lane] = ends.load_is_held ? 0.25 : 0.0;
     group_.stretch_m_per_N.of[lane] = group_.segment_m / cable.axial_stiffness_N();
     group_.dynamic_friction.of[lane] = cable.dynamic_friction();
     const bool varies = friction_varies(effects);

@@ -12,6 +12,12 @@ namespace capstan {
 /// How well the place of a cable's end is known where an encoder reads it, as a rule [m].
 inline constexpr double usual_end_error_m = 3e-6;
 
+/// As BenchDescription has them.
+struct CableEnds {
+    bool load_is_held = false;
+    double error_m = usual_end_error_m;
+};
+
 /// The cables of up to bench_lanes benches that differ in their numbers: one each, or a pair.
 ///
 /// A node stands for the cable from the middle of one segment to that of the next: tension is constant in a
@@ -20,10 +26,10 @@ inline constexpr double usual_end_error_m = 3e-6;
 class BenchCables {
   public:
     /// `cables`: one of each bench, all with the same length and as many equal segments; throws InvalidInput
-    /// where they are not equal. `end_error_m`: of each bench, as BenchDescription has it. At rest under its
-    /// pretension, the load end where its tension lets it, creep at an end.
+    /// where they are not equal. `ends`: of each bench. At rest under its pretension, the load end where its
+    /// tension lets it, creep at an end.
     BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
-                std::span<const double> end_error_m, CableArrangement arrangement);
+                std::span<const CableEnds> ends, CableArrangement arrangement);
     BenchCables(const BenchCables&) = delete;
     BenchCables& operator=(const BenchCables&) = delete;
 
@@ -75,7 +81,7 @@ class BenchCables {
         double motor_compliance_m_per_N = 0.0;
         double pretension_N = 0.0;
     };
-    void set_laws(int lane, const Cable& cable, const BenchEffects& effects, double end_error_m);
+    void set_laws(int lane, const Cable& cable, const BenchEffects& effects, const CableEnds& ends);
     void set_rest(int lane, const Cable& cable, const BenchEffects& effects);
     double crept_m(const Rest& rest, double tension_N) const;
     double elastic_m(const Rest& rest, double tension_N) const;

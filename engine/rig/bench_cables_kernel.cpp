@@ -21,23 +21,12 @@ HWY_INLINE Lanes moved_m(const CableLanes& cable, int node, int lane) {
     return load<Lanes>(cable.displacement_m[node], lane) - load<Lanes>(cable.before_m[node], lane);
 }
 
-// An end node stands for half a segment of cable, whose middle moves by this part of what the neighbour moves
-// and for the rest with the end. Cable slides up to an end that is held, although that end does not move.
-constexpr double of_neighbour = 0.25;
-
+// How far the last half segment has slid in this step: its middle moves with the load's end, and by a part of
+// what the neighbour moves beyond that.
 template <class Lanes>
-HWY_INLINE Lanes slid_at_end_m(const CableLanes& cable, int node, int neighbour, int lane) {
-    return lanes_of<Lanes>(1.0 - of_neighbour) * moved_m<Lanes>(cable, node, lane) +
-           lanes_of<Lanes>(of_neighbour) * moved_m<Lanes>(cable, neighbour, lane);
-}
-
-// How far the cable that a node stands for has slid in this step.
-template <class Lanes>
-HWY_INLINE Lanes slid_m(const CablesGroup& group, const CableLanes& cable, int node, int lane) {
-    const int last = group.nodes - 1;
-    if (node == 0) return slid_at_end_m<Lanes>(cable, 0, 1, lane);
-    if (node == last) return slid_at_end_m<Lanes>(cable, last, last - 1, lane);
-    return moved_m<Lanes>(cable, node, lane);
+HWY_INLINE Lanes slid_at_load_m(const CableLanes& cable, int last, Lanes of_neighbour, int lane) {
+    return (lanes_of<Lanes>(1.0) - of_neighbour) * moved_m<Lanes>(cable, last, lane) +
+           of_neighbour * moved_m<Lanes>(cable, last - 1, lane);
 }
 
 // A node, and a segment, in the present guess.
@@ -85,7 +74,8 @@ struct InnerEnd {
 // theta / 2).
 template <class Lanes>
 HWY_INLINE InnerEnd<Lanes> inner_end(const LaneCable<Lanes>& mechanics, const NodeGuess<Lanes>& node,
-                                     const LaneTension<Lanes>& segment, double way_value, double span_m) {
+                                     const LaneTension<Lanes>& segment, double way_value, double span_m,
+                                     Lanes of_neighbour) {
     const Lanes one = lanes_of<Lanes>(1.0);
     const Lanes way = lanes_of<Lanes>(way_value);
     const Lanes pressing_N = hn::Max(lanes_of<Lanes>(0.0), segment.value_N);
@@ -98,10 +88,11 @@ HWY_INLINE InnerEnd<Lanes> inner_end(const LaneCable<Lanes>& mechanics, const No
     const Lanes by_bend_N =
         lanes_of<Lanes>(2.0) * node.friction * pressing_N / ((one - q) * (one - q)) + rigid_N;
     const Lanes stiffness = segment.per_m * grown;
-    const Lanes drag = by_bend_N * node.bend_per_m + viscous_N_per_m;  // per sliding
+    const Lanes by_bristles = by_bend_N * node.bend_per_m;
+    const Lanes of_end = one - of_neighbour;
     return {segment.value_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.slid_m),
-            way * (stiffness + lanes_of<Lanes>(1.0 - of_neighbour) * drag),
-            way * (lanes_of<Lanes>(of_neighbour) * drag - stiffness)};
+            way * (stiffness + of_end * by_bristles + of_end * viscous_N_per_m),
+            way * (of_neighbour * (by_bristles + viscous_N_per_m) - stiffness)};
 }
 
 template <class Lanes, int cables>
@@ -122,9 +113,8 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which<Lanes> active, i
     guess_segments(group, mechanics, active, 0, lane, before);
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        const Lanes slid = slid_m<Lanes>(group, cable, 0, lane);
-        inner_motor[c] =
-            inner_end(mechanics, node_guess(cable, mechanics, 0, slid, lane), before[c], -1.0, half_m);
+        const NodeGuess<Lanes> end = node_guess(cable, mechanics, 0, moved_m<Lanes>(cable, 0, lane), lane);
+        inner_motor[c] = inner_end(mechanics, end, before[c], -1.0, half_m, zero);
         const Lanes gives = load<Lanes>(motor[c].compliance_m_per_N, lane);
         const Lanes pivot = one / (one - gives * inner_motor[c].per_end_m);
         upper[c] = hn::Neg(gives) * inner_motor[c].per_inner_m * pivot;
@@ -177,9 +167,10 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which<Lanes> active, i
     // Load end: u_last = at + per_rad turn - compliance T.
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
-        const Lanes slid = slid_m<Lanes>(group, cable, last, lane);
-        const InnerEnd<Lanes> inner =
-            inner_end(mechanics, node_guess(cable, mechanics, last, slid, lane), before[c], 1.0, half_m);
+        const Lanes of_neighbour = load<Lanes>(group.of_neighbour, lane);
+        const Lanes slid_m = slid_at_load_m(cable, last, of_neighbour, lane);
+        const InnerEnd<Lanes> inner = inner_end(mechanics, node_guess(cable, mechanics, last, slid_m, lane),
+                                                before[c], 1.0, half_m, of_neighbour);
         const Lanes gives = load<Lanes>(load_end[c].compliance_m_per_N, lane);
         const Lanes lower = gives * inner.per_inner_m;
         const Lanes pivot = one / (one + gives * inner.per_end_m - lower * upper[c]);
@@ -320,16 +311,19 @@ HWY_INLINE void keep_lanes(const CablesGroup& group, int lane, LaneValues* motor
         guess_segments(group, mechanics, all, segment, lane, final_segment);
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
+        const Lanes of_neighbour = load<Lanes>(group.of_neighbour, lane);
         for (int node = 0; node <= last; ++node) {
-            const Lanes slid = slid_m<Lanes>(group, cable, node, lane);
-            const NodeGuess<Lanes> here = node_guess(cable, mechanics, node, slid, lane);
+            const Lanes slid_m = node < last ? moved_m<Lanes>(cable, node, lane)
+                                             : slid_at_load_m(cable, last, of_neighbour, lane);
+            const NodeGuess<Lanes> here = node_guess(cable, mechanics, node, slid_m, lane);
             if (node == 0)
-                store(inner_end(mechanics, here, first[c], -1.0, half_m).value_N, motor_tension_N[c], lane);
+                store(inner_end(mechanics, here, first[c], -1.0, half_m, lanes_of<Lanes>(0.0)).value_N,
+                      motor_tension_N[c], lane);
             if (node == last)
-                store(inner_end(mechanics, here, final_segment[c], 1.0, half_m).value_N, load_tension_N[c],
-                      lane);
+                store(inner_end(mechanics, here, final_segment[c], 1.0, half_m, of_neighbour).value_N,
+                      load_tension_N[c], lane);
             if (!group.any_varying_friction) continue;
-            const Lanes speed = hn::Abs(slid) / mechanics.time_step_s;
+            const Lanes speed = hn::Abs(slid_m) / mechanics.time_step_s;
             const Lanes lagging = load<Lanes>(cable.lagging_speed_m_per_s[node], lane);
             store(laws::lagging_speed<Lanes>(mechanics, lagging, speed, mechanics.time_step_s),
                   cable.lagging_speed_m_per_s[node], lane);

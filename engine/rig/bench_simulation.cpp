@@ -60,10 +60,10 @@ std::vector<Cable> cables_of(std::span<const BenchDescription> descriptions) {
     return cables;
 }
 
-std::vector<double> end_errors_m(std::span<const BenchDescription> descriptions) {
-    std::vector<double> errors_m;
-    for (const BenchDescription& each : descriptions) errors_m.push_back(each.end_error_m);
-    return errors_m;
+std::vector<CableEnds> ends_of(std::span<const BenchDescription> descriptions) {
+    std::vector<CableEnds> ends;
+    for (const BenchDescription& each : descriptions) ends.push_back({each.load_is_held, each.end_error_m});
+    return ends;
 }
 
 bool any(const LaneFlags& flags) {
@@ -76,8 +76,7 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
                                    std::span<const BenchEffects> effects)
     : count_(static_cast<int>(descriptions.size())),
       effects_(effects.begin(), effects.end()),
-      cables_(cables_of(descriptions), effects, end_errors_m(descriptions),
-              descriptions.front().arrangement) {
+      cables_(cables_of(descriptions), effects, ends_of(descriptions), descriptions.front().arrangement) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
         const double pretension_N = descriptions[bench].cable.pretension_N();
         radii_.push_back(checked(descriptions[bench].pulleys));

@@ -33,7 +33,7 @@ double buildable_friction(const NominalBench& bench, double friction_ratio) {
 BenchDescription description_of(const Recording& recording, const RecordedRun& run,
                                 const BenchNumbers& numbers, int segments) {
     const NominalBench& bench = *recording.nominal;
-    const bool no_end_is_moved = run.output == OutputKind::locked && !run.drives(channel::motor_angle);
+    const bool load_is_held = run.output == OutputKind::locked;
     const CableSpecification cable =
         cable_specification(numbers.routing(bench.curvature),
                             {.dynamic_friction = buildable_friction(bench, numbers.friction_ratio),
@@ -46,7 +46,8 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
             .pulleys = {bench.motor_radius_m, numbers.load_radius_ratio * bench.load_radius_m},
             .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
             .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)},
-            .end_error_m = no_end_is_moved ? 0.0 : usual_end_error_m};
+            .load_is_held = load_is_held,
+            .end_error_m = load_is_held && !run.drives(channel::motor_angle) ? 0.0 : usual_end_error_m};
 }
 
 // Where nothing of the load but its motion is known.

@@ -141,7 +141,8 @@ TEST(BenchSimulation, SlidesUpToALoadThatIsHeld) {
     };
     const PullPull pair(cable_of(400), cable_of(400), pulleys);
     PullPullState state = pair.at_rest();
-    BenchSimulation bench({.cable = cable_of(40), .pulleys = pulleys, .end_error_m = 0.0}, {});
+    BenchSimulation bench(
+        {.cable = cable_of(40), .pulleys = pulleys, .load_is_held = true, .end_error_m = 0.0}, {});
     std::vector<double> exact_Nm, torque_Nm;
     for (int step = 1; step <= 1000; ++step) {
         const double motor_Nm = 0.11 * std::sin(0.03 * step) * std::exp(-0.001 * step);
