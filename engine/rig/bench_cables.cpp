@@ -22,6 +22,9 @@ double numerical_presliding_m(const Cable& cable, double end_error_m) {
     return std::clamp(front_m, std::clamp(end_error_m, min_m, usual_end_error_m), usual_end_error_m);
 }
 
+// The middle of the last half segment is a quarter of a segment from the end.
+constexpr double middle_of_half_segment = 0.25;
+
 BenchEffects with_bristles(BenchEffects effects, double numerical_m) {
     if (!(effects.of<Presliding>().length_m > numerical_m)) effects.of<Presliding>() = {numerical_m, 0.0};
     return effects;
@@ -109,7 +112,7 @@ BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEff
 
 void BenchCables::set_laws(int lane, const Cable& cable, const BenchEffects& effects, const CableEnds& ends) {
     group_.laws.set(lane, with_bristles(effects, numerical_presliding_m(cable, ends.error_m)));
-    group_.of_neighbour.of[lane] = ends.load_is_held ? 0.25 : 0.0;
+    group_.of_neighbour.of[lane] = ends.load_is_held ? middle_of_half_segment : 0.0;
     group_.stretch_m_per_N.of[lane] = group_.segment_m / cable.axial_stiffness_N();
     group_.dynamic_friction.of[lane] = cable.dynamic_friction();
     const bool varies = friction_varies(effects);

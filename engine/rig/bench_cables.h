@@ -12,9 +12,12 @@ namespace capstan {
 /// How well the place of a cable's end is known where an encoder reads it, as a rule [m].
 inline constexpr double usual_end_error_m = 3e-6;
 
-/// As BenchDescription has them.
+/// What is known of the places of a cable's ends.
 struct CableEnds {
+    /// The load never turns. Cable slides up to it all the same, as the middle of the last half segment does.
     bool load_is_held = false;
+    /// How well the places are known [m]. A turn of an end by less may be none, so that friction builds up
+    /// over this length at least (E22). 0: exactly.
     double error_m = usual_end_error_m;
 };
 

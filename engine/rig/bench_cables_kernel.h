@@ -104,9 +104,8 @@ struct CablesGroup {
     LaneValues time_step_s;
     CableLawParameters laws;
     LaneValues stretch_m_per_N;  ///< of a segment, by its own elasticity
-    LaneValues settled_m;  ///< by how much longer each segment is at rest than under its pretension (E33)
-    LaneValues
-        of_neighbour;  ///< the part of its neighbour's movement by which the load's half segment slides
+    LaneValues settled_m;     ///< by how much longer each segment is at rest than under its pretension (E33)
+    LaneValues of_neighbour;  ///< how much of its movement the half segment at the load slides by
     LaneValues dynamic_friction;
     LaneValues varying_friction;        ///< not 0: a law of the friction coefficient, or a bend that moves
     bool any_varying_friction = false;  ///< of any bench

@@ -62,7 +62,7 @@ std::vector<Cable> cables_of(std::span<const BenchDescription> descriptions) {
 
 std::vector<CableEnds> ends_of(std::span<const BenchDescription> descriptions) {
     std::vector<CableEnds> ends;
-    for (const BenchDescription& each : descriptions) ends.push_back({each.load_is_held, each.end_error_m});
+    for (const BenchDescription& each : descriptions) ends.push_back(each.ends);
     return ends;
 }
 

@@ -16,11 +16,7 @@ struct BenchDescription {
     Pulleys pulleys{};
     Inertia inertia{};  ///< known ones; an effect's inertia comes on top
     TorqueZeros zeros{};
-    /// The load never turns. Cable slides up to it all the same, as the middle of the last half segment does.
-    bool load_is_held = false;
-    /// How well the places of the cables' ends are known [m]. A turn of an end by less may be none, so that
-    /// friction builds up over this length at least (E22). 0: exactly.
-    double end_error_m = usual_end_error_m;
+    CableEnds ends{};
 };
 
 struct BenchReport {

@@ -17,6 +17,8 @@ namespace {
 // Where the bench's numbers float widely, they take up much of what a cause does, and the screening, which is
 // linear, says less: beside the best set more causes are fitted than max_fitted_further.
 constexpr std::size_t max_fitted_beside_the_best = 8;
+// A mean square residual, in units of noise and floor.
+constexpr double as_good_as_noise = 1.0;
 // How many of the best sets of one size are extended.
 constexpr std::size_t max_extended = 2;
 
@@ -149,11 +151,11 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
 
 // A delay that the fit without a cause took into the numbers of the bench is a cause where it is beyond what
 // is usual. Beside such a number the screening sees nothing of that cause.
-void CauseSearch::try_delays_of_the_bench(const Level& level, Fits& singles) {
-    const auto nothing = std::find_if(singles.begin(), singles.end(), [](const ScoredFit& fit) {
+void CauseSearch::try_delays_of_the_bench(const Level& level, Fits& fits) {
+    const auto nothing = std::find_if(fits.begin(), fits.end(), [](const ScoredFit& fit) {
         return fit.fit.causes.front()->effect == "none";
     });
-    if (nothing == singles.end() || is_out_of_time()) return;
+    if (nothing == fits.end() || is_out_of_time()) return;
     std::vector<Hypothesis> delays;
     for (const ScoredFit::FarNumber& far : nothing->far_numbers) {
         const FloatingNumber& number = level.bench.numbers[far.number];
@@ -161,8 +163,7 @@ void CauseSearch::try_delays_of_the_bench(const Level& level, Fits& singles) {
         const auto is_of_cause = [&](const ScoredFit& fit) {
             return fit.fit.bench == &level.bench && fit.fit.causes.front() == cause;
         };
-        if (number.usual == 0.0 || cause == nullptr ||
-            std::any_of(singles.begin(), singles.end(), is_of_cause))
+        if (number.usual == 0.0 || cause == nullptr || std::any_of(fits.begin(), fits.end(), is_of_cause))
             continue;
         const auto row = static_cast<Eigen::Index>(far.number);
         Hypothesis usual{{}, nothing->fit.coordinates.head(level.bench.size()), &level.bench};
@@ -172,8 +173,8 @@ void CauseSearch::try_delays_of_the_bench(const Level& level, Fits& singles) {
     }
     if (delays.empty()) return;
     report("fitting " + in_words(delays.front().causes));
-    add_fits(level, delays, false, singles);
-    sort_by_evidence(singles);
+    add_fits(level, delays, false, fits);
+    sort_by_evidence(fits);
 }
 
 // Causes that are sought last: alone, beside the best set, and in the place of each of its causes. Whether
@@ -247,17 +248,16 @@ void CauseSearch::try_without_idle_causes(const Level& level, Fits& all) {
 // The best set from each smaller one. A set that was built up cause by cause may have been left in a local
 // minimum, which shows in what it leaves, and another order leads elsewhere.
 void CauseSearch::try_from_smaller_sets(const Level& level, Fits& all) {
-    constexpr double as_good_as_noise = 1.0;
     const CauseFit best = all.front().fit;
     if (best.causes.size() < 2 || all.front().misfit <= as_good_as_noise || is_out_of_time()) return;
     std::vector<Hypothesis> starts;
     Eigen::Index first = level.bench.size();
-    for (const CandidateCause* cause : best.causes) {
+    const std::vector<Hypothesis> fewer = without_each(best.hypothesis());
+    for (std::size_t k = 0; k < best.causes.size(); ++k) {
+        const CandidateCause* cause = best.causes[k];
         const auto count = static_cast<Eigen::Index>(cause->numbers.size());
-        const std::vector<const CandidateCause*> others =
-            only_causes(best.hypothesis(), [&](const CandidateCause& each) { return &each != cause; }).causes;
         const auto smaller = std::find_if(all.begin(), all.end(), [&](const ScoredFit& each) {
-            return each.fit.bench == best.bench && are_same_causes(each.fit.causes, others);
+            return each.fit.bench == best.bench && are_same_causes(each.fit.causes, fewer[k].causes);
         });
         if (smaller != all.end())
             starts.push_back(
@@ -417,7 +417,6 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
 // leaves more than noise and floor, even if that is within the error of its law: the cause may stand for two
 // others.
 void CauseSearch::add_promising_pairs(const Level& level, const Fits& singles, Fits& sets) {
-    constexpr double as_good_as_noise = 1.0;
     const ScoredFit& best = singles.front();
     const bool leaves_something =
         level.bench.is_measured() ? best.misfit > as_good_as_noise : worth_a_further_cause(best);

@@ -40,14 +40,14 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
                              .axial_stiffness_N = numbers.stiffness_ratio * bench.axial_stiffness_N,
                              .pretension_N = numbers.pretension_ratio * *run.pretension_N},
                             recording.mode == BenchMode::single_cable ? 2 * segments : segments);
-    return {.cable = Cable(cable),
-            .arrangement = recording.mode == BenchMode::pull_pull ? CableArrangement::pull_pull
-                                                                  : CableArrangement::single,
-            .pulleys = {bench.motor_radius_m, numbers.load_radius_ratio * bench.load_radius_m},
-            .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
-            .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)},
-            .load_is_held = load_is_held,
-            .end_error_m = load_is_held && !run.drives(channel::motor_angle) ? 0.0 : usual_end_error_m};
+    return {
+        .cable = Cable(cable),
+        .arrangement =
+            recording.mode == BenchMode::pull_pull ? CableArrangement::pull_pull : CableArrangement::single,
+        .pulleys = {bench.motor_radius_m, numbers.load_radius_ratio * bench.load_radius_m},
+        .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
+        .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)},
+        .ends = {load_is_held, load_is_held && !run.drives(channel::motor_angle) ? 0.0 : usual_end_error_m}};
 }
 
 // Where nothing of the load but its motion is known.

@@ -32,7 +32,7 @@ struct Known {
 };
 
 // What no change of the numbers takes away.
-Eigen::VectorXd least_residuals(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
+Eigen::VectorXd min_residuals(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
     return residuals - jacobian * jacobian.colPivHouseholderQr().solve(residuals);
 }
 
@@ -45,7 +45,7 @@ Known known_of(const CauseFitter& fitter, const CauseFit& fit) {
     const Eigen::MatrixXd residuals =
         weight * fitter.residuals(fit.hypothesis(), moved_a_little(fit.coordinates, step));
     const Eigen::MatrixXd jacobian = differences(residuals, step);
-    return {fit.hypothesis(), least_residuals(jacobian, residuals.col(0)), jacobian};
+    return {fit.hypothesis(), min_residuals(jacobian, residuals.col(0)), jacobian};
 }
 
 // The chi-square that an explanation leaves on data that another one generated.
@@ -63,7 +63,7 @@ double unexplained_by(const Known& rival, const CauseFitter& planned, const Hypo
     jacobian << rival.jacobian, differences(rival_change, step);
     Eigen::VectorXd off(jacobian.rows());
     off << rival.residuals, rival_change.col(0) - residuals.col(0);
-    return std::max(0.0, least_residuals(jacobian, off).squaredNorm() - rival.residuals.squaredNorm());
+    return std::max(0.0, min_residuals(jacobian, off).squaredNorm() - rival.residuals.squaredNorm());
 }
 
 // The bench's response without noise. It sets the model's floor.

@@ -142,8 +142,9 @@ TEST(BenchSimulation, SlidesUpToALoadThatIsHeld) {
     const PullPull pair(cable_of(400), cable_of(400), pulleys);
     PullPullState state = pair.at_rest();
     BenchSimulation bench(
-        {.cable = cable_of(40), .pulleys = pulleys, .load_is_held = true, .end_error_m = 0.0}, {});
-    std::vector<double> exact_Nm, torque_Nm;
+        {.cable = cable_of(40), .pulleys = pulleys, .ends = {.load_is_held = true, .error_m = 0.0}}, {});
+    BenchSimulation moved({.cable = cable_of(40), .pulleys = pulleys}, {});  // as if its load could turn
+    std::vector<double> exact_Nm, torque_Nm, moved_Nm;
     for (int step = 1; step <= 1000; ++step) {
         const double motor_Nm = 0.11 * std::sin(0.03 * step) * std::exp(-0.001 * step);
         const BenchInputs inputs{MotorTorque{motor_Nm}, LoadAngle{0.0}, time_step_s, 0.0};
@@ -151,9 +152,12 @@ TEST(BenchSimulation, SlidesUpToALoadThatIsHeld) {
         pair.advance(state, {inputs.motor, inputs.load});
         exact_Nm.push_back(pair.load_torque_Nm(state));
         torque_Nm.push_back(bench.load_torque_Nm());
+        moved.advance(inputs);
+        moved_Nm.push_back(moved.load_torque_Nm());
     }
     const auto [least, most] = std::minmax_element(exact_Nm.begin(), exact_Nm.end());
     EXPECT_LT(rms_difference(torque_Nm, exact_Nm), 0.012 * (*most - *least));
+    EXPECT_GT(rms_difference(moved_Nm, exact_Nm), 0.03 * (*most - *least));
 }
 
 class EveryEffect : public testing::TestWithParam<Effect> {};
