@@ -100,7 +100,8 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         }
         sets = larger_sets(level, sets);
         if (sets.empty()) break;
-        if (!level.bench.is_measured() && (is_undescribed(level.bench) || !has_ripple(all.front())))
+        if (!level.bench.is_measured() && (is_undescribed(level.bench) || !has_ripple(all.front()) ||
+                                           sets.front().misfit > as_good_as_noise))
             try_periods(level, sets);
         std::move(sets.begin(), sets.end(), std::back_inserter(all));
         sort(level, all);
@@ -149,31 +150,54 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
     sort(level, all);
 }
 
-// A delay that the fit without a cause took into the numbers of the bench is a cause where it is beyond what
-// is usual. Beside such a number the screening sees nothing of that cause.
+// The causes of a fit and, in the place of a delay that it took into the numbers of the bench, that delay or
+// a lag of the same sensor.
+std::vector<Hypothesis> CauseSearch::with_slow_sensors(const Level& level, const ScoredFit& fit) {
+    std::vector<Hypothesis> sets;
+    if (fit.fit.bench != &level.bench) return sets;
+    for (const ScoredFit::FarNumber& far : fit.far_numbers) {
+        const FloatingNumber& number = level.bench.numbers[far.number];
+        const auto row = static_cast<Eigen::Index>(far.number);
+        const double delay = fit.fit.coordinates[row];
+        Hypothesis usual = only_causes(fit.fit.hypothesis(),
+                                       [](const CandidateCause& cause) { return cause.effect != "none"; });
+        usual.coordinates[row] = 0.0;
+        for (const CandidateCause& cause : level.causes) {
+            if (!is_slowness_of_one_sensor(number.effect, number.variant, cause)) continue;
+            if (cause.effect == "sensor_lag" && delay < 0.0) continue;
+            sets.push_back(with_cause(usual, &cause, as_size_of(cause, number, delay)));
+        }
+    }
+    return sets;
+}
+
+// A delay that a fit took into the numbers of the bench is a cause where it is beyond what is usual, and may
+// stand for a lag of that sensor. Beside such a number the screening sees nothing of these causes. In a drive
+// without a description much else can stand for a lag, and only delays are tried.
 void CauseSearch::try_delays_of_the_bench(const Level& level, Fits& fits) {
     const auto nothing = std::find_if(fits.begin(), fits.end(), [](const ScoredFit& fit) {
         return fit.fit.causes.front()->effect == "none";
     });
     if (nothing == fits.end() || is_out_of_time()) return;
-    std::vector<Hypothesis> delays;
-    for (const ScoredFit::FarNumber& far : nothing->far_numbers) {
-        const FloatingNumber& number = level.bench.numbers[far.number];
-        const CandidateCause* cause = level.same_cause(number.effect, number.variant);
-        const auto is_of_cause = [&](const ScoredFit& fit) {
-            return fit.fit.bench == &level.bench && fit.fit.causes.front() == cause;
-        };
-        if (number.usual == 0.0 || cause == nullptr || std::any_of(fits.begin(), fits.end(), is_of_cause))
-            continue;
-        const auto row = static_cast<Eigen::Index>(far.number);
-        Hypothesis usual{{}, nothing->fit.coordinates.head(level.bench.size()), &level.bench};
-        const Eigen::VectorXd size = as_size_of(*cause, number, usual.coordinates[row]);
-        usual.coordinates[row] = 0.0;
-        delays.push_back(with_cause(usual, cause, size));
+    std::vector<Hypothesis> slow = with_slow_sensors(level, *nothing);
+    if (is_undescribed(level.bench)) {
+        std::erase_if(slow, [&](const Hypothesis& set) {
+            return set.causes.front()->effect == "sensor_lag" ||
+                   std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& fit) {
+                       return fit.fit.bench == &level.bench && fit.fit.causes.front() == set.causes.front();
+                   });
+        });
+    } else if (fits.begin() != nothing) {
+        for (Hypothesis& set : with_slow_sensors(level, fits.front())) slow.push_back(std::move(set));
     }
-    if (delays.empty()) return;
-    report("fitting " + in_words(delays.front().causes));
-    add_fits(level, delays, false, fits);
+    std::erase_if(slow, [&](const Hypothesis& set) {
+        return std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& fit) {
+            return fit.fit.bench == &level.bench && are_same_causes(fit.fit.causes, set.causes);
+        });
+    });
+    if (slow.empty()) return;
+    report("fitting " + in_words(slow.front().causes));
+    add_fits(level, slow, false, fits);
     sort_by_evidence(fits);
 }
 

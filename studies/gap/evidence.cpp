@@ -252,6 +252,24 @@ std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& ef
     return "";
 }
 
+// Whether a delay among the numbers of the bench, where a small one needs no cause, is so long that it is
+// one, and was fitted as one: that explains the same, and pays for a cause.
+bool has_a_delay_that_is_a_cause(const ScoredFit& fit, const std::vector<ScoredFit>& fits) {
+    const auto is_one = [&](const ScoredFit::FarNumber& far) {
+        const FloatingNumber& number = fit.fit.bench->numbers[far.number];
+        return number.usual > 0.0 && std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& other) {
+                   std::vector<const CandidateCause*> others = other.fit.causes;
+                   const auto delays = std::erase_if(others, [&](const CandidateCause* cause) {
+                       return cause->effect == number.effect && cause->variant == number.variant;
+                   });
+                   if (delays == 0 || other.fit.bench != fit.fit.bench) return false;
+                   return others.empty() ? fit.fit.causes.front()->effect == "none"
+                                         : are_same_causes(others, fit.fit.causes);
+               });
+    };
+    return !fit.has_unknown_scales && std::any_of(fit.far_numbers.begin(), fit.far_numbers.end(), is_one);
+}
+
 }  // namespace
 
 // E68.
@@ -404,6 +422,7 @@ std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fit
         }
     };
     for (const ScoredFit& each : fits) {
+        if (has_a_delay_that_is_a_cause(each, fits)) continue;
         Effects effects = effects_of(each.fit);
         take({effects, each.of_the_bench(), 0.0, each.evidence, &each, false});
         std::erase(effects, "none");

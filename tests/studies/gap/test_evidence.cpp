@@ -329,6 +329,40 @@ TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
     EXPECT_EQ(ranked_where_far(0.3).front().effect, "none");
 }
 
+// A bench's own number took up a delay far beyond what is usual of a force sensor, which needs no cause. It
+// explains the same as that delay as a cause, which the same residuals show at a higher price, and less than
+// a lag.
+TEST(Evidence, ADelayThatIsFarBeyondTheUsualIsWeighedAsTheCauseThatItIs) {
+    const Known known;
+    CandidateCause delay = known.gain;
+    delay.effect = "time_misalignment";
+    delay.variant = "load_torque";
+    CandidateCause lag = delay;
+    lag.effect = "sensor_lag";
+    BenchKnowledge bench = bench_with_a_zero();
+    bench.numbers.push_back({.name = "time",
+                             .prior_std = 0.5,
+                             .usual = 1.0,
+                             .effect = "time_misalignment",
+                             .variant = "load_torque"});
+    const auto of_the_bench = [&](std::vector<const CandidateCause*> causes, double evidence_of_it) {
+        std::vector<double> visibility(causes.size(), 3.0);
+        ScoredFit fit = fitted(evidence, std::move(causes), 1.0, std::move(visibility));
+        fit.fit.bench = &bench;
+        fit.evidence = evidence_of_it;
+        return fit;
+    };
+    ScoredFit taken_up = of_the_bench({&known.drag}, 4.0);
+    taken_up.far_numbers = {{bench.numbers.size() - 1, 1.0}};
+    const ScoredFit late = of_the_bench({&known.drag, &delay}, 0.0);
+    const ScoredFit slow = of_the_bench({&known.drag, &lag}, 3.0);
+    const std::vector<CandidateCause> causes = {known.drag, delay, lag};
+    EXPECT_GT(present(ranked_by(evidence, causes, {taken_up, slow}), "time_misalignment"), 0.5);
+    const auto ranked = ranked_by(evidence, causes, {taken_up, slow, late});
+    EXPECT_GT(present(ranked, "sensor_lag"), 0.7);
+    EXPECT_LT(present(ranked, "time_misalignment"), 0.3);
+}
+
 // The law of a drag that changes a channel by ten times noise and floor is good to once that.
 TEST(Evidence, AFarNumberThatOnlyCorrectsTheLawOfACauseIsNotNamed) {
     Known known;
