@@ -67,8 +67,9 @@ void add_bend(const Cable& cable, const Stretch& stretch, double angle_rad, std:
 
 }  // namespace
 
-BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
-                         std::span<const CableEnds> ends, CableArrangement arrangement) {
+BenchCables::BenchCables(std::span<const Cable> cables, std::span<const double> losses_s,
+                         std::span<const BenchEffects> effects, std::span<const CableEnds> ends,
+                         CableArrangement arrangement) {
     if (!std::all_of(cables.begin(), cables.end(), [](const Cable& cable) { return cable.is_evenly_cut(); }))
         throw InvalidInput(
             {"a bench with effects takes cables cut into equal segments; leave out node_places_m"});
@@ -105,6 +106,7 @@ BenchCables::BenchCables(std::span<const Cable> cables, std::span<const BenchEff
     for (int lane = 0; lane < bench_lanes; ++lane) {
         const std::size_t bench =
             static_cast<std::size_t>(lane) < cables.size() ? static_cast<std::size_t>(lane) : 0;
+        group_.loss_s.of[lane] = losses_s[bench];
         set_laws(lane, cables[bench], effects[bench], ends[bench]);
         set_rest(lane, cables[bench], effects[bench]);
     }

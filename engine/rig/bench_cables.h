@@ -29,10 +29,11 @@ struct CableEnds {
 class BenchCables {
   public:
     /// `cables`: one of each bench, all with the same length and as many equal segments; throws InvalidInput
-    /// where they are not equal. `ends`: of each bench. At rest under its pretension, the load end where its
-    /// tension lets it, creep at an end.
-    BenchCables(std::span<const Cable> cables, std::span<const BenchEffects> effects,
-                std::span<const CableEnds> ends, CableArrangement arrangement);
+    /// where they are not equal. `losses_s` (E72), `ends`: of each bench. At rest under its pretension, the
+    /// load end where its tension lets it, creep at an end.
+    BenchCables(std::span<const Cable> cables, std::span<const double> losses_s,
+                std::span<const BenchEffects> effects, std::span<const CableEnds> ends,
+                CableArrangement arrangement);
     BenchCables(const BenchCables&) = delete;
     BenchCables& operator=(const BenchCables&) = delete;
 

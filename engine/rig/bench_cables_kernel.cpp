@@ -29,7 +29,8 @@ HWY_INLINE Lanes slid_at_load_m(const CableLanes& cable, int last, Lanes of_neig
            of_neighbour * moved_m<Lanes>(cable, last - 1, lane);
 }
 
-// A node, and a segment, in the present guess.
+// A node, and a segment, in the present guess. Its tension follows strain + loss * rate of strain (E72,
+// implicit Euler).
 template <class Lanes>
 struct NodeGuess {
     Lanes friction, bend, bend_per_m, slid_m;
@@ -48,20 +49,26 @@ template <class Lanes, int cables>
 HWY_INLINE void guess_segments(const CablesGroup& group, const LaneCable<Lanes>& mechanics,
                                Which<Lanes> active, int segment, int lane,
                                LaneTension<Lanes> (&guess)[cables]) {
-    Lanes stretch_m[cables], last_N[cables];
+    Lanes strained_m[cables], last_N[cables];
     const Lanes settled_m = load<Lanes>(group.settled_m, lane);
     for (int c = 0; c < cables; ++c) {
         const CableLanes& cable = group.cable[c];
         const Lanes crept_m = mechanics.creeps
                                   ? load<Lanes>(cable.crept_m[segment], lane) * mechanics.creep_stays
                                   : lanes_of<Lanes>(0.0);
-        stretch_m[c] = load<Lanes>(cable.displacement_m[segment + 1], lane) -
-                       load<Lanes>(cable.displacement_m[segment], lane) - crept_m - settled_m;
+        const Lanes stretch_m = load<Lanes>(cable.displacement_m[segment + 1], lane) -
+                                load<Lanes>(cable.displacement_m[segment], lane);
+        const Lanes before_m =
+            load<Lanes>(cable.before_m[segment + 1], lane) - load<Lanes>(cable.before_m[segment], lane);
+        strained_m[c] = stretch_m - crept_m - settled_m + mechanics.loss_steps * (stretch_m - before_m);
         last_N[c] = load<Lanes>(cable.tension_N[segment], lane);
     }
-    find_tensions(mechanics, stretch_m, last_N, guess);
-    for (int c = 0; c < cables; ++c)
+    find_tensions(mechanics, strained_m, last_N, guess);
+    const Lanes per_stretch = lanes_of<Lanes>(1.0) + mechanics.loss_steps;
+    for (int c = 0; c < cables; ++c) {
+        guess[c].per_m = guess[c].per_m * per_stretch;
         store(hn::IfThenElse(active, guess[c].value_N, last_N[c]), group.cable[c].tension_N[segment], lane);
+    }
 }
 
 // A tension beyond an end node's half segment, and how it goes with that node and its neighbour.

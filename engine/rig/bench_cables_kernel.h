@@ -104,6 +104,7 @@ struct CablesGroup {
     LaneValues time_step_s;
     CableLawParameters laws;
     LaneValues stretch_m_per_N;  ///< of a segment, by its own elasticity
+    LaneValues loss_s;           ///< E72
     LaneValues settled_m;     ///< by how much longer each segment is at rest than under its pretension (E33)
     LaneValues of_neighbour;  ///< how much of its movement the half segment at the load slides by
     LaneValues dynamic_friction;

@@ -54,16 +54,11 @@ void demand_motion(const BenchInputs& inputs, bool pull_pull) {
     if (!problems.empty()) throw InvalidInput(problems);
 }
 
-std::vector<Cable> cables_of(std::span<const BenchDescription> descriptions) {
-    std::vector<Cable> cables;
-    for (const BenchDescription& each : descriptions) cables.push_back(each.cable);
-    return cables;
-}
-
-std::vector<CableEnds> ends_of(std::span<const BenchDescription> descriptions) {
-    std::vector<CableEnds> ends;
-    for (const BenchDescription& each : descriptions) ends.push_back(each.ends);
-    return ends;
+template <class Part>
+std::vector<Part> each_of(std::span<const BenchDescription> descriptions, Part BenchDescription::*part) {
+    std::vector<Part> parts;
+    for (const BenchDescription& each : descriptions) parts.push_back(each.*part);
+    return parts;
 }
 
 bool any(const LaneFlags& flags) {
@@ -76,7 +71,9 @@ BenchSimulations::BenchSimulations(std::span<const BenchDescription> description
                                    std::span<const BenchEffects> effects)
     : count_(static_cast<int>(descriptions.size())),
       effects_(effects.begin(), effects.end()),
-      cables_(cables_of(descriptions), effects, ends_of(descriptions), descriptions.front().arrangement) {
+      cables_(each_of(descriptions, &BenchDescription::cable),
+              each_of(descriptions, &BenchDescription::cable_loss_s), effects,
+              each_of(descriptions, &BenchDescription::ends), descriptions.front().arrangement) {
     for (std::size_t bench = 0; bench < descriptions.size(); ++bench) {
         const double pretension_N = descriptions[bench].cable.pretension_N();
         radii_.push_back(checked(descriptions[bench].pulleys));

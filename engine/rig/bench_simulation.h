@@ -17,6 +17,8 @@ struct BenchDescription {
     Inertia inertia{};  ///< known ones; an effect's inertia comes on top
     TorqueZeros zeros{};
     CableEnds ends{};
+    /// Losses in the cables' material (E72) [s]: tension follows strain + loss * rate of strain.
+    double cable_loss_s = 0.0;
 };
 
 struct BenchReport {

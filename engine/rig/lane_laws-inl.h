@@ -275,6 +275,7 @@ struct LaneCable : LaneLaws<Lanes, CableLaws> {
     HWY_INLINE LaneCable(const CablesGroup& group, int lane)
         : LaneLaws<Lanes, CableLaws>(group.laws, lane),
           time_step_s(load<Lanes>(group.time_step_s, lane)),
+          loss_steps(load<Lanes>(group.loss_s, lane) / time_step_s),
           dynamic_friction(load<Lanes>(group.dynamic_friction, lane)),
           varies(hn::Ne(load<Lanes>(group.varying_friction, lane), lanes_of<Lanes>(0.0))),
           creeps(group.laws.is_active<CreepLaw>()),
@@ -290,7 +291,7 @@ struct LaneCable : LaneLaws<Lanes, CableLaws> {
         elastic_N_per_m = lanes_of<Lanes>(1.0) / elastic_m_per_N;
     }
 
-    Lanes time_step_s, dynamic_friction;
+    Lanes time_step_s, loss_steps, dynamic_friction;
     Which<Lanes> varies;
     bool creeps, has_toe;  // whether any bench does; those that do not keep their values, bit for bit
     NonlinearStiffnessLaw<Lanes> toe_of_segment;  // its toe "strain" in metres

@@ -13,6 +13,7 @@ constexpr double length_m = 1.0;
 
 NominalBench bench_with(double exponent, double axial_stiffness_N, double load_radius_m) {
     NominalBench bench;
+    bench.is_equivalent = true;
     bench.curvature = {{length_m, length_m}};
     bench.motor_radius_m = motor_radius_m;
     bench.load_radius_m = load_radius_m;

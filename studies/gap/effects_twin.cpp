@@ -17,6 +17,10 @@ namespace {
 // Predictions are clamped to this size, so that a simulation that diverges only makes a bad fit.
 constexpr double max_prediction = 1e3;
 
+// A stranded cable loses 1 to 10% of what it stores (its loss factor) at the 5 to 10 Hz of a hand's fast
+// motion: 3% at 10 Hz. What gives in a drive of unknown geometry may be no cable.
+constexpr double usual_cable_loss_s = 0.5e-3;
+
 // A step takes 2 to 10 iterations. A bench that takes far more over a run has numbers that no bench has, and
 // its simulation ends there.
 constexpr int usual_iterations = 20;
@@ -47,7 +51,8 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
         .pulleys = {bench.motor_radius_m, numbers.load_radius_ratio * bench.load_radius_m},
         .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
         .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)},
-        .ends = {load_is_held, load_is_held && !run.drives(channel::motor_angle) ? 0.0 : usual_end_error_m}};
+        .ends = {load_is_held, load_is_held && !run.drives(channel::motor_angle) ? 0.0 : usual_end_error_m},
+        .cable_loss_s = bench.is_equivalent ? 0.0 : usual_cable_loss_s};
 }
 
 // Where nothing of the load but its motion is known.

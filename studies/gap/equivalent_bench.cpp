@@ -200,6 +200,7 @@ Recording as_bench(const Recording& recording, const BenchEquivalence& equivalen
         : is_band_without_motion(recording) ? bench_of_band_without_motion(recording, equivalence)
                                             : bench_of_band(recording, equivalence);
     bench.nominal_is_fitted = true;
+    bench.nominal->is_equivalent = true;
     return bench;
 }
 

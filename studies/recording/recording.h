@@ -77,6 +77,8 @@ struct NominalBench {
     double load_compliance_rad_per_Nm = 0.0;
     /// Where the motor's current was recorded instead of its torque; 0: a torque sensor.
     double torque_constant_Nm_per_A = 0.0;
+    /// It moves as a drive or band does whose geometry nobody stated.
+    bool is_equivalent = false;
 };
 
 /// The numbers of a bench's cable that a fit or a parameter file may change.

@@ -127,6 +127,39 @@ TEST(BenchSimulation, WithoutEffectsASingleCableIsTheClosedFormStep) {
     }
 }
 
+// A cable without friction is wound up at a constant speed. What its material loses, it pulls more (E72), and
+// no more once the motor stands.
+TEST(BenchSimulation, AStretchedCablePullsMoreByWhatItsMaterialLoses) {
+    CableSpecification specification;
+    specification.curvature = {{2.0, std::numeric_limits<double>::infinity()}};
+    specification.segments = 20;
+    specification.axial_stiffness_N = 4000.0;
+    specification.pretension_N = 50.0;
+    constexpr double loss_s = 0.002;
+    constexpr double speed_rad_per_s = 0.5;
+    BenchSimulation lossy({.cable = Cable(specification),
+                           .arrangement = CableArrangement::single,
+                           .pulleys = pulleys,
+                           .cable_loss_s = loss_s},
+                          {});
+    BenchSimulation elastic(
+        {.cable = Cable(specification), .arrangement = CableArrangement::single, .pulleys = pulleys}, {});
+    const double speed_m_per_s = speed_rad_per_s * pulleys.motor_radius_m;
+    const double more_N = 4000.0 / 2.0 * loss_s * speed_m_per_s;
+    double angle_rad = 0.0;
+    for (int step = 0; step < 100; ++step) {
+        angle_rad += speed_rad_per_s * time_step_s;
+        const BenchInputs inputs{MotorAngle{angle_rad}, LoadAngle{0.0}, time_step_s, 0.0};
+        lossy.advance(inputs);
+        elastic.advance(inputs);
+        EXPECT_NEAR(lossy.motor_torque_Nm() - elastic.motor_torque_Nm(), pulleys.motor_radius_m * more_N,
+                    1e-6)
+            << step;
+    }
+    lossy.advance({MotorAngle{angle_rad}, LoadAngle{0.0}, time_step_s, 0.0});
+    EXPECT_NEAR(lossy.motor_torque_Nm(), elastic.motor_torque_Nm(), 1e-9);
+}
+
 // The load is held and the motor pulls to and fro, ever less. A cable slides up to an end that does not move,
 // so that a coarse cut gives the torque of the closed form.
 TEST(BenchSimulation, SlidesUpToALoadThatIsHeld) {
