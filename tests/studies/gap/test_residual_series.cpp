@@ -171,7 +171,7 @@ TEST(ResidualSeries, TheFloorOfATensionGoesWithWhatTheMotionWouldBringToItsPlace
         const double turned_rad = wrap_between_rad(bench.curvature, 0.0, sensor.position_m);
         const double brought_N =
             0.5 * motor_change_N(recording) * std::exp(-bench.dynamic_friction * turned_rad);
-        EXPECT_NEAR(floor_of_constant(recording, sensor.channel), 0.012 * brought_N, 1e-6 * brought_N);
+        EXPECT_NEAR(floor_of_constant(recording, sensor.channel), 0.007 * brought_N, 1e-6 * brought_N);
     }
     EXPECT_FALSE(recording.tension_sensors.empty());
 }
