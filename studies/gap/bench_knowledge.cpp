@@ -47,12 +47,17 @@ std::vector<FloatingNumber> ratios(const NominalSpread& of_values, const Nominal
                &BenchNumbers::pretension_ratio)};
 }
 
-// Half of what a channel covers over all runs.
+// Half of what a channel covers over all runs; of a force or torque from no load on, for that is what its
+// sensor is made for and what a bearing carries, however little a load varies. Nobody knows what the sensors
+// of a drive without a description are made for.
 double half_span(const Recording& recording, std::size_t channel) {
-    return 0.5 * range_of(recording, channel).span();
+    const ValueRange range = range_of(recording, channel);
+    if (recording.channels[channel].unit == "rad" || recording.nominal->is_equivalent)
+        return 0.5 * range.span();
+    return 0.5 * (std::max(range.high, 0.0) - std::min(range.low, 0.0));
 }
 
-// A sensor's zero as a part of its span, bearings' friction as a part of the torque at their end.
+// A sensor's zero as a part of that, bearings' friction as a part of the torque at their end.
 void add_zeros_and_bearings(const Recording& recording, double zero_part, double bearing_part,
                             BenchKnowledge& bench) {
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {

@@ -86,6 +86,24 @@ Recording tension_session(double exponent) {
     return recording;
 }
 
+// A load cell is made for the whole load that it carries, and so is its zero.
+TEST(PartialDrive, TheZeroOfALoadCellGoesWithItsLoadHoweverLittleThatVaries) {
+    const auto zero_of_a_cable_under = [](double tension_N) {
+        Recording recording = tension_session(0.3);
+        for (double& each_N : recording.runs.front().values[1]) each_N += tension_N - 10.0;
+        NominalBench bench;
+        bench.curvature = {{1.0, 0.5}};
+        recording.nominal = bench;
+        for (const FloatingNumber& number : built_bench(recording).numbers) {
+            if (number.name == "zero of tension_2") return number.prior_std * number.scale;
+        }
+        return 0.0;
+    };
+    const double usual_N = zero_of_a_cable_under(10.0);
+    EXPECT_GT(usual_N, 0.0);
+    EXPECT_NEAR(zero_of_a_cable_under(1000.0) / usual_N, 1000.0 / 13.0, 15.0);
+}
+
 // What the fitted bench leaves of a channel: rms over its span.
 double left_fraction(const Recording& bench, const std::string& name) {
     const BenchKnowledge knowledge = undescribed_bench(bench);
