@@ -17,7 +17,7 @@ namespace {
 // Predictions are clamped to this size, so that a simulation that diverges only makes a bad fit.
 constexpr double max_prediction = 1e3;
 
-// A stranded cable loses 1 to 10% of what it stores (its loss factor) at the 5 to 10 Hz of a hand's fast
+// E72. A stranded cable loses 1 to 10% of what it stores (its loss factor) at the 5 to 10 Hz of a hand's fast
 // motion: 3% at 10 Hz. What gives in a drive of unknown geometry may be no cable.
 constexpr double usual_cable_loss_s = 0.5e-3;
 

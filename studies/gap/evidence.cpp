@@ -253,7 +253,7 @@ std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& ef
 }
 
 // Whether a delay among the numbers of the bench, where a small one needs no cause, is so long that it is
-// one, and was fitted as one: that explains the same, and pays for a cause.
+// one, and was fitted as one: that explains the same, with the penalty of a cause.
 bool has_a_delay_that_is_a_cause(const ScoredFit& fit, const std::vector<ScoredFit>& fits) {
     const auto is_one = [&](const ScoredFit::FarNumber& far) {
         const FloatingNumber& number = fit.fit.bench->numbers[far.number];

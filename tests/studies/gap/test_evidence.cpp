@@ -330,8 +330,7 @@ TEST(Evidence, AFarNumberIsPresentAsProbablyAsItIsFar) {
 }
 
 // A bench's own number took up a delay far beyond what is usual of a force sensor, which needs no cause. It
-// explains the same as that delay as a cause, which the same residuals show at a higher price, and less than
-// a lag.
+// explains the same as that delay as a cause, which has a larger penalty, and is less probable than a lag.
 TEST(Evidence, ADelayThatIsFarBeyondTheUsualIsWeighedAsTheCauseThatItIs) {
     const Known known;
     CandidateCause delay = known.gain;
