@@ -384,6 +384,48 @@ CauseFit CauseFitter::rough_fit(std::span<const Hypothesis> starts, const Series
     return *least;
 }
 
+std::optional<CauseFit> CauseFitter::rough_fit_from_held_sizes(const Hypothesis& start,
+                                                               const SeriesWeights& weights) const {
+    constexpr double sizes[] = {0.2, 0.6, 2.0, 6.0};
+    constexpr int few_iterations = 4;
+    const std::vector<OpenNumber>& numbers = start.causes.back()->numbers;
+    const auto own = static_cast<Eigen::Index>(numbers.size());
+    const Eigen::Index others = start.coordinates.size() - own;
+    LeastSquaresOptions search = search_from(start);
+    search.lower_bounds = Eigen::VectorXd(search.lower_bounds.head(others));
+    search.difference_step = rough_step;
+    search.max_iterations = few_iterations;
+    std::optional<Hypothesis> best;
+    double least = std::numeric_limits<double>::infinity();
+    int evaluations = 0;
+    for (const double size : sizes) {
+        Hypothesis held = start;
+        for (Eigen::Index k = 0; k < own; ++k) {
+            double& coordinate = held.coordinates[others + k];
+            if (numbers[static_cast<std::size_t>(k)].is_size() && coordinate != 0.0)
+                coordinate = std::copysign(size, coordinate);
+        }
+        if (held.coordinates == start.coordinates) continue;
+        const ResidualFunction of_all = weighted(held, weights, {});
+        const auto of_others = [&](const Eigen::MatrixXd& coordinates) {
+            Eigen::MatrixXd all = held.coordinates.replicate(1, coordinates.cols());
+            all.topRows(others) = coordinates;
+            return of_all(all);
+        };
+        const Eigen::VectorXd from = held.coordinates.head(others);
+        const LeastSquaresFit found = fit_least_squares(of_others, from, search);
+        evaluations += found.evaluations;
+        if (found.sum_of_squares >= least) continue;
+        least = found.sum_of_squares;
+        held.coordinates.head(others) = found.parameters;
+        best = std::move(held);
+    }
+    if (!best) return std::nullopt;
+    CauseFit fit = rough_fit({&*best, 1}, weights);
+    fit.evaluations += evaluations;
+    return fit;
+}
+
 LeastSquaresOptions CauseFitter::search_from(const Hypothesis& start) const {
     LeastSquaresOptions search;
     search.differences = Differences::forward;

@@ -173,6 +173,11 @@ class CauseFitter {
     /// derivatives are `known` begins with these.
     CauseFit rough_fit(std::span<const Hypothesis> starts, const SeriesWeights& weights,
                        const WideDerivatives& known = {}) const;
+    /// The same from the best of several sizes of the last cause. Each is held while a few rough steps move
+    /// the other numbers: where these have followed what the cause does, every size of it looks worse than
+    /// none. Nothing if the cause has no size.
+    std::optional<CauseFit> rough_fit_from_held_sizes(const Hypothesis& start,
+                                                      const SeriesWeights& weights) const;
     /// Takes a simulation more than the hypothesis has coordinates.
     WideDerivatives wide_derivatives(const Hypothesis& at) const;
     /// Residuals of the data, a column a hypothesis.

@@ -540,9 +540,11 @@ double CauseSearch::behind_the_best(double sum_of_squares, const SeriesWeights& 
 }
 
 // A few steps of a search for each, also with these numbers of the bench without other causes; the most
-// promising first.
+// promising first. First causes of a drive also begin at sizes that are held.
 void CauseSearch::fit_roughly(std::vector<Further>& all, const SeriesWeights& weights,
                               std::span<const Eigen::VectorXd> elsewhere, const WideDerivatives& known) {
+    const bool holds_sizes = recording_.is_undescribed_drive() && !elsewhere.empty() &&
+                             rough_model().left_without_cause > as_good_as_noise;
     parallel_for_each_index(static_cast<int>(all.size()), options_.threads, [&](int index) {
         Further& further = all[static_cast<std::size_t>(index)];
         further.sum_of_squares = std::numeric_limits<double>::infinity();
@@ -552,7 +554,13 @@ void CauseSearch::fit_roughly(std::vector<Further>& all, const SeriesWeights& we
         for (const Eigen::VectorXd& numbers : elsewhere)
             starts.push_back(with_cause({{}, numbers, further.start.bench}, further.cause,
                                         further.start.coordinates.tail(own)));
-        const CauseFit rough = roughly_fitted(starts, weights, known);
+        CauseFit rough = roughly_fitted(starts, weights, known);
+        if (holds_sizes) {
+            std::optional<CauseFit> held =
+                rough_model().fitter.rough_fit_from_held_sizes(starts.front(), weights);
+            if (held) evaluations_ += held->evaluations;
+            if (held && held->sum_of_squares < rough.sum_of_squares) rough = *std::move(held);
+        }
         further.start = rough.hypothesis();
         further.sum_of_squares = rough.sum_of_squares;
     });
