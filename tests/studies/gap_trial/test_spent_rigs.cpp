@@ -4,9 +4,11 @@
 // more.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 
+#include "capstan/gap/cause_fit.h"
 #include "capstan/gap/diagnosis.h"
 #include "capstan/gap/equivalent_bench.h"
 #include "capstan/gap_trial/trial_case.h"
@@ -17,7 +19,7 @@
 namespace capstan::gap_trial {
 namespace {
 
-gap::Diagnosis diagnosed(std::uint64_t seed, int number, int cases = 40) {
+Recording recorded_rig(std::uint64_t seed, int number, int cases) {
     TrialOptions options;
     options.seed = seed;
     options.cases = cases;
@@ -25,7 +27,11 @@ gap::Diagnosis diagnosed(std::uint64_t seed, int number, int cases = 40) {
     const ScratchFolder folder;
     const CaseLabel label = make_rig_case(planned, options, folder.path());
     const Recording rig = read_recording(folder.path() / (label.name + ".csv"));
-    return gap::diagnose(gap::equivalent_bench(rig, rig), {});
+    return gap::equivalent_bench(rig, rig);
+}
+
+gap::Diagnosis diagnosed(std::uint64_t seed, int number, int cases = 40) {
+    return gap::diagnose(recorded_rig(seed, number, cases), {});
 }
 
 gap::Diagnosis diagnosed_short(std::uint64_t seed, int number, int cases = 120) {
@@ -68,6 +74,34 @@ TEST(SlowSpentRigs, LargeLostMotionIsNamedBesideAStiffeningCable) {
     EXPECT_GT(present(diagnosis, "backlash"), gap::nearly_certain);
     EXPECT_GT(present(diagnosis, "cable_stiffness_nonlinear"), gap::nearly_certain);
     EXPECT_LT(diagnosis.misfit_after, 1.0);
+}
+
+// The numbers of this drive make up for half of its lost motion at the motor, and beside them a search sets
+// it to nothing.
+TEST(SpentRigs, HeldSizesLeadToALostMotionThatLooksWorseThanNone) {
+    const Recording recording = recorded_rig(394101, 2, 24);
+    const gap::CauseFitter fitter(recording, {.segments = 9, .stride = 1}, 2);
+    const gap::BenchKnowledge bench = gap::undescribed_bench(recording);
+    gap::Hypothesis slack = gap::nominal_hypothesis(bench);
+    slack.coordinates[2] = -1.0;  // the pretension
+    gap::CauseFitter::FitOptions options;
+    options.any_size = false;
+    options.balanced = true;
+    const gap::CauseFit without = fitter.fit(slack, options);
+    Eigen::VectorXd left = without.residuals;
+    fitter.apply(without.weights, left);
+
+    const std::vector<gap::CandidateCause> causes = gap::candidate_causes(recording);
+    const auto backlash = std::find_if(causes.begin(), causes.end(), [](const gap::CandidateCause& cause) {
+        return cause.effect == "backlash" && cause.variant == "motor";
+    });
+    ASSERT_NE(backlash, causes.end());
+    const gap::Hypothesis start =
+        gap::with_cause(without.hypothesis(), &*backlash, Eigen::VectorXd::Constant(1, 0.5));
+    EXPECT_GT(fitter.rough_fit({&start, 1}, without.weights).sum_of_squares, 0.9 * left.squaredNorm());
+    const auto held = fitter.rough_fit_from_held_sizes(start, without.weights);
+    ASSERT_TRUE(held);
+    EXPECT_LT(held->sum_of_squares, 0.7 * left.squaredNorm());
 }
 
 // Without what follows the bending of the drive, the zero of its load torque makes up for it.
