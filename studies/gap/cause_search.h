@@ -180,6 +180,7 @@ class CauseSearch {
     void add_confusable(const Level& level, const CandidateCause& confused,
                         const std::vector<Further>& screened, Fits& fits);
     void try_confusable(const Level& level, Fits& all);
+    bool try_crossing(const Level& level, Fits& all);
     static double pruned_at(const Fits& fits);
     bool only_corrects_the_model(const ScoredFit& single, const Fits& singles) const;
     Fits larger_sets(const Level& level, const Fits& smaller);

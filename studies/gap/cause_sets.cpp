@@ -136,6 +136,47 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         try_delays_of_the_bench(level, all);
     }
     try_confusable(level, all);
+    if (try_crossing(level, all)) try_fewer(level, all);
+}
+
+// Each cause of the best set beside the causes of its rivals, which were not extended: one of them may hold
+// what another cause of the best set stands for. Whether one is better.
+bool CauseSearch::try_crossing(const Level& level, Fits& all) {
+    constexpr std::size_t max_sets = 6;
+    const ScoredFit best = all.front();
+    if (best.fit.bench != &level.bench || best.fit.causes.size() < 2) return false;
+    std::vector<Hypothesis> sets;
+    for (const ScoredFit& rival : all) {
+        const Hypothesis set = rival.fit.hypothesis();
+        if (rival.evidence < best.evidence - far_behind * sharpness()) break;
+        if (set.bench != best.fit.bench || set.causes.front()->effect == "none" ||
+            set.causes.size() >= max_causes)
+            continue;
+        Eigen::Index first = level.bench.size();
+        for (const CandidateCause* cause : best.fit.causes) {
+            const auto count = static_cast<Eigen::Index>(cause->numbers.size());
+            const Hypothesis crossed = with_cause(set, cause, best.fit.coordinates.segment(first, count));
+            first += count;
+            const auto excludes_it = [&](const CandidateCause* other) {
+                return other->effect == cause->effect ||
+                       is_slowness_of_one_sensor(cause->effect, cause->variant, *other);
+            };
+            const auto is_known = [&](const auto& other) {
+                return other.bench == set.bench && are_same_causes(other.causes, crossed.causes);
+            };
+            if (std::any_of(set.causes.begin(), set.causes.end(), excludes_it) ||
+                std::any_of(sets.begin(), sets.end(), is_known) ||
+                std::any_of(all.begin(), all.end(),
+                            [&](const ScoredFit& other) { return is_known(other.fit); }))
+                continue;
+            if (sets.size() < max_sets) sets.push_back(crossed);
+        }
+    }
+    if (sets.empty() || is_out_of_time()) return false;
+    report("fitting " + in_words(sets.front().causes));
+    add_fits(level, sets, false, all);
+    sort(level, all);
+    return all.front().evidence > best.evidence;
 }
 
 // Others in the place of a single cause, from where it led the bench's own numbers: where these float widely,
