@@ -178,6 +178,20 @@ double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, std::size
     return std::sqrt(most);
 }
 
+// E70 where no more than noise and floor is left, although the scale of the channels' errors is not known.
+double penalty_within_unknown_scales(const ScoredFit& fit, const std::vector<ScoredFit>& fits) {
+    double penalty = 0.0;
+    for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
+        if (fit.fit.causes[k]->effect == "none" || fit.fit.causes[k]->is_seen) continue;
+        double least_left = std::numeric_limits<double>::infinity();
+        for (const ScoredFit* other : fits_without(fit, k, fits))
+            least_left = std::min(least_left, other->misfit);
+        const double closed = std::sqrt(std::max(0.0, least_left - fit.misfit));
+        penalty += invisible_penalty_beside_floating_numbers * std::max(0.0, 1.0 - closed / floor_error);
+    }
+    return penalty;
+}
+
 // Whether a fit has numbers that are not tenable, and that do not only correct the model or a law (E68).
 bool has_far_numbers(const ScoredFit& fit) {
     if (fit.nominal_penalty <= tenable_nominal_penalty) return false;
@@ -310,6 +324,7 @@ double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
 }
 
 double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const {
+    if (fit.has_unknown_scales) return fit.misfit < 1.0 ? penalty_within_unknown_scales(fit, fits) : 0.0;
     if (!fit.of_blocks) return 0.0;
     const std::vector<const CandidateCause*>& causes = fit.fit.causes;
     const bool is_measured = fit.fit.bench->is_measured();

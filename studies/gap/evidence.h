@@ -136,8 +136,8 @@ class Evidence {
     /// The penalty of a set for causes that only correct the model, however visible they are beside numbers
     /// that make up for them: without such a cause the others, fitted again, leave less than the model's own
     /// error more (rms), which is a quarter of noise and floor and a tenth of what the clearest of them does.
-    /// `fits` tell what smaller sets leave; 0 where they do not, and where the scale of the channels' errors
-    /// is not known (E54).
+    /// `fits` tell what smaller sets leave; 0 where they do not. Where the scale of the channels' errors is
+    /// not known (E54), it is 0 as long as more than noise and floor is left.
     double penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const;
     /// The evidence of a fit's causes together with one outside the list.
     double with_unknown(const ScoredFit& fit) const;

@@ -507,6 +507,25 @@ TEST(Evidence, BesideFloatingNumbersACauseFollowsHalfOfTheFloorAtMost) {
     EXPECT_NEAR(charge(0.0), 80.0, 1e-9);
 }
 
+// A drive's errors have no known scale, but where no more than noise and floor is left, what closes less than
+// the floor is known to is the model's.
+TEST(Evidence, OfAnUnknownScaleACauseThatClosesLessThanTheFloorIsKnownToIsCharged) {
+    const Known known;
+    const auto with_unknown_scales = [](ScoredFit fit) {
+        fit.has_unknown_scales = true;
+        return fit;
+    };
+    const auto charge = [&](double without, double with) {
+        const ScoredFit nothing = with_unknown_scales(fitted(evidence, {&known.none}, without, {0.0}));
+        const ScoredFit drag = with_unknown_scales(fitted(evidence, {&known.drag}, with, {1.0}));
+        return evidence.penalty_of_corrections(drag, {nothing});
+    };
+    EXPECT_NEAR(charge(0.5, 0.5 - 0.25 * 0.25), 0.0, 1e-9);
+    EXPECT_NEAR(charge(0.5, 0.5 - 0.125 * 0.125), 4.0, 1e-9);
+    EXPECT_NEAR(charge(0.5, 0.5), 8.0, 1e-9);
+    EXPECT_EQ(charge(5.0, 5.0), 0.0) << "the model's error exceeds the floor, and may be anything";
+}
+
 // What a strong cause leaves because its law is an idealisation is no second cause. A sensor's gain has no
 // such law, and a law that stands for an effect outside the list is only good to a half.
 TEST(Evidence, ACauseThatOnlyCorrectsTheLawOfAnotherIsCharged) {
