@@ -542,12 +542,16 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
         elsewhere = further_starts(level.bench);
         elsewhere.push_back(nominal_hypothesis(level.bench).coordinates);
     }
-    if (is_undescribed(level.bench)) {
+    // A drive's first causes move its numbers far, so that derivatives without them lead nowhere.
+    const bool begins_there =
+        !is_undescribed(level.bench) || (recording_.is_undescribed_drive() && !present.causes.empty());
+    if (!begins_there) {
         fit_roughly(all, weights, elsewhere);
         return all;
     }
     const WideDerivatives there = rough_model().fitter.wide_derivatives(present);
     fit_roughly(all, weights, elsewhere, there);
+    if (is_undescribed(level.bench)) return all;
     mark_those_behind(present, weights, there, all);
     return all;
 }
