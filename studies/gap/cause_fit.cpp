@@ -386,7 +386,7 @@ CauseFit CauseFitter::rough_fit(std::span<const Hypothesis> starts, const Series
 
 std::optional<CauseFit> CauseFitter::rough_fit_from_held_sizes(const Hypothesis& start,
                                                                const SeriesWeights& weights) const {
-    constexpr double sizes[] = {0.2, 0.6, 2.0, 6.0};
+    constexpr double sizes[] = {0.2, 0.6, 2.0, 6.0};  // of a typical one
     constexpr int few_iterations = 4;
     const std::vector<OpenNumber>& numbers = start.causes.back()->numbers;
     const auto own = static_cast<Eigen::Index>(numbers.size());
@@ -396,7 +396,7 @@ std::optional<CauseFit> CauseFitter::rough_fit_from_held_sizes(const Hypothesis&
     search.difference_step = rough_step;
     search.max_iterations = few_iterations;
     std::optional<Hypothesis> best;
-    double least = std::numeric_limits<double>::infinity();
+    double min_sum_of_squares = std::numeric_limits<double>::infinity();
     int evaluations = 0;
     for (const double size : sizes) {
         Hypothesis held = start;
@@ -415,8 +415,8 @@ std::optional<CauseFit> CauseFitter::rough_fit_from_held_sizes(const Hypothesis&
         const Eigen::VectorXd from = held.coordinates.head(others);
         const LeastSquaresFit found = fit_least_squares(of_others, from, search);
         evaluations += found.evaluations;
-        if (found.sum_of_squares >= least) continue;
-        least = found.sum_of_squares;
+        if (found.sum_of_squares >= min_sum_of_squares) continue;
+        min_sum_of_squares = found.sum_of_squares;
         held.coordinates.head(others) = found.parameters;
         best = std::move(held);
     }

@@ -152,11 +152,11 @@ bool CauseSearch::try_crossing(const Level& level, Fits& all) {
         if (set.bench != best.fit.bench || set.causes.front()->effect == "none" ||
             set.causes.size() >= max_causes)
             continue;
-        Eigen::Index first = level.bench.size();
+        Eigen::Index next = level.bench.size();
         for (const CandidateCause* cause : best.fit.causes) {
             const auto count = static_cast<Eigen::Index>(cause->numbers.size());
-            const Hypothesis crossed = with_cause(set, cause, best.fit.coordinates.segment(first, count));
-            first += count;
+            const Hypothesis crossed = with_cause(set, cause, best.fit.coordinates.segment(next, count));
+            next += count;
             const auto excludes_it = [&](const CandidateCause* other) {
                 return other->effect == cause->effect ||
                        is_slowness_of_one_sensor(cause->effect, cause->variant, *other);
@@ -543,9 +543,9 @@ std::vector<CauseSearch::Further> CauseSearch::screened(const Level& level,
         elsewhere.push_back(nominal_hypothesis(level.bench).coordinates);
     }
     // A drive's first causes move its numbers far, so that derivatives without them lead nowhere.
-    const bool begins_there =
+    const bool begins_with_derivatives =
         !is_undescribed(level.bench) || (recording_.is_undescribed_drive() && !present.causes.empty());
-    if (!begins_there) {
+    if (!begins_with_derivatives) {
         fit_roughly(all, weights, elsewhere);
         return all;
     }

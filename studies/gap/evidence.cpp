@@ -178,15 +178,15 @@ double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, std::size
     return std::sqrt(most);
 }
 
-// E70 where no more than noise and floor is left, although the scale of the channels' errors is not known.
+// E70 where the scale of the channels' errors is not known.
 double penalty_within_unknown_scales(const ScoredFit& fit, const std::vector<ScoredFit>& fits) {
     double penalty = 0.0;
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
         if (fit.fit.causes[k]->effect == "none" || fit.fit.causes[k]->is_seen) continue;
-        double least_left = std::numeric_limits<double>::infinity();
+        double min_left = std::numeric_limits<double>::infinity();
         for (const ScoredFit* other : fits_without(fit, k, fits))
-            least_left = std::min(least_left, other->misfit);
-        const double closed = std::sqrt(std::max(0.0, least_left - fit.misfit));
+            min_left = std::min(min_left, other->misfit);
+        const double closed = std::sqrt(std::max(0.0, min_left - fit.misfit));
         penalty += invisible_penalty_beside_floating_numbers * std::max(0.0, 1.0 - closed / floor_error);
     }
     return penalty;
@@ -295,6 +295,11 @@ double ScoredFit::probability_of(const FarNumber& far, double left_unexplained) 
     return odds / (1.0 + odds);
 }
 
+bool ScoredFit::may_follow_model_error() const {
+    constexpr double noise_and_floor = 1.0;
+    return of_blocks.has_value() || (has_unknown_scales && misfit < noise_and_floor);
+}
+
 void ScoredFit::widen_stated_numbers(const Eigen::Vector3d& deviations) {
     if (fit.bench->is_measured() || (error_of_laws(*this) == 0.0 && !of_blocks)) return;
     const Eigen::Vector3d own = fit.nominal_covariance.diagonal().cwiseSqrt();
@@ -324,8 +329,8 @@ double Evidence::log_likelihood(const ScoredFit& fit, double misfit) const {
 }
 
 double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const {
-    if (fit.has_unknown_scales) return fit.misfit < 1.0 ? penalty_within_unknown_scales(fit, fits) : 0.0;
-    if (!fit.of_blocks) return 0.0;
+    if (!fit.may_follow_model_error()) return 0.0;
+    if (fit.has_unknown_scales) return penalty_within_unknown_scales(fit, fits);
     const std::vector<const CandidateCause*>& causes = fit.fit.causes;
     const bool is_measured = fit.fit.bench->is_measured();
     const double most = is_measured ? within_floor_penalty : within_floor_penalty_beside_floating_numbers;

@@ -85,6 +85,9 @@ struct ScoredFit {
     std::map<std::string, double> of_the_bench(double left_unexplained = 0.0) const;
     double evidence = 0.0;  ///< logarithm, up to a constant
 
+    /// Whether its causes may follow the model's own error (E70): the means of blocks are weighed, or no more
+    /// than noise and floor is left where the scale of the channels' errors is not known.
+    bool may_follow_model_error() const;
     /// Weighs the stated numbers again (E63) where these standard deviations of their logarithms are wider
     /// than those of the fit. Beside a law that is an idealisation, and where the means of blocks are weighed
     /// (E69), a fit is too sure of them.
@@ -137,7 +140,7 @@ class Evidence {
     /// that make up for them: without such a cause the others, fitted again, leave less than the model's own
     /// error more (rms), which is a quarter of noise and floor and a tenth of what the clearest of them does.
     /// `fits` tell what smaller sets leave; 0 where they do not. Where the scale of the channels' errors is
-    /// not known (E54), it is 0 as long as more than noise and floor is left.
+    /// not known (E54), it is 0 if more than noise and floor is left.
     double penalty_of_corrections(const ScoredFit& fit, const std::vector<ScoredFit>& fits) const;
     /// The evidence of a fit's causes together with one outside the list.
     double with_unknown(const ScoredFit& fit) const;

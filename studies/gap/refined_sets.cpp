@@ -64,8 +64,7 @@ std::vector<Hypothesis> smaller_sets_not_fitted(const std::vector<ScoredFit>& fi
     std::vector<Hypothesis> missing;
     for (const ScoredFit& each : fits) {
         if (each.evidence < fits.front().evidence - behind) break;
-        const bool counts = each.of_blocks || (each.has_unknown_scales && each.misfit < 1.0);
-        if (!counts || each.fit.causes.size() < 2) continue;
+        if (!each.may_follow_model_error() || each.fit.causes.size() < 2) continue;
         for (Hypothesis& set : without_each(each.fit.hypothesis())) {
             const auto is_same = [&](const auto& other) {
                 return other.bench == set.bench && are_same_causes(other.causes, set.causes);
