@@ -41,9 +41,17 @@ double BenchPulleys::load_inertia_kg_m2(const BenchInputs& inputs) const {
     return load_is_free(inputs) ? std::max(min_kg_m2, sum_kg_m2) : sum_kg_m2;
 }
 
+// The acceleration of an angle that is given may be known; that of a free pulley is the backward difference.
+Torque BenchPulleys::inertia_torque(const Pulley& pulley, double inertia_kg_m2, double angle_rad,
+                                    double time_step_s, const std::optional<double>& known_rad_per_s2) {
+    if (known_rad_per_s2) return {inertia_kg_m2 * *known_rad_per_s2, 0.0};
+    return Inertia::torque(inertia_kg_m2, (angle_rad - pulley.angle_rad) / time_step_s,
+                           pulley.speed_rad_per_s, time_step_s);
+}
+
 // The torque lost to a pulley's friction and inertia at this angle (E27, E35).
 PulleyTorque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const BearingFriction& friction,
-                                  double inertia_kg_m2, double angle_rad, double pull_Nm,
+                                  const Torque& of_inertia, double angle_rad, double pull_Nm,
                                   double time_step_s) {
     const double turned_rad = angle_rad - pulley.angle_rad;
     const double speed = turned_rad / time_step_s;
@@ -51,8 +59,7 @@ PulleyTorque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const B
                                      ? friction.bristle_after(pulley.bristle, turned_rad)
                                      : BearingFriction::sign_of(speed, time_step_s);
     const Torque rubbing = friction.torque(sign, speed, time_step_s);
-    const Torque inertia = Inertia::torque(inertia_kg_m2, speed, pulley.speed_rad_per_s, time_step_s);
-    PulleyTorque lost = {rubbing.value_Nm + inertia.value_Nm, rubbing.per_rad + inertia.per_rad, 0.0};
+    PulleyTorque lost = {rubbing.value_Nm + of_inertia.value_Nm, rubbing.per_rad + of_inertia.per_rad, 0.0};
     if (friction.per_torque > 0.0) {
         const double coulomb_Nm = friction.per_torque * std::abs(pull_Nm);
         lost.value_Nm += coulomb_Nm * sign.bend;
@@ -68,10 +75,17 @@ BenchPulleys::Bearing BenchPulleys::bearing_of(bool free, const BearingFriction&
     return free || friction.presliding_rad > 0.0 ? Bearing::finds_its_angle : Bearing::is_turned;
 }
 
+PulleyTorque BenchPulleys::motor_losses(const BenchInputs& inputs, double angle_rad, double pull_Nm) const {
+    const bool is_free = motor_is_free(inputs);
+    const BearingFriction& friction = effects_.of<PulleyFriction>().motor;
+    return losses(motor_, bearing_of(is_free, friction), friction,
+                  inertia_torque(motor_, known_.motor_kg_m2, angle_rad, inputs.time_step_s,
+                                 is_free ? std::nullopt : inputs.motor_rad_per_s2),
+                  angle_rad, pull_Nm, inputs.time_step_s);
+}
+
 PulleyTorque BenchPulleys::motor_balance(const BenchInputs& inputs, double angle_rad, double pull_Nm) const {
-    const PulleyTorque lost = losses(
-        motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
-        effects_.of<PulleyFriction>().motor, known_.motor_kg_m2, angle_rad, pull_Nm, inputs.time_step_s);
+    const PulleyTorque lost = motor_losses(inputs, angle_rad, pull_Nm);
     const Torque swing = swing_torque(inputs, angle_rad);
     const Torque cogging = effects_.of<MotorCogging>().torque(angle_rad);
     const Torque spring = effects_.of<PositionTorque>().torque(angle_rad);
@@ -108,11 +122,14 @@ Torque BenchPulleys::held_by(const BenchInputs& inputs, double angle_rad) const 
 }
 
 PulleyTorque BenchPulleys::load_balance(const BenchInputs& inputs, double angle_rad, double pull_Nm) const {
+    const bool is_free = load_is_free(inputs);
+    const BearingFriction& friction = effects_.of<PulleyFriction>().load;
     const PulleyTorque lost =
-        losses(load_, bearing_of(load_is_free(inputs), effects_.of<PulleyFriction>().load),
-               effects_.of<PulleyFriction>().load, load_inertia_kg_m2(inputs), angle_rad, pull_Nm,
-               inputs.time_step_s);
-    const Torque taken = load_is_free(inputs) ? held_by(inputs, angle_rad) : Torque{};
+        losses(load_, bearing_of(is_free, friction), friction,
+               inertia_torque(load_, load_inertia_kg_m2(inputs), angle_rad, inputs.time_step_s,
+                              is_free ? std::nullopt : inputs.load_rad_per_s2),
+               angle_rad, pull_Nm, inputs.time_step_s);
+    const Torque taken = is_free ? held_by(inputs, angle_rad) : Torque{};
     return {pull_Nm + (-lost.value_Nm - taken.value_Nm), -lost.per_rad - taken.per_rad, 1.0 - lost.per_pull};
 }
 
@@ -133,7 +150,8 @@ Torque BenchPulleys::swing_torque(const BenchInputs& inputs, double angle_rad) c
     const double h = inputs.time_step_s;
     if (!motor_is_free(inputs)) {
         const double speed = (angle_rad - motor_.angle_rad) / h;
-        const Torque torque = Inertia::torque(unmodelled.motor_kg_m2, speed, motor_.speed_rad_per_s, h);
+        const Torque torque =
+            inertia_torque(motor_, unmodelled.motor_kg_m2, angle_rad, h, inputs.motor_rad_per_s2);
         return {torque.value_Nm + damping_Nm_s * speed, torque.per_rad + damping_Nm_s / h};
     }
     const Swing swing = swung(motor_, angle_rad, h);
@@ -167,15 +185,10 @@ void BenchPulleys::settle(const BenchInputs& inputs, const PulleyAngles& angles,
     } else {
         const double pull_Nm = pulleys_.motor_radius_m *
                                effects_.of<EccentricPulley>().radius_ratio(angles.motor_rad) * motor_pull_N;
-        motor_.torque_Nm =
-            pull_Nm +
-            losses(motor_, bearing_of(motor_is_free(inputs), effects_.of<PulleyFriction>().motor),
-                   effects_.of<PulleyFriction>().motor, known_.motor_kg_m2, angles.motor_rad, pull_Nm,
-                   inputs.time_step_s)
-                .value_Nm +
-            swing_torque(inputs, angles.motor_rad).value_Nm +
-            effects_.of<MotorCogging>().torque(angles.motor_rad).value_Nm +
-            effects_.of<PositionTorque>().torque(angles.motor_rad).value_Nm;
+        motor_.torque_Nm = pull_Nm + motor_losses(inputs, angles.motor_rad, pull_Nm).value_Nm +
+                           swing_torque(inputs, angles.motor_rad).value_Nm +
+                           effects_.of<MotorCogging>().torque(angles.motor_rad).value_Nm +
+                           effects_.of<PositionTorque>().torque(angles.motor_rad).value_Nm;
         motor_.encoder_rad = std::get<MotorAngle>(inputs.motor).angle_rad;
     }
     const auto* held = std::get_if<LoadAngle>(&inputs.load);

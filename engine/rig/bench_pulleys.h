@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "capstan/effects/bench_effects.h"
 #include "capstan/solver/pull_pull.h"
 
@@ -12,6 +14,10 @@ struct BenchInputs {
     LoadInput load;
     double time_step_s = 0.0;
     double session_time_s = 0.0;  ///< since the session began: what drifts goes on from run to run
+    /// Of an angle that is given, where it is known. Otherwise it is the change of the speed since the step
+    /// before, which is late by a step.
+    std::optional<double> motor_rad_per_s2{};
+    std::optional<double> load_rad_per_s2{};
 };
 
 /// What is read of a torque that is 0. A prescribed torque is a reading: what acts is the reading less this.
@@ -88,7 +94,11 @@ class BenchPulleys {
     enum class Bearing { finds_its_angle, is_turned };
     static Bearing bearing_of(bool free, const BearingFriction& friction);
     static PulleyTorque losses(const Pulley& pulley, Bearing bearing, const BearingFriction& friction,
-                               double inertia_kg_m2, double angle_rad, double pull_Nm, double time_step_s);
+                               const Torque& of_inertia, double angle_rad, double pull_Nm,
+                               double time_step_s);
+    static Torque inertia_torque(const Pulley& pulley, double inertia_kg_m2, double angle_rad,
+                                 double time_step_s, const std::optional<double>& known_rad_per_s2);
+    PulleyTorque motor_losses(const BenchInputs& inputs, double angle_rad, double pull_Nm) const;
     static void turn(Pulley& pulley, const BearingFriction& friction, double angle_rad, double time_step_s);
     static Swing swung(const Pulley& pulley, double angle_rad, double time_step_s);
     Torque swing_torque(const BenchInputs& inputs, double angle_rad) const;

@@ -99,17 +99,28 @@ struct RunInputs {
                          run.session_start_s + run.time_s[k]};
         if (motor_angle != nullptr) {
             step.motor = MotorAngle{(*motor_angle)[k]};
+            step.motor_rad_per_s2 = acceleration(*motor_angle, sample, step_samples);
         } else {
             step.motor = MotorTorque{(*motor_torque)[k]};
         }
         if (load_angle != nullptr) {
             step.load = LoadAngle{(*load_angle)[k]};
+            step.load_rad_per_s2 = acceleration(*load_angle, sample, step_samples);
         } else if (load_torque != nullptr) {
             step.load = LoadTorque{(*load_torque)[k]};
         } else if (has_spring) {
             step.load = LoadSpring{Backlash::contact_Nm_per_rad, 0.0};
         }
         return step;
+    }
+
+    // The central difference, at the ends of the run that of the nearest samples that have one.
+    double acceleration(const std::vector<double>& angle_rad, int sample, int step_samples) const {
+        const int last = static_cast<int>(angle_rad.size()) - 1;
+        const int span = std::min(step_samples, last / 2);
+        if (span == 0) return 0.0;
+        const auto middle = angle_rad.begin() + std::clamp(sample, span, last - span);
+        return (*(middle + span) - 2.0 * *middle + *(middle - span)) * std::pow(sample_rate_Hz / span, 2);
     }
 
     const RecordedRun& run;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "capstan/gap/effects_twin.h"
 #include "capstan/rig/channel_names.h"
@@ -22,6 +23,36 @@ Recording quickly_turned() {
         angle_rad[sample] = 0.4 * (1.0 - std::abs(2.0 * (phase - std::floor(phase)) - 1.0));
     }
     return recording;
+}
+
+// An angle that is given tells its acceleration where it is, and not a step later.
+TEST(EffectsTwin, AnInertiaTakesItsTorqueWhenTheLoadIsAccelerated) {
+    constexpr double inertia_kg_m2 = 0.01;
+    constexpr double period = 80.0;  // samples
+    constexpr double amplitude_rad = 0.4;
+    Recording recording = driven_session();
+    RecordedRun& run = recording.runs[1];
+    std::vector<double>& angle_rad =
+        run.values[static_cast<std::size_t>(*recording.channel(channel::load_angle))];
+    const auto phase = [](std::size_t sample) {
+        return 2.0 * std::numbers::pi * static_cast<double>(sample) / period;
+    };
+    for (std::size_t sample = 0; sample < angle_rad.size(); ++sample)
+        angle_rad[sample] = amplitude_rad * std::sin(phase(sample));
+    const double most_Nm = inertia_kg_m2 * amplitude_rad *
+                           std::pow(2.0 * std::numbers::pi / period * recording.sample_rate_Hz, 2);
+    BenchNumbers heavy;
+    heavy.effects.of<Inertia>().load_kg_m2 = inertia_kg_m2;
+    const auto torque = static_cast<std::size_t>(*recording.channel(channel::load_torque));
+    for (const int stride : {1, 4}) {
+        const EffectsTwin twin(recording, {.segments = 12, .stride = stride});
+        const std::vector<double> with = twin.run(1, heavy).values[torque];
+        const std::vector<double> without = twin.run(1, {}).values[torque];
+        for (std::size_t k = 5; k + 5 < with.size(); ++k) {
+            const double expected_Nm = most_Nm * std::sin(phase(k * static_cast<std::size_t>(stride)));
+            EXPECT_NEAR(with[k] - without[k], expected_Nm, 0.05 * most_Nm) << stride << ", " << k;
+        }
+    }
 }
 
 // Friction is independent of the rate, so that only how far the cable went matters.
