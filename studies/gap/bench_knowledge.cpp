@@ -191,6 +191,24 @@ FloatingNumber radius_of_load_pulley(bool held_by_a_spring) {
             .apply = [](BenchNumbers& numbers, double value) { numbers.load_radius_ratio = value; }};
 }
 
+// A force sensor's gain is good to some percent: its own class, how it is mounted, and how it was calibrated.
+void add_gains(const Recording& recording, BenchKnowledge& bench) {
+    constexpr double by_some_percent = 0.02;
+    for (const auto& channel : recording.channels) {
+        if (channel.unit == "rad" || !recording.is_predicted(channel.name)) continue;
+        bench.numbers.push_back({.name = "gain of " + channel.name,
+                                 .prior_std = by_some_percent,
+                                 .of_a_sensor = true,
+                                 .usual = 2.0 * by_some_percent,
+                                 .effect = "sensor_gain",
+                                 .variant = channel.name,
+                                 .component = "sensor:" + channel.name,
+                                 .apply = [name = channel.name](BenchNumbers& numbers, double value) {
+                                     numbers.sensor_faults[name].gain *= value;
+                                 }});
+    }
+}
+
 // What holds the load where only its motion was recorded, and the constant of a motor whose current was.
 void add_undescribed_parts(const NominalBench& nominal, double prior_std, BenchKnowledge& bench) {
     if (nominal.load_compliance_rad_per_Nm > 0.0)
@@ -320,6 +338,7 @@ BenchKnowledge built_bench(const Recording& recording) {
     BenchKnowledge bench{ratios(of_values, recording.nominal->spread)};
     add_zeros_and_bearings(recording, zero_part, bearing_part, bench);
     bench.numbers.push_back(presliding_of_bearings());
+    add_gains(recording, bench);
     return bench;
 }
 

@@ -66,9 +66,9 @@ const BenchKnowledge& measured_bench();
 BenchKnowledge measured_bench(const NominalSpread& stated);
 
 /// A bench as it is built: friction and wrap from tables (20%), stiffness from a data sheet (10%), a tension
-/// set by hand (15%), torque and tension sensors with a zero error (10% of half of what they read, from no
-/// load on), and bearings with Coulomb friction. Numbers that the sidecar states as ranges are known as it
-/// says.
+/// set by hand (15%), torque and tension sensors with a gain error (2%) and a zero error (10% of half of what
+/// they read, from no load on), and bearings with Coulomb friction. Numbers that the sidecar states as ranges
+/// are known as it says.
 BenchKnowledge built_bench(const Recording& recording);
 
 /// What a fit tells of the numbers that a sidecar states (E63).

@@ -114,8 +114,9 @@ struct CauseFit {
     double log_volume_ratio = 0.0;
     /// Of the first three numbers of the bench, by the same method.
     Eigen::Matrix3d nominal_covariance = Eigen::Matrix3d::Zero();
-    /// The same if no means of blocks were weighed (E69), so that it goes with the mean square residual.
-    Eigen::Matrix3d nominal_covariance_without_blocks = Eigen::Matrix3d::Zero();
+    /// Variances of all numbers of the bench if no means of blocks were weighed (E69), so that they go with
+    /// the mean square residual.
+    Eigen::VectorXd bench_variances_without_blocks{};
     int evaluations = 0;
     bool converged = false;
 

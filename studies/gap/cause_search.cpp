@@ -307,7 +307,7 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
         add_from_elsewhere(level, promising, weights, singles);
     }
     sort_by_evidence(singles);
-    try_delays_of_the_bench(level, singles);
+    try_faults_of_the_bench(level, singles);
     if (!worth_a_further_cause(singles.front()) && !is_out_of_time()) {
         add_confusable(level, *singles.front().fit.causes.front(), all, singles);
         sort_by_evidence(singles);
@@ -459,18 +459,21 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         // A law may hold for another reference than the stated number does.
         const auto is_one_with = [&](const CandidateCause* cause) {
             return is_slowness_of_one_sensor(number.effect, number.variant, *cause) ||
+                   (number.effect == "sensor_gain" && cause->effect == number.effect &&
+                    cause->variant == number.variant) ||
                    (is_stated && cause->nominal_std(row) > nominal_log_std);
         };
         if (std::any_of(scored.fit.causes.begin(), scored.fit.causes.end(), is_one_with)) continue;
         if (!number.is_far(coordinate)) continue;
-        if (is_stated) {
-            const double variance = scored.fit.nominal_covariance_without_blocks(row, row);
-            scored.far_numbers.push_back({k, stated.wrong[row],
-                                          std::sqrt(std::max(1.0, scored.misfit) * coordinate * coordinate /
-                                                    variance / model.fitter.independent_samples())});
-        } else {
-            scored.far_numbers.push_back({k, 1.0});
-        }
+        // That a number with usual values is beyond them is told almost for certain.
+        constexpr double beyond_what_is_usual = 0.99;
+        const bool may_correct = is_stated || number.usual > 0.0;
+        ScoredFit::FarNumber far{k, is_stated ? stated.wrong[row] : may_correct ? beyond_what_is_usual : 1.0};
+        if (may_correct)
+            far.closes = std::sqrt(std::max(1.0, scored.misfit) * coordinate * coordinate /
+                                   scored.fit.bench_variances_without_blocks[row] /
+                                   model.fitter.independent_samples());
+        scored.far_numbers.push_back(far);
         // A number that has usual values is a fault beyond them; others, such as zeros, are usual at any
         // value.
         const double of_others = number.usual > 0.0 ? 1.0 : 0.0;

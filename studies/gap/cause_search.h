@@ -162,8 +162,8 @@ class CauseSearch {
     void try_replacing(const Level& level, Fits& sets);
     void add_promising_pairs(const Level& level, const Fits& singles, Fits& sets);
     void try_others(const Level& level, Fits& all);
-    static std::vector<Hypothesis> with_slow_sensors(const Level& level, const ScoredFit& fit);
-    void try_delays_of_the_bench(const Level& level, Fits& fits);
+    static std::vector<Hypothesis> with_faults_of_sensors(const Level& level, const ScoredFit& fit);
+    void try_faults_of_the_bench(const Level& level, Fits& fits);
     bool try_last(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;
     void add_measured_sets(const ScoredFit& built, Fits& all);

@@ -133,7 +133,7 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
     }
     if (!level.bench.is_measured()) {
         try_others(level, all);
-        try_delays_of_the_bench(level, all);
+        try_faults_of_the_bench(level, all);
     }
     try_confusable(level, all);
     if (try_crossing(level, all)) try_fewer(level, all);
@@ -191,54 +191,56 @@ void CauseSearch::try_others(const Level& level, Fits& all) {
     sort(level, all);
 }
 
-// The causes of a fit and, in the place of a delay that it took into the numbers of the bench, that delay or
-// a lag of the same sensor.
-std::vector<Hypothesis> CauseSearch::with_slow_sensors(const Level& level, const ScoredFit& fit) {
+// The causes of a fit and, in the place of a gain or a delay that it took into the numbers of the bench, that
+// gain or delay or a lag of the same sensor.
+std::vector<Hypothesis> CauseSearch::with_faults_of_sensors(const Level& level, const ScoredFit& fit) {
     std::vector<Hypothesis> sets;
     if (fit.fit.bench != &level.bench) return sets;
     for (const ScoredFit::FarNumber& far : fit.far_numbers) {
         const FloatingNumber& number = level.bench.numbers[far.number];
+        if (number.usual == 0.0) continue;
         const auto row = static_cast<Eigen::Index>(far.number);
-        const double delay = fit.fit.coordinates[row];
+        const double coordinate = fit.fit.coordinates[row];
         Hypothesis usual = only_causes(fit.fit.hypothesis(),
                                        [](const CandidateCause& cause) { return cause.effect != "none"; });
         usual.coordinates[row] = 0.0;
         for (const CandidateCause& cause : level.causes) {
-            if (!is_slowness_of_one_sensor(number.effect, number.variant, cause)) continue;
-            if (cause.effect == "sensor_lag" && delay < 0.0) continue;
-            sets.push_back(with_cause(usual, &cause, as_size_of(cause, number, delay)));
+            const bool is_the_same = cause.effect == number.effect && cause.variant == number.variant;
+            if (!is_the_same && !is_slowness_of_one_sensor(number.effect, number.variant, cause)) continue;
+            if (cause.effect == "sensor_lag" && coordinate < 0.0) continue;
+            sets.push_back(with_cause(usual, &cause, as_size_of(cause, number, coordinate)));
         }
     }
     return sets;
 }
 
-// A delay that a fit took into the numbers of the bench is a cause where it is beyond what is usual, and may
-// stand for a lag of that sensor. Beside such a number the screening sees nothing of these causes. In a drive
-// without a description much else can stand for a lag, and only delays are tried.
-void CauseSearch::try_delays_of_the_bench(const Level& level, Fits& fits) {
+// A gain or a delay that a fit took into the numbers of the bench is a cause where it is beyond what is
+// usual, and a delay may stand for a lag of that sensor. Beside such a number the screening sees nothing of
+// these causes. In a drive without a description much else can stand for a lag, and only delays are tried.
+void CauseSearch::try_faults_of_the_bench(const Level& level, Fits& fits) {
     const auto nothing = std::find_if(fits.begin(), fits.end(), [](const ScoredFit& fit) {
         return fit.fit.causes.front()->effect == "none";
     });
     if (nothing == fits.end() || is_out_of_time()) return;
-    std::vector<Hypothesis> slow = with_slow_sensors(level, *nothing);
+    std::vector<Hypothesis> faulty = with_faults_of_sensors(level, *nothing);
     if (is_undescribed(level.bench)) {
-        std::erase_if(slow, [&](const Hypothesis& set) {
+        std::erase_if(faulty, [&](const Hypothesis& set) {
             return set.causes.front()->effect == "sensor_lag" ||
                    std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& fit) {
                        return fit.fit.bench == &level.bench && fit.fit.causes.front() == set.causes.front();
                    });
         });
     } else if (fits.begin() != nothing) {
-        for (Hypothesis& set : with_slow_sensors(level, fits.front())) slow.push_back(std::move(set));
+        for (Hypothesis& set : with_faults_of_sensors(level, fits.front())) faulty.push_back(std::move(set));
     }
-    std::erase_if(slow, [&](const Hypothesis& set) {
+    std::erase_if(faulty, [&](const Hypothesis& set) {
         return std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& fit) {
             return fit.fit.bench == &level.bench && are_same_causes(fit.fit.causes, set.causes);
         });
     });
-    if (slow.empty()) return;
-    report("fitting " + in_words(slow.front().causes));
-    add_fits(level, slow, false, fits);
+    if (faulty.empty()) return;
+    report("fitting " + in_words(faulty.front().causes));
+    add_fits(level, faulty, false, fits);
     sort_by_evidence(fits);
 }
 

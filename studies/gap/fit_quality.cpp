@@ -59,9 +59,8 @@ void CauseFitter::integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) cons
         const Eigen::MatrixXd information = told.transpose() * told / (prior_weight_ * prior_weight_ * scale);
         return Eigen::LLT<Eigen::MatrixXd>(identity + information);
     };
-    const auto covariance_of = [&](const Eigen::LLT<Eigen::MatrixXd>& factor) -> Eigen::Matrix3d {
-        return (widths.asDiagonal() * factor.solve(identity) * widths.asDiagonal())
-            .topLeftCorner<nominal_coordinates, nominal_coordinates>();
+    const auto covariance_of = [&](const Eigen::LLT<Eigen::MatrixXd>& factor) -> Eigen::MatrixXd {
+        return widths.asDiagonal() * factor.solve(identity) * widths.asDiagonal();
     };
     // Where blocks are weighed, what counts beside them is residuals as they are.
     Eigen::VectorXd left = fit.residuals;
@@ -73,13 +72,13 @@ void CauseFitter::integrate(CauseFit& fit, const Eigen::MatrixXd& jacobian) cons
     constexpr double as_good_as_noise = 1.0;  // less than noise and floor determines no number better
     const double scale = std::max(as_good_as_noise, left.head(data_rows).squaredNorm() / determined_rows_);
     Eigen::LLT<Eigen::MatrixXd> factor = factor_of(scale);
-    fit.nominal_covariance_without_blocks = covariance_of(factor);
+    fit.bench_variances_without_blocks = covariance_of(factor).diagonal().head(fit.bench->size());
     if (weighs_blocks_) {
         apply(block_weights(fit.residuals), told);
         factor = factor_of(1.0);
     }
     fit.log_volume_ratio = log_ratio - factor.matrixLLT().diagonal().array().log().sum();
-    fit.nominal_covariance = covariance_of(factor);
+    fit.nominal_covariance = covariance_of(factor).topLeftCorner<nominal_coordinates, nominal_coordinates>();
 }
 
 Visibility CauseFitter::visibility(const CauseFit& fit) const {

@@ -201,6 +201,20 @@ TEST(Diagnosis, FindsACauseBesideRoughNumbersZerosAndBearings) {
     EXPECT_NEAR(zero->value, 0.03, 0.015);
 }
 
+// Class, mounting and calibration leave a gain of some percent on any bench as built.
+TEST(Diagnosis, NamesAGainOnABenchAsBuiltOnlyBeyondWhatIsUsual) {
+    BenchNumbers numbers;
+    numbers.friction_ratio = 1.12;
+    numbers.stiffness_ratio = 0.92;
+    numbers.pretension_ratio = 0.9;
+    const auto present_with_gain = [&](double gain) {
+        numbers.sensor_faults["load_torque"].gain = gain;
+        return present(diagnosed(session_of(numbers)), "sensor_gain");
+    };
+    EXPECT_LT(present_with_gain(1.03), 0.3);
+    EXPECT_GT(present_with_gain(1.2), 0.8);
+}
+
 // Several stages of a filter look slow and late at once.
 TEST(Diagnosis, ASensorThatIsSlowAndLateHasOneFault) {
     BenchNumbers numbers;

@@ -229,6 +229,14 @@ TEST(SpentRigs, ARippleOfSevenPeriodsIsFoundBesideTwoCauses) {
     EXPECT_LT(present(diagnosis, "unknown"), 0.1);
 }
 
+// The torque of an inertia came a step late, and a delay stood for that.
+TEST(SpentRigs, AnInertiaOfTheLoadNeedsNoDelayOfItsTorque) {
+    const gap::Diagnosis diagnosis = diagnosed(405101, 14);
+    EXPECT_GT(present(diagnosis, "inertia"), gap::nearly_certain);
+    for (const char* effect : {"time_misalignment", "stribeck"})
+        EXPECT_LT(present(diagnosis, effect), 0.1) << effect;
+}
+
 // The set that left least also held a cause that does nothing. The hysteresis was not named then.
 TEST(SlowSpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 40);
