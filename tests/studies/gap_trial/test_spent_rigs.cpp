@@ -230,7 +230,7 @@ TEST(SpentRigs, ARippleOfSevenPeriodsIsFoundBesideTwoCauses) {
 }
 
 // The torque of an inertia came a step late, and a delay stood for that.
-TEST(SpentRigs, AnInertiaOfTheLoadNeedsNoDelayOfItsTorque) {
+TEST(SlowSpentRigs, AnInertiaOfTheLoadNeedsNoDelayOfItsTorque) {
     const gap::Diagnosis diagnosis = diagnosed(405101, 14);
     EXPECT_GT(present(diagnosis, "inertia"), gap::nearly_certain);
     for (const char* effect : {"time_misalignment", "stribeck"})
