@@ -38,21 +38,23 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
                                 const BenchNumbers& numbers, int segments) {
     const NominalBench& bench = *recording.nominal;
     const bool load_is_held = run.output == OutputKind::locked;
+    // What is left of the noise of recorded angles moves a drive without a description to and fro. The motor
+    // of a described bench turns as it truly did, and its fronts are sharp.
+    const bool has_sharp_fronts = load_is_held && !(bench.is_equivalent && run.drives(channel::motor_angle));
     const CableSpecification cable =
         cable_specification(numbers.routing(bench.curvature),
                             {.dynamic_friction = buildable_friction(bench, numbers.friction_ratio),
                              .axial_stiffness_N = numbers.stiffness_ratio * bench.axial_stiffness_N,
                              .pretension_N = numbers.pretension_ratio * *run.pretension_N},
                             recording.mode == BenchMode::single_cable ? 2 * segments : segments);
-    return {
-        .cable = Cable(cable),
-        .arrangement =
-            recording.mode == BenchMode::pull_pull ? CableArrangement::pull_pull : CableArrangement::single,
-        .pulleys = {bench.motor_radius_m, numbers.load_radius_ratio * bench.load_radius_m},
-        .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
-        .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)},
-        .ends = {load_is_held, load_is_held && !run.drives(channel::motor_angle) ? 0.0 : usual_end_error_m},
-        .cable_loss_s = bench.is_equivalent ? 0.0 : usual_cable_loss_s};
+    return {.cable = Cable(cable),
+            .arrangement = recording.mode == BenchMode::pull_pull ? CableArrangement::pull_pull
+                                                                  : CableArrangement::single,
+            .pulleys = {bench.motor_radius_m, numbers.load_radius_ratio * bench.load_radius_m},
+            .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
+            .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)},
+            .ends = {load_is_held, has_sharp_fronts ? 0.0 : usual_end_error_m},
+            .cable_loss_s = bench.is_equivalent ? 0.0 : usual_cable_loss_s};
 }
 
 // Where nothing of the load but its motion is known.

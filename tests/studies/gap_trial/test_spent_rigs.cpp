@@ -229,6 +229,17 @@ TEST(SpentRigs, ARippleOfSevenPeriodsIsFoundBesideTwoCauses) {
     EXPECT_LT(present(diagnosis, "unknown"), 0.1);
 }
 
+// A held load feels no front before it comes. Where friction built up over 3 um it did, and a hysteresis and a
+// zero that follows the temperature stood for that.
+TEST(SpentRigs, ASingleCableWithoutAGapHasNone) {
+    const gap::Diagnosis diagnosis = diagnosed(427101, 25);
+    for (const char* effect : {"sensor_hysteresis", "conduit_compliance"})
+        EXPECT_LT(present(diagnosis, effect), 0.1) << effect;
+    for (const gap::RankedEffect& each : diagnosis.ranked) {
+        if (each.present >= 0.3) EXPECT_EQ(each.varies, "") << each.effect;
+    }
+}
+
 // The torque of an inertia came a step late, and a delay stood for that.
 TEST(SlowSpentRigs, AnInertiaOfTheLoadNeedsNoDelayOfItsTorque) {
     const gap::Diagnosis diagnosis = diagnosed(405101, 14);
