@@ -11,12 +11,14 @@ namespace capstan {
 namespace {
 
 // Bristles so stiff that the closed-form step's fronts come out, and so soft that Newton's method sees where
-// a front goes. What friction of half a segment stretches a segment by is a front's own displacement.
+// a front goes. What friction of half a segment stretches a segment by is a front's own displacement;
+// segments count by their wrap, because only those that are bent stop a front.
 double numerical_presliding_m(const Cable& cable, double end_error_m) {
     constexpr double min_m = 1e-7;
     const std::span<const double> wrap_rad = cable.wrap_angle_rad();
-    const double half_segment_rad =
-        0.5 * std::accumulate(wrap_rad.begin(), wrap_rad.end(), 0.0) / cable.segments();
+    const double sum_rad = std::accumulate(wrap_rad.begin(), wrap_rad.end(), 0.0);
+    const double squares = std::inner_product(wrap_rad.begin(), wrap_rad.end(), wrap_rad.begin(), 0.0);
+    const double half_segment_rad = sum_rad > 0.0 ? 0.5 * squares / sum_rad : 0.0;
     const double front_m = cable.dynamic_friction() * half_segment_rad * cable.pretension_N() *
                            cable.mean_segment_length_m() / cable.axial_stiffness_N();
     return std::clamp(front_m, std::clamp(end_error_m, min_m, usual_end_error_m), usual_end_error_m);

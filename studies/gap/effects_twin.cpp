@@ -34,13 +34,21 @@ double buildable_friction(const NominalBench& bench, double friction_ratio) {
                     below * largest_friction_exponent / wrap_rad(bench.curvature));
 }
 
+// How well the places of the cables' ends are known. What is left of the noise of recorded angles moves a
+// drive without a description to and fro. A described bench is moved by what smoothing makes of an encoder's
+// steps.
+double end_error_m(const Recording& recording, const RecordedRun& run) {
+    constexpr double of_smoothed_steps_m = 0.5e-6;
+    const bool is_equivalent = recording.nominal->is_equivalent;
+    const bool is_held = run.output == OutputKind::locked;
+    if (is_held && !(is_equivalent && run.drives(channel::motor_angle))) return 0.0;
+    return is_equivalent ? usual_end_error_m : of_smoothed_steps_m;
+}
+
 BenchDescription description_of(const Recording& recording, const RecordedRun& run,
                                 const BenchNumbers& numbers, int segments) {
     const NominalBench& bench = *recording.nominal;
     const bool load_is_held = run.output == OutputKind::locked;
-    // What is left of the noise of recorded angles moves a drive without a description to and fro. The motor
-    // of a described bench turns as it truly did, and its fronts are sharp.
-    const bool has_sharp_fronts = load_is_held && !(bench.is_equivalent && run.drives(channel::motor_angle));
     const CableSpecification cable =
         cable_specification(numbers.routing(bench.curvature),
                             {.dynamic_friction = buildable_friction(bench, numbers.friction_ratio),
@@ -53,7 +61,7 @@ BenchDescription description_of(const Recording& recording, const RecordedRun& r
             .pulleys = {bench.motor_radius_m, numbers.load_radius_ratio * bench.load_radius_m},
             .inertia = {bench.rotor_inertia_kg_m2, bench.load_pulley_inertia_kg_m2},
             .zeros = {numbers.zero_of(channel::motor_torque), numbers.zero_of(channel::load_torque)},
-            .ends = {load_is_held, has_sharp_fronts ? 0.0 : usual_end_error_m},
+            .ends = {load_is_held, end_error_m(recording, run)},
             .cable_loss_s = bench.is_equivalent ? 0.0 : usual_cable_loss_s};
 }
 
