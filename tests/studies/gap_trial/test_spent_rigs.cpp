@@ -229,8 +229,8 @@ TEST(SpentRigs, ARippleOfSevenPeriodsIsFoundBesideTwoCauses) {
     EXPECT_LT(present(diagnosis, "unknown"), 0.1);
 }
 
-// A held load feels no front before it comes. Where friction built up over 3 um it did, and a hysteresis and a
-// zero that follows the temperature stood for that.
+// A held load feels no front before it comes. Where friction built up over 3 um it did, and a hysteresis and
+// a zero that follows the temperature stood for that.
 TEST(SpentRigs, ASingleCableWithoutAGapHasNone) {
     const gap::Diagnosis diagnosis = diagnosed(427101, 25);
     for (const char* effect : {"sensor_hysteresis", "conduit_compliance"})
