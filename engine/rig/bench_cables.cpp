@@ -14,7 +14,7 @@ namespace {
 // a front goes. What friction of half a segment stretches a segment by is a front's own displacement;
 // segments count by their wrap, because only those that are bent stop a front.
 double numerical_presliding_m(const Cable& cable, double end_error_m) {
-    constexpr double min_m = 1e-7;
+    constexpr double min_m = 2e-7;  // below, Newton's method fails with 200 segments
     const std::span<const double> wrap_rad = cable.wrap_angle_rad();
     const double sum_rad = std::accumulate(wrap_rad.begin(), wrap_rad.end(), 0.0);
     const double squares = std::inner_product(wrap_rad.begin(), wrap_rad.end(), wrap_rad.begin(), 0.0);
