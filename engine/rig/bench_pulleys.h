@@ -14,8 +14,8 @@ struct BenchInputs {
     LoadInput load;
     double time_step_s = 0.0;
     double session_time_s = 0.0;  ///< since the session began: what drifts goes on from run to run
-    /// Of an angle that is given, where it is known. Otherwise it is the change of the speed since the step
-    /// before, which is late by a step.
+    /// The acceleration of an angle that is given, where it is known (E35). Otherwise it is the change of the
+    /// speed since the step before, which is late by a step.
     std::optional<double> motor_rad_per_s2{};
     std::optional<double> load_rad_per_s2{};
 };

@@ -48,6 +48,8 @@ void demand_motion(const BenchInputs& inputs, bool pull_pull) {
         if (!(spring.stiffness_Nm_per_rad > 0.0))
             problems.push_back("the load spring's stiffness is not positive");
     }
+    demand_finite(inputs.motor_rad_per_s2.value_or(0.0), "motor's acceleration");
+    demand_finite(inputs.load_rad_per_s2.value_or(0.0), "load's acceleration");
     if (!(inputs.time_step_s > 0.0)) problems.push_back("the time step is not positive");
     if (!pull_pull && !std::holds_alternative<LoadAngle>(inputs.load))
         problems.push_back("a single cable's load end is held: prescribe a load angle");

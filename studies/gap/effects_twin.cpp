@@ -39,10 +39,9 @@ double buildable_friction(const NominalBench& bench, double friction_ratio) {
 // steps.
 double end_error_m(const Recording& recording, const RecordedRun& run) {
     constexpr double of_smoothed_steps_m = 0.5e-6;
-    const bool is_equivalent = recording.nominal->is_equivalent;
     const bool is_held = run.output == OutputKind::locked;
-    if (is_held && !(is_equivalent && run.drives(channel::motor_angle))) return 0.0;
-    return is_equivalent ? usual_end_error_m : of_smoothed_steps_m;
+    if (!recording.nominal->is_equivalent) return is_held ? 0.0 : of_smoothed_steps_m;
+    return is_held && !run.drives(channel::motor_angle) ? 0.0 : usual_end_error_m;
 }
 
 BenchDescription description_of(const Recording& recording, const RecordedRun& run,

@@ -275,13 +275,13 @@ void CauseSearch::try_periods(const Level& level, Fits& sets) {
             promising.push_back({ripple.cause, std::move(other), each.sum_of_squares});
     }
     // A harmonic may have stood for the ripple, or the ripple for a harmonic.
-    for (const double ratio : {1.0 / 3.0, 0.5, 2.0, 3.0}) {
-        const double periods = std::round(tried.front() * ratio);
+    const double found_periods = tried.front();
+    for (const double periods :
+         {found_periods / 3.0, found_periods / 2.0, 2.0 * found_periods, 3.0 * found_periods}) {
         const auto is_promising = [&](const Further& each) {
             return number.value(each.start.coordinates[ripple.periods]) == periods;
         };
-        if (number.value(periods) != periods || std::abs(periods - tried.front() * ratio) > 1e-9 ||
-            std::any_of(promising.begin(), promising.end(), is_promising))
+        if (number.value(periods) != periods || std::any_of(promising.begin(), promising.end(), is_promising))
             continue;
         Hypothesis other = set;
         other.coordinates[ripple.periods] = periods;

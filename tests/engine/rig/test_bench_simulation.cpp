@@ -373,6 +373,10 @@ TEST(BenchSimulation, RejectsInputsThatDetermineNoMotion) {
     BenchSimulation bench({cable_with(10), CableArrangement::pull_pull, pulleys, {}}, {});
     EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadTorque{0.1}, time_step_s, 0.0}), InvalidInput);
     EXPECT_THROW(bench.advance({MotorTorque{std::nan("")}, LoadAngle{0.0}, time_step_s, 0.0}), InvalidInput);
+    EXPECT_THROW(bench.advance({MotorAngle{0.0}, LoadAngle{0.0}, time_step_s, 0.0, std::nan("")}),
+                 InvalidInput);
+    EXPECT_THROW(bench.advance({MotorAngle{0.0}, LoadAngle{0.0}, time_step_s, 0.0, {}, std::nan("")}),
+                 InvalidInput);
     EXPECT_THROW(bench.advance({MotorTorque{0.1}, LoadAngle{0.0}, 0.0, 0.0}), InvalidInput);
     EXPECT_EQ(bench.motor_angle_rad(), 0.0);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -50,11 +51,14 @@ TEST_P(SlowRealGraspers, TheCorrectedTorqueIsNoWorseThanThatOfTheBestSimpleModel
         if (std::find(split.fit.begin(), split.fit.end(), run.number) == split.fit.end())
             split.hold.push_back(run.number);
     }
-    for (const OutputComparison& output : compared(recording, {split}).outputs) {
-        if (output.channel != "motor_torque") continue;
-        const HeldOut errors = held_out(output);
-        EXPECT_LE(errors.corrected, errors.best_simple);
-    }
+    const ModelComparison comparison = compared(recording, {split});
+    const auto torque =
+        std::find_if(comparison.outputs.begin(), comparison.outputs.end(),
+                     [](const OutputComparison& output) { return output.channel == "motor_torque"; });
+    ASSERT_NE(torque, comparison.outputs.end());
+    const HeldOut errors = held_out(*torque);
+    ASSERT_TRUE(std::isfinite(errors.best_simple));
+    EXPECT_LE(errors.corrected, errors.best_simple);
 }
 
 INSTANTIATE_TEST_SUITE_P(Recordings, SlowRealGraspers, testing::Values("right_jaw", "tool4", "tool4_more"));
@@ -67,6 +71,7 @@ TEST(SlowRealBandBrake, TheCorrectedTensionsAreNoWorseThanThoseOfTheBestSimpleMo
     ASSERT_EQ(comparison.outputs.size(), 2u);
     for (const OutputComparison& output : comparison.outputs) {
         const HeldOut errors = held_out(output);
+        ASSERT_TRUE(std::isfinite(errors.best_simple));
         EXPECT_LE(errors.corrected, errors.best_simple) << output.channel;
     }
 }
