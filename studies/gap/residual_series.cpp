@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 
 #include "capstan/cable/cable_cut.h"
@@ -92,17 +93,19 @@ int end_of_first_loading(const Recording& recording, const RecordedRun& run) {
     return half;
 }
 
+// An encoder that reads less than this apart may have turned either way between.
+constexpr double steps_apart = 1.5;
+
 // Samples at which an encoder has stayed within a step and a half for 50 ms: the angle may have turned round
 // within the step, and the friction with it.
 std::vector<bool> at_rest(const std::vector<double>& angle_rad, double step_rad, double sample_rate_Hz) {
-    constexpr double steps = 1.5;
     constexpr double duration_s = 0.05;
     std::vector<bool> rests(angle_rad.size(), false);
     std::size_t moved = 0;  // the last sample that was clearly elsewhere
     bool has_moved = false;
     for (std::size_t sample = 0; sample < angle_rad.size(); ++sample) {
         for (std::size_t earlier = sample; earlier > (has_moved ? moved : 0); --earlier) {
-            if (std::abs(angle_rad[earlier - 1] - angle_rad[sample]) <= steps * step_rad) continue;
+            if (std::abs(angle_rad[earlier - 1] - angle_rad[sample]) <= steps_apart * step_rad) continue;
             moved = earlier - 1;
             has_moved = true;
             break;
@@ -111,6 +114,30 @@ std::vector<bool> at_rest(const std::vector<double>& angle_rad, double step_rad,
         rests[sample] = !has_moved || since > duration_s * sample_rate_Hz;
     }
     return rests;
+}
+
+// Samples within a step and a half of where an encoder turns round: the angle may have turned at any of them,
+// and the friction with it. Where there is only one, the reversal is known to a sample.
+std::vector<bool> near_reversals(const std::vector<double>& angle_rad, double step_rad) {
+    const double near_rad = steps_apart * step_rad;
+    std::vector<bool> near(angle_rad.size(), false);
+    std::size_t farthest = 0;  // of the motion that goes on
+    double direction = 0.0;
+    for (std::size_t sample = 0; sample < angle_rad.size(); ++sample) {
+        const double moved_rad = angle_rad[sample] - angle_rad[farthest];
+        if (direction * moved_rad > 0.0) {
+            farthest = sample;
+        } else if (std::abs(moved_rad) > near_rad) {
+            std::size_t first = farthest;
+            while (first > 0 && std::abs(angle_rad[first - 1] - angle_rad[farthest]) <= near_rad) --first;
+            if (direction != 0.0 && sample - first > 1)
+                std::fill(near.begin() + static_cast<std::ptrdiff_t>(first),
+                          near.begin() + static_cast<std::ptrdiff_t>(sample), true);
+            farthest = sample;
+            direction = moved_rad;
+        }
+    }
+    return near;
 }
 
 double mean_size(const std::vector<double>& values) {
@@ -157,12 +184,20 @@ std::vector<bool> determined_rows(const Recording& recording, const ResidualSeri
     for (std::size_t channel = 0; channel < recording.channels.size(); ++channel) {
         const Channel& driven = recording.channels[channel];
         if (!run.drives(driven.name) || driven.unit != "rad" || !driven.step) continue;
-        if (change_by_a_step(recording, run, driven.name, *driven.step, predicted) < series.scale) continue;
-        const std::vector<bool> rests = at_rest(run.values[channel], *driven.step, recording.sample_rate_Hz);
+        const double step = *driven.step;
+        std::vector<bool> doubtful(run.values[channel].size(), false);
+        if (change_by_a_step(recording, run, driven.name, step, predicted) >= series.scale)
+            doubtful = at_rest(run.values[channel], step, recording.sample_rate_Hz);
+        // The bearings of a drive have friction of their own, which turns round with the angle.
+        if (recording.nominal->is_equivalent) {
+            const std::vector<bool> turning = near_reversals(run.values[channel], step);
+            std::transform(doubtful.begin(), doubtful.end(), turning.begin(), doubtful.begin(),
+                           std::logical_or<>());
+        }
         determined.resize(series.rows, true);
         for (std::size_t row = 0; row < series.rows; ++row) {
-            if (rests[(static_cast<std::size_t>(series.first_sample) + row) *
-                      static_cast<std::size_t>(stride)])
+            if (doubtful[(static_cast<std::size_t>(series.first_sample) + row) *
+                         static_cast<std::size_t>(stride)])
                 determined[row] = false;
         }
     }

@@ -64,6 +64,40 @@ TEST(ResidualSeries, AFineEncoderDeterminesEverySample) {
     EXPECT_EQ(fitter.determined_rows(), static_cast<double>(fitter.data_rows()));
 }
 
+// The drive's motor turns to and fro, and its encoder has this step.
+Recording drive_to_and_fro(double step_rad) {
+    Recording recording = resting_drive(step_rad);
+    for (RecordedRun& run : recording.runs) {
+        for (std::size_t sample = 0; sample < run.time_s.size(); ++sample) {
+            const double turned_rad = 0.3 * std::sin(2.0 * run.time_s[sample]);
+            run.values[static_cast<std::size_t>(*recording.channel("motor_angle"))][sample] =
+                step_rad * std::round(turned_rad / step_rad);
+        }
+    }
+    return recording;
+}
+
+TEST(ResidualSeries, AnEncoderThatMayHaveTurnedAtAnySampleNearAReversalDoesNotDetermineTheTorqueThere) {
+    const double step_rad = 2e-3;
+    const Recording recording = drive_to_and_fro(step_rad);
+    const CauseFitter fitter(recording, {24, 1}, 1);
+    const ResidualSeries& torque = series_of(fitter.series(), recording, "motor_torque");
+    const RecordedRun& run = recording.runs[torque.run];
+    std::size_t open = 0;
+    for (std::size_t row = 0; row < torque.rows; ++row) {
+        const double time_s = run.time_s[static_cast<std::size_t>(torque.first_sample) + row];
+        const double below_the_peak_rad = 0.3 * (1.0 - std::abs(std::sin(2.0 * time_s)));
+        if (below_the_peak_rad > 3.0 * step_rad) EXPECT_TRUE(torque.determines(row)) << time_s;
+        if (below_the_peak_rad < 0.5 * step_rad) EXPECT_FALSE(torque.determines(row)) << time_s;
+        open += torque.determines(row) ? 0 : 1;
+    }
+    EXPECT_GT(open, 0U);
+    EXPECT_TRUE(series_of(fitter.series(), recording, "load_angle").is_determined.empty());
+    const Recording finer = drive_to_and_fro(1e-7);
+    const CauseFitter of_finer(finer, {24, 1}, 1);
+    EXPECT_EQ(of_finer.determined_rows(), static_cast<double>(of_finer.data_rows()));
+}
+
 TEST(ResidualSeries, SamplesThatDetermineNothingHaveNoResidual) {
     Recording recording = resting_drive(2e-3);
     const CauseFitter fitter(recording, {24, 1}, 1);
