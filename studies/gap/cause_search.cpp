@@ -495,7 +495,7 @@ void CauseSearch::weigh(Model& model, ScoredFit& fit) {
     ++fitted_;
     evaluations_ += fit.fit.evaluations;
     if (!fit.fit.bench->is_measured()) {
-        if (fit.fit.causes.front()->effect == "none" && fit.misfit < model.left_without_cause) {
+        if (is_nothing(fit.fit.causes) && fit.misfit < model.left_without_cause) {
             model.left_without_cause = fit.misfit;
             model.left_of_channels = model.fitter.channel_misfits(fit.fit);
         }

@@ -149,8 +149,7 @@ bool CauseSearch::try_crossing(const Level& level, Fits& all) {
     for (const ScoredFit& rival : all) {
         const Hypothesis set = rival.fit.hypothesis();
         if (rival.evidence < best.evidence - far_behind * sharpness()) break;
-        if (set.bench != best.fit.bench || set.causes.front()->effect == "none" ||
-            set.causes.size() >= max_causes)
+        if (set.bench != best.fit.bench || is_nothing(set.causes) || set.causes.size() >= max_causes)
             continue;
         Eigen::Index next = level.bench.size();
         for (const CandidateCause* cause : best.fit.causes) {
@@ -161,13 +160,12 @@ bool CauseSearch::try_crossing(const Level& level, Fits& all) {
                 return other->effect == cause->effect ||
                        is_slowness_of_one_sensor(cause->effect, cause->variant, *other);
             };
-            const auto is_known = [&](const auto& other) {
+            const auto is_known = [&](const Hypothesis& other) {
                 return other.bench == set.bench && are_same_causes(other.causes, crossed.causes);
             };
             if (std::any_of(set.causes.begin(), set.causes.end(), excludes_it) ||
                 std::any_of(sets.begin(), sets.end(), is_known) ||
-                std::any_of(all.begin(), all.end(),
-                            [&](const ScoredFit& other) { return is_known(other.fit); }))
+                fit_of(all, crossed.causes, set.bench) != nullptr)
                 continue;
             if (sets.size() < max_sets) sets.push_back(crossed);
         }
@@ -183,7 +181,7 @@ bool CauseSearch::try_crossing(const Level& level, Fits& all) {
 // several causes explain much the same, and each deserves the same start.
 void CauseSearch::try_others(const Level& level, Fits& all) {
     const CauseFit best = all.front().fit;
-    if (best.causes.front()->effect == "none" || best.causes.size() > 1 || is_out_of_time()) return;
+    if (is_nothing(best.causes) || best.causes.size() > 1 || is_out_of_time()) return;
     Fits others;
     add_sets(level, only_causes(best.hypothesis(), [](const CandidateCause&) { return false; }), best.weights,
              max_fitted_further, others);
@@ -218,10 +216,8 @@ std::vector<Hypothesis> CauseSearch::with_faults_of_sensors(const Level& level, 
 // usual, and a delay may stand for a lag of that sensor. Beside such a number the screening sees nothing of
 // these causes. In a drive without a description much else can stand for a lag, and only delays are tried.
 void CauseSearch::try_faults_of_the_bench(const Level& level, Fits& fits) {
-    const auto nothing = std::find_if(fits.begin(), fits.end(), [](const ScoredFit& fit) {
-        return fit.fit.causes.front()->effect == "none";
-    });
-    if (nothing == fits.end() || is_out_of_time()) return;
+    const ScoredFit* nothing = fit_without_cause(fits);
+    if (nothing == nullptr || is_out_of_time()) return;
     std::vector<Hypothesis> faulty = with_faults_of_sensors(level, *nothing);
     if (is_undescribed(level.bench)) {
         std::erase_if(faulty, [&](const Hypothesis& set) {
@@ -230,14 +226,11 @@ void CauseSearch::try_faults_of_the_bench(const Level& level, Fits& fits) {
                        return fit.fit.bench == &level.bench && fit.fit.causes.front() == set.causes.front();
                    });
         });
-    } else if (fits.begin() != nothing) {
+    } else if (nothing != &fits.front()) {
         for (Hypothesis& set : with_faults_of_sensors(level, fits.front())) faulty.push_back(std::move(set));
     }
-    std::erase_if(faulty, [&](const Hypothesis& set) {
-        return std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& fit) {
-            return fit.fit.bench == &level.bench && are_same_causes(fit.fit.causes, set.causes);
-        });
-    });
+    std::erase_if(faulty,
+                  [&](const Hypothesis& set) { return fit_of(fits, set.causes, &level.bench) != nullptr; });
     if (faulty.empty()) return;
     report("fitting " + in_words(faulty.front().causes));
     add_fits(level, faulty, false, fits);
@@ -250,16 +243,16 @@ bool CauseSearch::try_last(const Level& level, Fits& all) {
     constexpr std::size_t promising = 2;
     const ScoredFit best = all.front();
     const Hypothesis found = best.fit.hypothesis();
-    const bool is_nothing = found.causes.front()->effect == "none";
+    const bool found_nothing = is_nothing(found.causes);
     if (level.sought_last().empty() || is_out_of_time() ||
-        (!worth_a_further_cause(best) && (is_nothing || only_corrects_the_model(best, all))))
+        (!worth_a_further_cause(best) && (found_nothing || only_corrects_the_model(best, all))))
         return false;
     Fits sets;
     const auto add = [&](const Hypothesis& beside, std::size_t count) {
         add_sets(level, level.sought_last(), beside, best.fit.weights, count, sets);
     };
     add(only_causes(found, [](const CandidateCause&) { return false; }), promising);
-    if (!is_nothing && found.causes.size() < max_causes) add(found, promising);
+    if (!found_nothing && found.causes.size() < max_causes) add(found, promising);
     if (found.causes.size() > 1)
         for (const Hypothesis& fewer : without_each(found)) add(fewer, 1);
     std::move(sets.begin(), sets.end(), std::back_inserter(all));
@@ -280,11 +273,8 @@ std::span<const CandidateCause> CauseSearch::Level::sought_first() const {
 // The best set without each of its causes in turn, from where the set led: a smaller set may have been left
 // in a local minimum. Whether one is better.
 bool CauseSearch::try_fewer(const Level& level, Fits& all) {
-    const auto is_nothing = [](const Hypothesis& hypothesis) {
-        return hypothesis.causes.front()->effect == "none";
-    };
     bool is_better = false;
-    for (Hypothesis best = all.front().fit.hypothesis(); !is_nothing(best) && !is_out_of_time();) {
+    for (Hypothesis best = all.front().fit.hypothesis(); !is_nothing(best.causes) && !is_out_of_time();) {
         if (best.causes.size() == 1 && level.bench.is_measured()) break;
         report("trying fewer causes");
         std::vector<Hypothesis> fewer = without_each(best);
@@ -323,10 +313,8 @@ void CauseSearch::try_from_smaller_sets(const Level& level, Fits& all) {
     for (std::size_t k = 0; k < best.causes.size(); ++k) {
         const CandidateCause* cause = best.causes[k];
         const auto count = static_cast<Eigen::Index>(cause->numbers.size());
-        const auto smaller = std::find_if(all.begin(), all.end(), [&](const ScoredFit& each) {
-            return each.fit.bench == best.bench && are_same_causes(each.fit.causes, fewer[k].causes);
-        });
-        if (smaller != all.end())
+        const ScoredFit* smaller = fit_of(all, fewer[k].causes, best.bench);
+        if (smaller != nullptr)
             starts.push_back(
                 with_cause(smaller->fit.hypothesis(), cause, best.coordinates.segment(first, count)));
         first += count;
@@ -441,10 +429,8 @@ void CauseSearch::add_measured_sets(const ScoredFit& built, Fits& all) {
 // Whether nothing at all explains a recording better, once the best single cause has paid for following the
 // model's own error (E70).
 bool CauseSearch::only_corrects_the_model(const ScoredFit& single, const Fits& singles) const {
-    const auto nothing = std::find_if(singles.begin(), singles.end(), [](const ScoredFit& fit) {
-        return fit.fit.causes.front()->effect == "none";
-    });
-    return nothing != singles.end() && single.fit.causes.size() == 1 &&
+    const ScoredFit* nothing = fit_without_cause(singles);
+    return nothing != nullptr && single.fit.causes.size() == 1 &&
            single.uncharged_evidence() - evidence_.penalty_of_corrections(single, singles) <
                nothing->evidence;
 }
@@ -456,7 +442,7 @@ CauseSearch::Fits CauseSearch::larger_sets(const Level& level, const Fits& small
     const ScoredFit& best = smaller.front();
     // A pair is tried whatever a first cause leaves, because that cause may stand for both, unless it only
     // corrects the model.
-    const bool seeks_pairs = best.fit.causes.size() == 1 && best.fit.causes.front()->effect != "none" &&
+    const bool seeks_pairs = best.fit.causes.size() == 1 && !is_nothing(best.fit.causes) &&
                              !only_corrects_the_model(best, smaller);
     if (!seeks_pairs && !worth_a_further_cause(best)) return sets;
     std::vector<std::string> extended;  // by the cause that was added last
@@ -487,10 +473,8 @@ void CauseSearch::add_promising_pairs(const Level& level, const Fits& singles, F
     const ScoredFit& best = singles.front();
     const bool leaves_something =
         level.bench.is_measured() ? best.misfit > as_good_as_noise : worth_a_further_cause(best);
-    const auto nothing = std::find_if(singles.begin(), singles.end(), [](const ScoredFit& fit) {
-        return fit.fit.causes.front()->effect == "none";
-    });
-    if (!leaves_something || nothing == singles.end() || is_out_of_time()) return;
+    const ScoredFit* nothing = fit_without_cause(singles);
+    if (!leaves_something || nothing == nullptr || is_out_of_time()) return;
     report("screening pairs of causes");
     std::vector<Hypothesis> starts;
     std::size_t tried = 0;
@@ -500,8 +484,7 @@ void CauseSearch::add_promising_pairs(const Level& level, const Fits& singles, F
         if (is_slowness_of_one_sensor(pair.second->effect, pair.second->variant, *pair.first)) continue;
         if (tried++ == max_fitted_further) break;
         const std::vector<const CandidateCause*> causes = {pair.first, pair.second};
-        if (std::none_of(sets.begin(), sets.end(),
-                         [&](const ScoredFit& other) { return are_same_causes(other.fit.causes, causes); }))
+        if (fit_of(sets, causes) == nullptr)
             starts.push_back(
                 with_cause(with_cause(nominal_hypothesis(level.bench), pair.first, pair.start_of_first),
                            pair.second, pair.start_of_second));
@@ -634,8 +617,7 @@ void CauseSearch::add_sets(const Level& level, std::span<const CandidateCause> c
         std::vector<const CandidateCause*> set = hypothesis.causes;
         set.push_back(each.cause);
         // Where the bench's numbers float widely, a set leads elsewhere from another start.
-        const auto same = [&](const ScoredFit& other) { return are_same_causes(other.fit.causes, set); };
-        if (level.bench.is_measured() && std::any_of(sets.begin(), sets.end(), same)) continue;
+        if (level.bench.is_measured() && fit_of(sets, set) != nullptr) continue;
         starts.push_back(each.start);
     }
     if (starts.empty()) return;

@@ -47,7 +47,7 @@ class Diagnoser {
     Diagnosis verdict(std::vector<ScoredFit> fits) {
         Diagnosis diagnosis;
         const ScoredFit& nothing = nothing_in(fits);
-        if (!is_nothing(fits.front()) && nothing.fit.bench->is_measured() &&
+        if (!is_nothing(fits.front().fit.causes) && nothing.fit.bench->is_measured() &&
             nothing.misfit < misfit_without_gap && nothing.nominal_penalty < tenable_nominal_penalty)
             put_nothing_first(fits, unproven_penalty);
         describe(diagnosis, fits);
@@ -79,10 +79,9 @@ class Diagnoser {
         describe(diagnosis, fits.front(), runner_up_of(fits.front(), fits));
     }
 
-    static bool is_nothing(const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; }
-
     static ScoredFit& nothing_in(std::vector<ScoredFit>& fits) {
-        return *std::find_if(fits.begin(), fits.end(), is_nothing);
+        return *std::find_if(fits.begin(), fits.end(),
+                             [](const ScoredFit& fit) { return is_nothing(fit.fit.causes); });
     }
 
     // `ahead`: of the evidence of the best cause.

@@ -277,7 +277,7 @@ bool has_a_delay_that_is_a_cause(const ScoredFit& fit, const std::vector<ScoredF
                        return cause->effect == number.effect && cause->variant == number.variant;
                    });
                    if (delays == 0 || other.fit.bench != fit.fit.bench) return false;
-                   return others.empty() ? fit.fit.causes.front()->effect == "none"
+                   return others.empty() ? is_nothing(fit.fit.causes)
                                          : are_same_causes(others, fit.fit.causes);
                });
     };
@@ -285,6 +285,21 @@ bool has_a_delay_that_is_a_cause(const ScoredFit& fit, const std::vector<ScoredF
 }
 
 }  // namespace
+
+const ScoredFit* fit_of(const std::vector<ScoredFit>& fits, const std::vector<const CandidateCause*>& causes,
+                        const BenchKnowledge* bench) {
+    const auto found = std::find_if(fits.begin(), fits.end(), [&](const ScoredFit& each) {
+        return (bench == nullptr || each.fit.bench == bench) && are_same_causes(each.fit.causes, causes);
+    });
+    return found == fits.end() ? nullptr : &*found;
+}
+
+const ScoredFit* fit_without_cause(const std::vector<ScoredFit>& fits, const BenchKnowledge* bench) {
+    const auto found = std::find_if(fits.begin(), fits.end(), [&](const ScoredFit& each) {
+        return (bench == nullptr || each.fit.bench == bench) && is_nothing(each.fit.causes);
+    });
+    return found == fits.end() ? nullptr : &*found;
+}
 
 // E68.
 double ScoredFit::probability_of(const FarNumber& far, double left_unexplained) const {
@@ -363,7 +378,7 @@ double Evidence::of(const ScoredFit& fit) const {
 }
 
 double Evidence::with_unknown(const ScoredFit& fit) const {
-    const bool named = fit.fit.causes.front()->effect != "none";
+    const bool named = !is_nothing(fit.fit.causes);
     const double prior =
         priors(fit) - unknown_penalty - (named ? further_cause_penalty : none_log_prior(fit));
     const double function = marginal(fit, [&](double size) { return std::exp(-invisible(fit, size)); });
@@ -447,10 +462,8 @@ std::vector<WeighedHypothesis> Evidence::weigh(const std::vector<ScoredFit>& fit
         take({effects, each.of_the_bench(), 0.0, each.evidence, &each, false});
         std::erase(effects, "none");
         effects.push_back("unknown");
-        const auto nothing = std::find_if(fits.begin(), fits.end(), [&](const ScoredFit& other) {
-            return other.fit.bench == each.fit.bench && other.fit.causes.front()->effect == "none";
-        });
-        const double without_cause = nothing == fits.end() ? each.misfit : nothing->misfit;
+        const ScoredFit* nothing = fit_without_cause(fits, each.fit.bench);
+        const double without_cause = nothing == nullptr ? each.misfit : nothing->misfit;
         take({effects, each.of_the_bench(left_unexplained(each)), 0.0, with_unknown(each), &each, true,
               unknown_fraction(each, without_cause)});
     }
@@ -559,7 +572,7 @@ std::vector<RankedEffect> in_answered_names(const std::vector<RankedEffect>& ran
 }
 
 bool names_only_the_bench(const ScoredFit& fit) {
-    return fit.fit.causes.front()->effect == "none" || are_usual_numbers(fit);
+    return is_nothing(fit.fit.causes) || are_usual_numbers(fit);
 }
 
 bool worth_a_further_cause(const ScoredFit& fit) {

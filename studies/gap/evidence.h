@@ -100,6 +100,12 @@ struct ScoredFit {
     double uncharged_evidence() const { return evidence + unproven_penalty; }
 };
 
+/// The first of these fits with these causes, on this bench if one is given; null where there is none.
+const ScoredFit* fit_of(const std::vector<ScoredFit>& fits, const std::vector<const CandidateCause*>& causes,
+                        const BenchKnowledge* bench = nullptr);
+/// The same of no cause at all.
+const ScoredFit* fit_without_cause(const std::vector<ScoredFit>& fits, const BenchKnowledge* bench = nullptr);
+
 /// An explanation and how probable it is; its best fit where several variants were tried.
 struct WeighedHypothesis {
     std::vector<std::string> effects;            ///< sorted; `unknown` stands for a cause outside the list

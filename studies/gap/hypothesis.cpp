@@ -41,6 +41,10 @@ bool are_same_causes(const std::vector<const CandidateCause*>& one,
     return std::is_permutation(one.begin(), one.end(), other.begin(), other.end());
 }
 
+bool is_nothing(const std::vector<const CandidateCause*>& causes) {
+    return causes.front()->effect == "none";
+}
+
 Hypothesis nominal_hypothesis(const BenchKnowledge& bench) {
     return {{}, Eigen::VectorXd::Zero(bench.size()), &bench};
 }

@@ -13,6 +13,9 @@ namespace capstan::gap {
 bool are_same_causes(const std::vector<const CandidateCause*>& one,
                      const std::vector<const CandidateCause*>& other);
 
+/// Whether these causes are that there is none.
+bool is_nothing(const std::vector<const CandidateCause*>& causes);
+
 /// Causes with their numbers, to be simulated together.
 struct Hypothesis {
     std::vector<const CandidateCause*> causes;

@@ -66,11 +66,10 @@ std::vector<Hypothesis> smaller_sets_not_fitted(const std::vector<ScoredFit>& fi
         if (each.evidence < fits.front().evidence - behind) break;
         if (!each.may_follow_model_error() || each.fit.causes.size() < 2) continue;
         for (Hypothesis& set : without_each(each.fit.hypothesis())) {
-            const auto is_same = [&](const auto& other) {
+            const auto is_same = [&](const Hypothesis& other) {
                 return other.bench == set.bench && are_same_causes(other.causes, set.causes);
             };
-            if (std::none_of(fits.begin(), fits.end(),
-                             [&](const ScoredFit& other) { return is_same(other.fit); }) &&
+            if (fit_of(fits, set.causes, set.bench) == nullptr &&
                 std::none_of(missing.begin(), missing.end(), is_same))
                 missing.push_back(std::move(set));
         }
@@ -84,19 +83,16 @@ std::vector<Hypothesis> smaller_sets_not_fitted(const std::vector<ScoredFit>& fi
 std::vector<Hypothesis> best_sets(std::vector<ScoredFit> fits, std::size_t max_sets, double behind) {
     const double tenable = fits.front().evidence - behind;
     std::stable_partition(fits.begin(), fits.end(),
-                          [](const ScoredFit& fit) { return fit.fit.causes.front()->effect == "none"; });
+                          [](const ScoredFit& fit) { return is_nothing(fit.fit.causes); });
     std::vector<Hypothesis> best;
     bool has_single = false;
     for (auto each = fits.begin(); each != fits.end(); ++each) {
-        const bool is_nothing = each->fit.causes.front()->effect == "none";
-        const bool is_single = each->fit.causes.size() == 1 && !is_nothing;
-        const bool is_needed = is_nothing || (is_single && !has_single);
+        const bool has_no_cause = is_nothing(each->fit.causes);
+        const bool is_single = each->fit.causes.size() == 1 && !has_no_cause;
+        const bool is_needed = has_no_cause || (is_single && !has_single);
         if (!is_needed && (best.size() >= max_sets || each->evidence < tenable)) continue;
         has_single |= is_single;
-        const auto has_same_causes = [&](const ScoredFit& other) {
-            return are_same_causes(other.fit.causes, each->fit.causes);
-        };
-        if (std::none_of(fits.begin(), each, has_same_causes)) best.push_back(each->fit.hypothesis());
+        if (fit_of(fits, each->fit.causes) == &*each) best.push_back(each->fit.hypothesis());
     }
     return best;
 }
@@ -128,11 +124,7 @@ void CauseSearch::try_fewer_finely(Fits& all) {
     while (all.front().fit.causes.size() > 1 && !is_out_of_time()) {
         const double before = all.front().evidence;
         std::vector<Hypothesis> fewer = without_each(all.front().fit.hypothesis());
-        std::erase_if(fewer, [&](const Hypothesis& set) {
-            return std::any_of(all.begin(), all.end(), [&](const ScoredFit& each) {
-                return are_same_causes(each.fit.causes, set.causes);
-            });
-        });
+        std::erase_if(fewer, [&](const Hypothesis& set) { return fit_of(all, set.causes) != nullptr; });
         add_fitted_finely(fewer, all);
         if (all.front().evidence == before) return;
     }
@@ -204,7 +196,7 @@ CauseSearch::Fits CauseSearch::fitted_instead(const Level& level, const CauseFit
 void CauseSearch::try_usual_numbers(const Level& level, Fits& all) {
     const CauseFit best = all.front().fit;
     const Hypothesis usual = with_usual_numbers(best.hypothesis());
-    if (best.causes.front()->effect == "none" || usual.coordinates == best.coordinates) return;
+    if (is_nothing(best.causes) || usual.coordinates == best.coordinates) return;
     Fits sets;
     add_sets(level, usual, best.weights, max_fitted_further, sets);
     std::move(sets.begin(), sets.end(), std::back_inserter(all));
@@ -467,8 +459,7 @@ void CauseSearch::add_confusable(const Level& level, const CandidateCause& confu
             const bool is_known =
                 std::any_of(others.causes.begin(), others.causes.end(),
                             [&](const CandidateCause* other) { return other->effect == rival; }) ||
-                std::any_of(fits.begin(), fits.end(),
-                            [&](const ScoredFit& fit) { return are_same_causes(fit.fit.causes, set); });
+                fit_of(fits, set) != nullptr;
             if (is_known) continue;
             const auto own = static_cast<Eigen::Index>(each.cause->numbers.size());
             starts.push_back(level.bench.is_measured()
