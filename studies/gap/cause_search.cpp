@@ -174,10 +174,9 @@ FoundCauses CauseSearch::run() & {
         search_several(built_, coarse);
         Fits rougher = fitted_again(fine_, coarse, max_fitted_finely);
         try_fewer_finely(rougher);
-        const ScoredFit best = rougher.front();
-        std::move(rougher.begin(), rougher.end(), std::back_inserter(found.fits));
+        found.fits.insert(found.fits.end(), rougher.begin(), rougher.end());
         sort_by_evidence(found.fits);
-        add_measured_sets(best, found.fits);
+        add_measured_sets(rougher, found.fits);
     } else if (!is_measured) {
         found.fits = fitted_again(fine_, found.fits, max_fitted_finely);
         // A sharper evidence also tells whether a fit is quite at its minimum.

@@ -166,7 +166,7 @@ class CauseSearch {
     void try_faults_of_the_bench(const Level& level, Fits& fits);
     bool try_last(const Level& level, Fits& all);
     std::optional<Hypothesis> with_measured_numbers(const ScoredFit& found) const;
-    void add_measured_sets(const ScoredFit& built, Fits& all);
+    void add_measured_sets(const Fits& built, Fits& all);
     std::vector<Further> screened(const Level& level, std::span<const CandidateCause> causes,
                                   const Hypothesis& present, const SeriesWeights& weights,
                                   bool begins_elsewhere);

@@ -401,22 +401,33 @@ std::optional<Hypothesis> CauseSearch::with_measured_numbers(const ScoredFit& fo
 }
 
 // Rough knowledge of all numbers may stand for a second cause, and its many numbers take up a part of the
-// first one. So the same causes are tried on the measured bench, together and without each in turn.
-void CauseSearch::add_measured_sets(const ScoredFit& built, Fits& all) {
-    const std::optional<Hypothesis> start = with_measured_numbers(built);
-    if (!start || is_out_of_time()) return;
-    report("fitting " + in_words(start->causes));
+// first one. So the best sets are tried on the measured bench, where they pay for no such numbers, and the
+// best of them there without each of its causes in turn.
+void CauseSearch::add_measured_sets(const Fits& built, Fits& all) {
+    constexpr std::size_t max_sets = 3;
+    constexpr double max_behind = 20.0;
     CauseFitter::FitOptions options;
     options.any_size = false;
-    Fits sets = {fitted(described_, *start, options)};
-    // Wrong numbers compensate one another, so that none of them can be dropped alone.
-    Hypothesis stated =
-        only_causes(*start, [](const CandidateCause& cause) { return !cause.numbers.empty(); });
-    if (!stated.causes.empty() && stated.causes.size() < start->causes.size()) {
+    Fits sets;
+    const auto add = [&](const Hypothesis& start) {
+        if (is_out_of_time() || fit_of(sets, start.causes) != nullptr) return;
+        report("fitting " + in_words(start.causes));
+        sets.push_back(fitted(described_, start, options));
+    };
+    for (std::size_t k = 0; k < std::min(max_sets, built.size()); ++k) {
+        if (built[k].evidence < built.front().evidence - max_behind) break;
+        const std::optional<Hypothesis> start = with_measured_numbers(built[k]);
+        if (!start) continue;
+        add(*start);
+        // Wrong numbers compensate one another, so that none of them can be dropped alone.
+        Hypothesis stated =
+            only_causes(*start, [](const CandidateCause& cause) { return !cause.numbers.empty(); });
+        if (stated.causes.empty() || stated.causes.size() == start->causes.size()) continue;
         stated.coordinates.head(nominal_coordinates).setZero();
-        sets.push_back(fitted(described_, stated, options));
-        sort_by_evidence(sets);
+        add(stated);
     }
+    if (sets.empty()) return;
+    sort_by_evidence(sets);
     try_fewer(described_, sets);
     if (sets.front().evidence > all.front().evidence) {
         try_replacing(described_, sets);

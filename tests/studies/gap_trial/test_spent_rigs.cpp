@@ -240,6 +240,18 @@ TEST(SpentRigs, ASingleCableWithoutAGapHasNone) {
     }
 }
 
+// When a motor turned round is known to some samples of a coarse encoder. A lag of the torque sensor, beside
+// an advance of its time, made the friction of the bearing fit before and after.
+TEST(SpentRigs, ACoarseEncoderNeedsNoLagOfTheTorque) {
+    EXPECT_LT(present(diagnosed(438101, 31), "sensor_lag"), 0.1);
+}
+
+TEST(SlowSpentRigs, ACoarseEncoderNeedsNoLagBesideLoadDependentFriction) {
+    const gap::Diagnosis diagnosis = diagnosed(438101, 12);
+    EXPECT_GT(present(diagnosis, "load_dependent_friction"), gap::nearly_certain);
+    EXPECT_LT(present(diagnosis, "sensor_lag"), 0.1);
+}
+
 // The torque of an inertia came a step late, and a delay stood for that.
 TEST(SlowSpentRigs, AnInertiaOfTheLoadNeedsNoDelayOfItsTorque) {
     const gap::Diagnosis diagnosis = diagnosed(405101, 14);
@@ -298,6 +310,15 @@ TEST(SpentBenches, AFrictionThatIsALittleOffIsNamedBesideZerosAndBearings) {
 TEST(SpentBenches, ALagThatOnlyOneRunTellsIsASlowSensor) {
     const gap::Diagnosis diagnosis = diagnosed_short(162203, 47);
     EXPECT_GT(present(diagnosis, "sensor_lag") + present(diagnosis, "time_misalignment"), 0.8);
+}
+
+// The best explanation of the bench as built is a loop of the angle's sensor, the second best what is there.
+// On the measured bench, which needs no numbers of its own, that is better by far.
+TEST(SpentBenches, TheSecondBestOfABenchAsBuiltMayBeTheBestOfTheMeasuredOne) {
+    const gap::Diagnosis diagnosis = diagnosed_short(449203, 93, 100);
+    for (const char* effect : {"pulley_friction", "sensor_gain"})
+        EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
+    EXPECT_LT(present(diagnosis, "sensor_hysteresis"), 0.1);
 }
 
 // The stiffness alone, 6.5% off, leaves less than half of noise and floor.
