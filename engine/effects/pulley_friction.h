@@ -30,10 +30,11 @@ struct BearingFriction {
         const double sign = std::tanh(speed_rad_per_s / fading_rad_per_s);
         return {sign, (1.0 - sign * sign) / (fading_rad_per_s * time_step_s)};
     }
-    /// Without what is in proportion to the torque. `sign`: of the motion, from the bristles or the speed.
-    Torque torque(const Bristle<double>& sign, double speed_rad_per_s, double time_step_s) const {
+    /// Without what is in proportion to the torque. `sign`: of the motion, from the bristles or the speed;
+    /// `speed_per_rad`: how the speed goes with the angle [1/s].
+    Torque torque(const Bristle<double>& sign, double speed_rad_per_s, double speed_per_rad) const {
         return {coulomb_Nm * sign.bend + viscous_Nm_s * speed_rad_per_s,
-                coulomb_Nm * sign.bend_per_m + viscous_Nm_s / time_step_s};
+                coulomb_Nm * sign.bend_per_m + viscous_Nm_s * speed_per_rad};
     }
 };
 

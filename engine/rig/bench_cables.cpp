@@ -83,13 +83,14 @@ BenchCables::BenchCables(std::span<const Cable> cables, std::span<const double> 
     for (int c = 0; c < group_.cables; ++c) {
         Arrays& arrays = arrays_[c];
         for (PerNode* each :
-             {&arrays.before_m, &arrays.before_bend, &arrays.lagging_speed_m_per_s, &arrays.crept_m,
-              &arrays.before_tension_N, &arrays.wrap_rad, &arrays.wrap_per_load_angle, &arrays.friction,
-              &arrays.displacement_m, &arrays.bend, &arrays.tension_N, &arrays.upper, &arrays.value,
-              &arrays.by_motor, &arrays.by_load})
+             {&arrays.before_m, &arrays.before_bend, &arrays.before_speed_m_per_s,
+              &arrays.lagging_speed_m_per_s, &arrays.crept_m, &arrays.before_tension_N, &arrays.wrap_rad,
+              &arrays.wrap_per_load_angle, &arrays.friction, &arrays.displacement_m, &arrays.bend,
+              &arrays.tension_N, &arrays.upper, &arrays.value, &arrays.by_motor, &arrays.by_load})
             each->resize(nodes);
         group_.cable[c] = {arrays.before_m.data(),
                            arrays.before_bend.data(),
+                           arrays.before_speed_m_per_s.data(),
                            arrays.lagging_speed_m_per_s.data(),
                            arrays.crept_m.data(),
                            arrays.before_tension_N.data(),

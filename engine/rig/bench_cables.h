@@ -73,8 +73,9 @@ class BenchCables {
   private:
     using PerNode = std::vector<LaneValues>;
     struct Arrays {
-        PerNode before_m, before_bend, lagging_speed_m_per_s, crept_m, before_tension_N, wrap_rad,
-            wrap_per_load_angle, friction, displacement_m, bend, tension_N, upper, value, by_motor, by_load;
+        PerNode before_m, before_bend, before_speed_m_per_s, lagging_speed_m_per_s, crept_m, before_tension_N,
+            wrap_rad, wrap_per_load_angle, friction, displacement_m, bend, tension_N, upper, value, by_motor,
+            by_load;
     };
     /// What stretches one bench's cable at rest.
     struct Rest {

@@ -34,6 +34,7 @@ HWY_INLINE Lanes slid_at_load_m(const CableLanes& cable, int last, Lanes of_neig
 template <class Lanes>
 struct NodeGuess {
     Lanes friction, bend, bend_per_m, slid_m;
+    Lanes dragged_m;  // that a drag by the speed at the end of the step goes with (E20)
 };
 template <class Lanes>
 HWY_INLINE NodeGuess<Lanes> node_guess(const CableLanes& cable, const LaneCable<Lanes>& mechanics, int node,
@@ -42,7 +43,10 @@ HWY_INLINE NodeGuess<Lanes> node_guess(const CableLanes& cable, const LaneCable<
     const Bristle<Lanes> bristle =
         laws::bristle_after(presliding, load<Lanes>(cable.before_bend[node], lane), slid_m);
     store(bristle.bend, cable.bend[node], lane);
-    return {load<Lanes>(cable.friction[node], lane), bristle.bend, bristle.bend_per_m, slid_m};
+    const Lanes dragged_m = mechanics.drags ? slid_m - load<Lanes>(cable.before_speed_m_per_s[node], lane) *
+                                                           mechanics.time_step_s * lanes_of<Lanes>(1.0 / 3.0)
+                                            : slid_m;
+    return {load<Lanes>(cable.friction[node], lane), bristle.bend, bristle.bend_per_m, slid_m, dragged_m};
 }
 
 template <class Lanes, int cables>
@@ -97,7 +101,7 @@ HWY_INLINE InnerEnd<Lanes> inner_end(const LaneCable<Lanes>& mechanics, const No
     const Lanes stiffness = segment.per_m * grown;
     const Lanes by_bristles = by_bend_N * node.bend_per_m;
     const Lanes of_end = one - of_neighbour;
-    return {segment.value_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.slid_m),
+    return {segment.value_N * grown + way * (rigid_N * node.bend + viscous_N_per_m * node.dragged_m),
             way * (stiffness + of_end * by_bristles + of_end * viscous_N_per_m),
             way * (of_neighbour * (by_bristles + viscous_N_per_m) - stiffness)};
 }
@@ -150,7 +154,7 @@ HWY_INLINE void linearise_lanes(const CablesGroup& group, Which<Lanes> active, i
             const Which<Lanes> pressed = hn::Gt(sum_N, zero);
             const Lanes q = hn::IfThenElseZero(pressed, here.friction * here.bend);
             const Lanes out_of_balance_N = behind[c].value_N - before[c].value_N - q * sum_N -
-                                           full_rigid_N * here.bend - viscous_N_per_m * here.slid_m;
+                                           full_rigid_N * here.bend - viscous_N_per_m * here.dragged_m;
             const Lanes lower = before[c].per_m * (one + q);
             const Lanes above = behind[c].per_m * (one - q);
             const Lanes by_bend_N = here.friction * sum_N + full_rigid_N;
@@ -329,6 +333,8 @@ HWY_INLINE void keep_lanes(const CablesGroup& group, int lane, LaneValues* motor
             if (node == last)
                 store(inner_end(mechanics, here, final_segment[c], 1.0, half_m, of_neighbour).value_N,
                       load_tension_N[c], lane);
+            if (mechanics.drags)
+                store(slid_m / mechanics.time_step_s, cable.before_speed_m_per_s[node], lane);
             if (!group.any_varying_friction) continue;
             const Lanes speed = hn::Abs(slid_m) / mechanics.time_step_s;
             const Lanes lagging = load<Lanes>(cable.lagging_speed_m_per_s[node], lane);

@@ -57,6 +57,7 @@ struct CableLanes {
     // As the last step left it.
     LaneValues* before_m = nullptr;
     LaneValues* before_bend = nullptr;
+    LaneValues* before_speed_m_per_s = nullptr;  ///< mean of the step; only where a drag goes with it
     LaneValues* lagging_speed_m_per_s = nullptr;
     LaneValues* crept_m = nullptr;
     LaneValues* before_tension_N = nullptr;

@@ -12,6 +12,15 @@ constexpr double newmark_damping = 0.05;
 constexpr double newmark_beta = 0.25 * (1.0 + newmark_damping) * (1.0 + newmark_damping);
 constexpr double newmark_gamma = 0.5 + newmark_damping;
 
+// The speed at the end of a step, and how it goes with the angle there. The mean of the step is half a step
+// late; this is the second-order backward difference.
+struct SpeedAtEnd {
+    double rad_per_s, per_rad;
+};
+SpeedAtEnd speed_at_end(double turned_rad, double speed_before_rad_per_s, double time_step_s) {
+    return {1.5 * turned_rad / time_step_s - 0.5 * speed_before_rad_per_s, 1.5 / time_step_s};
+}
+
 }  // namespace
 
 bool BenchPulleys::motor_is_free(const BenchInputs& inputs) const {
@@ -58,7 +67,8 @@ PulleyTorque BenchPulleys::losses(const Pulley& pulley, Bearing bearing, const B
     const Bristle<double> sign = bearing == Bearing::finds_its_angle
                                      ? friction.bristle_after(pulley.bristle, turned_rad)
                                      : BearingFriction::sign_of(speed, time_step_s);
-    const Torque rubbing = friction.torque(sign, speed, time_step_s);
+    const SpeedAtEnd end = speed_at_end(turned_rad, pulley.speed_rad_per_s, time_step_s);
+    const Torque rubbing = friction.torque(sign, end.rad_per_s, end.per_rad);
     PulleyTorque lost = {rubbing.value_Nm + of_inertia.value_Nm, rubbing.per_rad + of_inertia.per_rad, 0.0};
     if (friction.per_torque > 0.0) {
         const double coulomb_Nm = friction.per_torque * std::abs(pull_Nm);
@@ -149,10 +159,10 @@ Torque BenchPulleys::swing_torque(const BenchInputs& inputs, double angle_rad) c
     const double damping_Nm_s = unmodelled.motor_kg_m2 * unmodelled.motor_decay_per_s;
     const double h = inputs.time_step_s;
     if (!motor_is_free(inputs)) {
-        const double speed = (angle_rad - motor_.angle_rad) / h;
+        const SpeedAtEnd end = speed_at_end(angle_rad - motor_.angle_rad, motor_.speed_rad_per_s, h);
         const Torque torque =
             inertia_torque(motor_, unmodelled.motor_kg_m2, angle_rad, h, inputs.motor_rad_per_s2);
-        return {torque.value_Nm + damping_Nm_s * speed, torque.per_rad + damping_Nm_s / h};
+        return {torque.value_Nm + damping_Nm_s * end.rad_per_s, torque.per_rad + damping_Nm_s * end.per_rad};
     }
     const Swing swing = swung(motor_, angle_rad, h);
     return {unmodelled.motor_kg_m2 * swing.acceleration_rad_per_s2 + damping_Nm_s * swing.speed_rad_per_s,

@@ -279,6 +279,7 @@ struct LaneCable : LaneLaws<Lanes, CableLaws> {
           dynamic_friction(load<Lanes>(group.dynamic_friction, lane)),
           varies(hn::Ne(load<Lanes>(group.varying_friction, lane), lanes_of<Lanes>(0.0))),
           creeps(group.laws.is_active<CreepLaw>()),
+          drags(group.laws.is_active<ViscousFrictionLaw>()),
           has_toe(group.laws.is_active<NonlinearStiffnessLaw>()),
           toe_of_segment{lanes_of<Lanes>(group.segment_m) * this->toe_strain, this->toe_tension_N},
           per_toe_tension(lanes_of<Lanes>(1.0) / this->toe_tension_N) {
@@ -293,13 +294,15 @@ struct LaneCable : LaneLaws<Lanes, CableLaws> {
 
     Lanes time_step_s, loss_steps, dynamic_friction;
     Which<Lanes> varies;
-    bool creeps, has_toe;  // whether any bench does; those that do not keep their values, bit for bit
+    bool creeps, drags, has_toe;  // whether any bench does; those that do not keep their values, bit for bit
     NonlinearStiffnessLaw<Lanes> toe_of_segment;  // its toe "strain" in metres
     Lanes per_toe_tension;
     Lanes creep_stays, step_creep_m_per_N, elastic_m_per_N, elastic_N_per_m;
 
+    // Of each metre of NodeGuess::dragged_m: by the second-order backward difference a step of s m after one
+    // at the mean speed v ends at the speed 3/2 (s - v dt / 3) / dt.
     HWY_INLINE Lanes sliding_drag_N_per_m(double span_m) const {
-        return this->sum(SlidingDrag<Lanes>{lanes_of<Lanes>(span_m), time_step_s});
+        return lanes_of<Lanes>(1.5) * this->sum(SlidingDrag<Lanes>{lanes_of<Lanes>(span_m), time_step_s});
     }
     HWY_INLINE Lanes constant_drag_N(double span_m) const {
         return this->sum(ConstantDrag<Lanes>{lanes_of<Lanes>(span_m)});

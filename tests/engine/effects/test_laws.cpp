@@ -149,7 +149,7 @@ TEST(Backlash, TransmitsNothingWithinTheGap) {
 TEST(BearingFriction, FollowsTheSignOfTheSpeed) {
     const BearingFriction law{.coulomb_Nm = 0.2, .viscous_Nm_s = 0.1};
     for (const double speed : {-2.0, 2.0}) {
-        const Torque torque = law.torque(BearingFriction::sign_of(speed, 0.01), speed, 0.01);
+        const Torque torque = law.torque(BearingFriction::sign_of(speed, 0.01), speed, 1.0 / 0.01);
         EXPECT_NEAR(torque.value_Nm, std::copysign(0.2, speed) + 0.1 * speed, 1e-12);
     }
 }

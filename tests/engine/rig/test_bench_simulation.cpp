@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -158,6 +159,45 @@ TEST(BenchSimulation, AStretchedCablePullsMoreByWhatItsMaterialLoses) {
     }
     lossy.advance({MotorAngle{angle_rad}, LoadAngle{0.0}, time_step_s, 0.0});
     EXPECT_NEAR(lossy.motor_torque_Nm(), elastic.motor_torque_Nm(), 1e-9);
+}
+
+// A straight cable moves to and fro as a whole, and so does the motor in its bearing. What drags them goes
+// with the speed at the end of each step, not with the mean of the step, which is half a step late.
+TEST(BenchSimulation, AViscousDragFollowsTheSpeedAtTheEndOfAStep) {
+    CableSpecification specification;
+    specification.curvature = {{2.0, std::numeric_limits<double>::infinity()}};
+    specification.segments = 20;
+    specification.axial_stiffness_N = 1e6;
+    specification.pretension_N = 50.0;
+    constexpr double drag_N_s_per_m2 = 30.0;
+    constexpr double bearing_Nm_s = 0.01;
+    BenchEffects effects;
+    effects.of<ViscousFriction>().drag_N_s_per_m2 = drag_N_s_per_m2;
+    effects.of<PulleyFriction>().motor.viscous_Nm_s = bearing_Nm_s;
+    BenchSimulation bench(
+        {.cable = Cable(specification), .arrangement = CableArrangement::single, .pulleys = pulleys},
+        effects);
+    constexpr double rad_per_s = 2.0 * std::numbers::pi;
+    constexpr double swing_rad = 0.5;
+    constexpr double max_rad_per_s = swing_rad * rad_per_s;
+    constexpr double max_drag_N = drag_N_s_per_m2 * 2.0 * pulleys.motor_radius_m * max_rad_per_s;
+    // By the mean of the step both would be wrong by a sixtieth.
+    constexpr double second_order = rad_per_s * rad_per_s * time_step_s * time_step_s;
+    for (int step = 1; step <= 200; ++step) {
+        const double time_s = step * time_step_s;
+        const double angle_rad = swing_rad * (1.0 - std::cos(rad_per_s * time_s));
+        const double speed_rad_per_s = max_rad_per_s * std::sin(rad_per_s * time_s);
+        bench.advance({MotorAngle{angle_rad},
+                       LoadAngle{angle_rad * pulleys.motor_radius_m / pulleys.load_radius_m}, time_step_s,
+                       time_s});
+        if (step < 3) continue;  // it starts with a jerk
+        const double bearing_Nm = bearing_Nm_s * speed_rad_per_s;
+        const double drag_N = (bench.motor_torque_Nm() - bearing_Nm) / pulleys.motor_radius_m -
+                              bench.load_torque_Nm() / pulleys.load_radius_m;
+        EXPECT_NEAR(drag_N, drag_N_s_per_m2 * 2.0 * pulleys.motor_radius_m * speed_rad_per_s,
+                    second_order * (max_drag_N + bearing_Nm_s * max_rad_per_s / pulleys.motor_radius_m))
+            << step;
+    }
 }
 
 // The load is held and the motor pulls to and fro, ever less. A cable slides up to an end that does not move,
