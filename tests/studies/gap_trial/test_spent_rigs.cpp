@@ -260,14 +260,6 @@ TEST(SlowSpentRigs, AnInertiaOfTheLoadNeedsNoDelayOfItsTorque) {
         EXPECT_LT(present(diagnosis, effect), 0.1) << effect;
 }
 
-// The model's drag was half a step late, and a viscous bearing beside a delay of the angle stood for that.
-TEST(SlowSpentBenches, AViscousConduitIsNoViscousBearingBesideADelay) {
-    const gap::Diagnosis diagnosis = diagnosed_hard(449407, 100, 27);
-    for (const char* effect : {"viscous_friction", "cable_stiffness_nonlinear"})
-        EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
-    EXPECT_LT(present(diagnosis, "time_misalignment"), 0.1);
-}
-
 // The set that left least also held a cause that does nothing. The hysteresis was not named then.
 TEST(SlowSpentBenches, AHysteresisIsNotHiddenByACauseThatDoesNothing) {
     const gap::Diagnosis diagnosis = diagnosed_short(107203, 40);
