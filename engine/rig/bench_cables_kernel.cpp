@@ -34,7 +34,7 @@ HWY_INLINE Lanes slid_at_load_m(const CableLanes& cable, int last, Lanes of_neig
 template <class Lanes>
 struct NodeGuess {
     Lanes friction, bend, bend_per_m, slid_m;
-    Lanes dragged_m;  // that a drag by the speed at the end of the step goes with (E20)
+    Lanes dragged_m;  // 2/3 of the speed at the end of the step, times the step (E20)
 };
 template <class Lanes>
 HWY_INLINE NodeGuess<Lanes> node_guess(const CableLanes& cable, const LaneCable<Lanes>& mechanics, int node,

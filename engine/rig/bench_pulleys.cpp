@@ -12,8 +12,8 @@ constexpr double newmark_damping = 0.05;
 constexpr double newmark_beta = 0.25 * (1.0 + newmark_damping) * (1.0 + newmark_damping);
 constexpr double newmark_gamma = 0.5 + newmark_damping;
 
-// The speed at the end of a step, and how it goes with the angle there. The mean of the step is half a step
-// late; this is the second-order backward difference.
+// The speed at the end of a step, and how it goes with the angle there, by the second-order backward
+// difference (E20). The mean of the step is half a step late.
 struct SpeedAtEnd {
     double rad_per_s, per_rad;
 };

@@ -299,8 +299,8 @@ struct LaneCable : LaneLaws<Lanes, CableLaws> {
     Lanes per_toe_tension;
     Lanes creep_stays, step_creep_m_per_N, elastic_m_per_N, elastic_N_per_m;
 
-    // Of each metre of NodeGuess::dragged_m: by the second-order backward difference a step of s m after one
-    // at the mean speed v ends at the speed 3/2 (s - v dt / 3) / dt.
+    // For each metre of NodeGuess::dragged_m. A step of s after one at the mean speed v ends at the speed
+    // 3/2 (s - v dt / 3) / dt, by the second-order backward difference (E20).
     HWY_INLINE Lanes sliding_drag_N_per_m(double span_m) const {
         return lanes_of<Lanes>(1.5) * this->sum(SlidingDrag<Lanes>{lanes_of<Lanes>(span_m), time_step_s});
     }

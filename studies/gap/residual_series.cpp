@@ -117,7 +117,7 @@ std::vector<bool> at_rest(const std::vector<double>& angle_rad, double step_rad,
 }
 
 // Samples within a step and a half of where an encoder turns round: the angle may have turned at any of them,
-// and the friction with it. Where there is only one, the reversal is known to a sample.
+// and the friction with it. Of a single such sample nothing is in doubt: the reversal is known to a sample.
 std::vector<bool> near_reversals(const std::vector<double>& angle_rad, double step_rad) {
     const double near_rad = steps_apart * step_rad;
     std::vector<bool> near(angle_rad.size(), false);
@@ -188,7 +188,7 @@ std::vector<bool> determined_rows(const Recording& recording, const ResidualSeri
         std::vector<bool> doubtful(run.values[channel].size(), false);
         if (change_by_a_step(recording, run, driven.name, step, predicted) >= series.scale)
             doubtful = at_rest(run.values[channel], step, recording.sample_rate_Hz);
-        // The bearings of a drive have friction of their own, which turns round with the angle.
+        // The friction of a drive's bearings turns round with the angle, too, which E55 does not count.
         if (recording.nominal->is_equivalent) {
             const std::vector<bool> turning = near_reversals(run.values[channel], step);
             std::transform(doubtful.begin(), doubtful.end(), turning.begin(), doubtful.begin(),

@@ -128,23 +128,27 @@ TEST(BenchSimulation, WithoutEffectsASingleCableIsTheClosedFormStep) {
     }
 }
 
-// A cable without friction is wound up at a constant speed. What its material loses, it pulls more (E72), and
-// no more once the motor stands.
-TEST(BenchSimulation, AStretchedCablePullsMoreByWhatItsMaterialLoses) {
+// Two metres without a bend, so that nothing rubs.
+Cable straight_cable(double axial_stiffness_N) {
     CableSpecification specification;
     specification.curvature = {{2.0, std::numeric_limits<double>::infinity()}};
     specification.segments = 20;
-    specification.axial_stiffness_N = 4000.0;
+    specification.axial_stiffness_N = axial_stiffness_N;
     specification.pretension_N = 50.0;
+    return Cable(specification);
+}
+
+// A cable without friction is wound up at a constant speed. What its material loses, it pulls more (E72), and
+// no more once the motor stands.
+TEST(BenchSimulation, AStretchedCablePullsMoreByWhatItsMaterialLoses) {
+    const Cable cable = straight_cable(4000.0);
     constexpr double loss_s = 0.002;
     constexpr double speed_rad_per_s = 0.5;
-    BenchSimulation lossy({.cable = Cable(specification),
-                           .arrangement = CableArrangement::single,
-                           .pulleys = pulleys,
-                           .cable_loss_s = loss_s},
-                          {});
-    BenchSimulation elastic(
-        {.cable = Cable(specification), .arrangement = CableArrangement::single, .pulleys = pulleys}, {});
+    BenchSimulation lossy(
+        {.cable = cable, .arrangement = CableArrangement::single, .pulleys = pulleys, .cable_loss_s = loss_s},
+        {});
+    BenchSimulation elastic({.cable = cable, .arrangement = CableArrangement::single, .pulleys = pulleys},
+                            {});
     const double speed_m_per_s = speed_rad_per_s * pulleys.motor_radius_m;
     const double more_N = 4000.0 / 2.0 * loss_s * speed_m_per_s;
     double angle_rad = 0.0;
@@ -162,21 +166,16 @@ TEST(BenchSimulation, AStretchedCablePullsMoreByWhatItsMaterialLoses) {
 }
 
 // A straight cable moves to and fro as a whole, and so does the motor in its bearing. What drags them goes
-// with the speed at the end of each step, not with the mean of the step, which is half a step late.
+// with the speed at the end of each step (E20), not with the mean of the step, which is half a step late.
 TEST(BenchSimulation, AViscousDragFollowsTheSpeedAtTheEndOfAStep) {
-    CableSpecification specification;
-    specification.curvature = {{2.0, std::numeric_limits<double>::infinity()}};
-    specification.segments = 20;
-    specification.axial_stiffness_N = 1e6;
-    specification.pretension_N = 50.0;
+    const Cable cable = straight_cable(1e6);
     constexpr double drag_N_s_per_m2 = 30.0;
     constexpr double bearing_Nm_s = 0.01;
     BenchEffects effects;
     effects.of<ViscousFriction>().drag_N_s_per_m2 = drag_N_s_per_m2;
     effects.of<PulleyFriction>().motor.viscous_Nm_s = bearing_Nm_s;
-    BenchSimulation bench(
-        {.cable = Cable(specification), .arrangement = CableArrangement::single, .pulleys = pulleys},
-        effects);
+    BenchSimulation bench({.cable = cable, .arrangement = CableArrangement::single, .pulleys = pulleys},
+                          effects);
     constexpr double rad_per_s = 2.0 * std::numbers::pi;
     constexpr double swing_rad = 0.5;
     constexpr double max_rad_per_s = swing_rad * rad_per_s;
