@@ -264,9 +264,8 @@ CauseSearch::Fits CauseSearch::search_one(const Level& level) {
     const std::vector<Further> all =
         screened(level, level.sought_first(), nothing, singles.front().fit.weights,
                  is_undescribed(level.bench) || !leads_somewhere);
-    // Where the numbers of an undescribed bench lead nowhere without the right cause, the screening beside
-    // them says nothing, and every cause is fitted.
-    const bool is_told = !is_undescribed(level.bench) || leads_somewhere;
+    // Every cause is fitted where the screening does not tell which ones are promising.
+    const bool is_told = !is_undescribed(level.bench) || singles.front().misfit < explains_little;
     constexpr std::size_t always_fitted = 2;  // each is tried with a further cause
     const std::size_t max_count = is_told ? max_fitted : all.size();
     // A wrong nominal number is always fitted, because the screening lets every cause vary the nominal

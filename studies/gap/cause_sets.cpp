@@ -136,6 +136,8 @@ void CauseSearch::search_several(const Level& level, Fits& all) {
         try_faults_of_the_bench(level, all);
     }
     try_confusable(level, all);
+    // In the place of its rival a cause may make another one of the set superfluous.
+    if (!level.bench.is_measured()) try_without_idle_causes(level, all);
     if (try_crossing(level, all)) try_fewer(level, all);
 }
 

@@ -246,6 +246,11 @@ TEST(SpentRigs, ACoarseEncoderNeedsNoLagOfTheTorque) {
     EXPECT_LT(present(diagnosed(438101, 31), "sensor_lag"), 0.1);
 }
 
+// The floating numbers took up most of the presliding, and the screening beside them did not show it.
+TEST(SpentRigs, APreslidingIsSoughtThatTheNumbersOfADriveHide) {
+    EXPECT_GT(present(diagnosed(461101, 14), "presliding"), 0.8);
+}
+
 TEST(SlowSpentRigs, ACoarseEncoderNeedsNoLagBesideLoadDependentFriction) {
     const gap::Diagnosis diagnosis = diagnosed(438101, 12);
     EXPECT_GT(present(diagnosis, "load_dependent_friction"), gap::nearly_certain);
@@ -319,6 +324,16 @@ TEST(SpentBenches, TheSecondBestOfABenchAsBuiltMayBeTheBestOfTheMeasuredOne) {
     for (const char* effect : {"pulley_friction", "sensor_gain"})
         EXPECT_GT(present(diagnosis, effect), gap::nearly_certain) << effect;
     EXPECT_LT(present(diagnosis, "sensor_hysteresis"), 0.1);
+}
+
+// A viscous bearing with a delay of the angle led. With the viscous cable in the place of the bearing the
+// delay does nothing.
+TEST(SpentBenches, AViscousCableInThePlaceOfABearingNeedsNoDelay) {
+    const gap::Diagnosis diagnosis = diagnosed_hard(449407, 100, 27);
+    for (const char* effect : {"viscous_friction", "cable_stiffness_nonlinear"})
+        EXPECT_GT(present(diagnosis, effect), 0.8) << effect;
+    for (const char* effect : {"pulley_friction", "time_misalignment"})
+        EXPECT_LT(present(diagnosis, effect), 0.1) << effect;
 }
 
 // The stiffness alone, 6.5% off, leaves less than half of noise and floor.
