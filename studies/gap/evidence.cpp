@@ -223,20 +223,38 @@ double faint_part(const ScoredFit& fit) {
     return fit.fit.bench->is_measured() && !are_usual_numbers(fit) ? 0.0 : faint_cause_fraction;
 }
 
+// How visible the effect is in an explanation.
+double visibility_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
+    double most = 0.0;
+    const std::vector<const CandidateCause*>& causes = hypothesis.fit->fit.causes;
+    for (std::size_t k = 0; k < causes.size(); ++k) {
+        if (causes[k]->effect == effect) most = std::max(most, hypothesis.fit->visibility[k]);
+    }
+    return most;
+}
+
+// Whether a cause of the explanation is clearer than the effect. Any is clearer than a number of the bench.
+bool is_beside_a_clearer_one(const WeighedHypothesis& hypothesis, const std::string& effect) {
+    const double own = visibility_in(hypothesis, effect);
+    const ScoredFit& fit = *hypothesis.fit;
+    return std::any_of(fit.visibility.begin(), fit.visibility.end(), [&](double its) { return its > own; });
+}
+
 // The probability that an effect of a hypothesis is there, if the hypothesis holds.
 double is_there(const WeighedHypothesis& hypothesis, const std::string& effect) {
     if (effect == "none") return (1.0 - faint_part(*hypothesis.fit)) * hypothesis.fit->far_numbers_are_usual;
     const auto far = hypothesis.of_the_bench.find(effect);
     const bool is_cause =
         std::find(hypothesis.effects.begin(), hypothesis.effects.end(), effect) != hypothesis.effects.end();
-    return is_cause || far == hypothesis.of_the_bench.end() ? 1.0 : far->second;
+    const double probability = is_cause || far == hypothesis.of_the_bench.end() ? 1.0 : far->second;
+    const bool may_stand_for_another =
+        !hypothesis.fit->fit.bench->is_measured() && is_beside_a_clearer_one(hypothesis, effect);
+    return may_stand_for_another ? (1.0 - mistaken_beside_a_clearer_one) * probability : probability;
 }
 
 // The probability that something else is there, however clear the evidence is.
 double mistaken_fraction(const WeighedHypothesis& hypothesis) {
-    if (hypothesis.effects == Effects{"none"}) return mistaken_none_fraction;
-    return hypothesis.fit->fit.bench->is_measured() ? mistaken_cause_fraction
-                                                    : mistaken_cause_fraction_beside_floating_numbers;
+    return hypothesis.effects == Effects{"none"} ? mistaken_none_fraction : mistaken_cause_fraction;
 }
 
 // Gives `unknown` this fraction of all shares; all of it where it stands alone.
@@ -246,16 +264,6 @@ void give_unknown_its_fraction(std::map<std::string, double>& shares, double fra
     for (const auto& [effect, share] : shares) named += share;
     for (auto& [effect, share] : shares) share *= (1.0 - fraction) / named;
     shares["unknown"] = shares.empty() ? 1.0 : fraction;
-}
-
-// How visible the effect is in an explanation.
-double visibility_in(const WeighedHypothesis& hypothesis, const std::string& effect) {
-    double most = 0.0;
-    const std::vector<const CandidateCause*>& causes = hypothesis.fit->fit.causes;
-    for (std::size_t k = 0; k < causes.size(); ++k) {
-        if (causes[k]->effect == effect) most = std::max(most, hypothesis.fit->visibility[k]);
-    }
-    return most;
 }
 
 // The condition that the effect follows in an explanation; empty: none.

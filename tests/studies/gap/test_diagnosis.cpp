@@ -191,8 +191,7 @@ TEST(Diagnosis, FindsACauseBesideRoughNumbersZerosAndBearings) {
     // Viscous bearings at both ends together do nearly the same to both pulleys. A tension near the load
     // tells them from a drag along the cable.
     EXPECT_GT(present(diagnosis, "viscous_friction"), std::exp(3.0) * present(diagnosis, "pulley_friction"));
-    EXPECT_GT(diagnosis.ranked.front().present,
-              0.99 * (1.0 - mistaken_cause_fraction_beside_floating_numbers));
+    EXPECT_GT(diagnosis.ranked.front().present, 0.99 * (1.0 - mistaken_cause_fraction));
     ASSERT_FALSE(diagnosis.bench.empty());
     const auto zero =
         std::find_if(diagnosis.bench.begin(), diagnosis.bench.end(),

@@ -289,6 +289,30 @@ TEST(Evidence, AnUnknownCauseHasTheShareOfTheGapThatTheNamedOneLeaves) {
                 (1.0 - mistaken_cause_fraction) * 0.75 + mistaken_cause_fraction / 3.0, 1e-9);
 }
 
+const BenchKnowledge& bench_with_a_zero() {
+    static const BenchKnowledge bench = [] {
+        BenchKnowledge built = measured_bench();
+        built.numbers.push_back({.name = "zero", .effect = "sensor_offset"});
+        return built;
+    }();
+    return bench;
+}
+
+// It may stand for what the law of the clearer one, or a number that floats, is wrong by.
+TEST(Evidence, AnEffectBesideAClearerOneIsLessCertainWhereNumbersFloat) {
+    const Known known;
+    const auto more_certain = [&](const BenchKnowledge* bench) {
+        ScoredFit both = fitted(evidence, {&known.drag, &known.gain}, 1.0, {9.0, 4.0});
+        if (bench != nullptr) both.fit.bench = bench;
+        const std::vector<RankedEffect> ranked = ranked_by(evidence, {known.drag, known.gain}, {both});
+        EXPECT_NEAR(probability(ranked, known.drag.effect), probability(ranked, known.gain.effect), 1e-9);
+        return present(ranked, known.drag.effect) - present(ranked, known.gain.effect);
+    };
+    EXPECT_NEAR(more_certain(nullptr), 0.0, 1e-9);
+    EXPECT_NEAR(more_certain(&bench_with_a_zero()), mistaken_beside_a_clearer_one,
+                0.2 * mistaken_beside_a_clearer_one);
+}
+
 TEST(Evidence, AnAnswerCountsCausesOutsideTheCanonicalListAsUnknown) {
     const std::vector<RankedEffect> ranked = {{"directional_friction", 0.4, 0.5},
                                               {"stribeck", 0.35, 0.6, "roll_deg"},
@@ -302,15 +326,6 @@ TEST(Evidence, AnAnswerCountsCausesOutsideTheCanonicalListAsUnknown) {
     EXPECT_EQ(answered[1].effect, "stribeck");
     EXPECT_EQ(answered[1].varies, "roll_deg");
     EXPECT_EQ(answered[2].effect, "none");
-}
-
-const BenchKnowledge& bench_with_a_zero() {
-    static const BenchKnowledge bench = [] {
-        BenchKnowledge built = measured_bench();
-        built.numbers.push_back({.name = "zero", .effect = "sensor_offset"});
-        return built;
-    }();
-    return bench;
 }
 
 // A fit of the bench as built, which left the friction far off with this probability.
