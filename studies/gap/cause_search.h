@@ -64,7 +64,7 @@ class CauseSearch {
     static constexpr double rival_behind = 3.0 * Evidence::overstated;
     // Where the numbers of an undescribed bench leave more than this, they lead nowhere without its causes.
     static constexpr double leads_nowhere = 10.0;
-    // Where they leave more than this, they may have taken up most of a cause, and hide it from screening.
+    // Where they leave more than this, they may have taken up most of a cause and hide it from the screening.
     static constexpr double explains_little = 3.0;
     // A set that is so far behind the best one in evidence after a few steps of a search does not lead in the
     // end, nor does one of which the linear screening says the second.

@@ -39,8 +39,8 @@ inline constexpr double law_error_outside_the_list = 0.5;
 /// 0.8 and more on spent trials, 2 of 85 effects of measured benches were not there, and of benches as built
 /// 9 of the 238 that were the clearest of their verdicts.
 inline constexpr double mistaken_cause_fraction = 0.05;
-/// The same of an effect beside a clearer one on a bench as built, besides: it may stand for what that one's
-/// law and the bench's numbers are wrong by. 18 of 149 were not there.
+/// An effect beside a clearer one on a bench as built is mistaken more often, by this: it may stand for what
+/// that one's law and the bench's numbers are wrong by. 18 of 149 were not there.
 inline constexpr double mistaken_beside_a_clearer_one = 0.05;
 
 /// From this probability on, a stated number is far from what was stated.

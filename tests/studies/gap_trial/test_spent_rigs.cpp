@@ -247,7 +247,7 @@ TEST(SpentRigs, ACoarseEncoderNeedsNoLagOfTheTorque) {
 }
 
 // The floating numbers took up most of the presliding, and the screening beside them did not show it.
-TEST(SpentRigs, APreslidingIsSoughtThatTheNumbersOfADriveHide) {
+TEST(SpentRigs, FindsAPreslidingThatTheNumbersOfADriveHide) {
     EXPECT_GT(present(diagnosed(461101, 14), "presliding"), 0.8);
 }
 
