@@ -66,6 +66,8 @@ constexpr double mistaken_none_fraction = 0.05;
 // acts beside such numbers comes after them, and before every cause that would.
 constexpr double bench_fraction = 0.25;
 constexpr double none_beside_numbers_fraction = 0.1;
+// From this probability on an effect is said to follow a condition of the runs.
+constexpr double varies_from = 0.5;
 // Numbers that float take up a part of what a cause does. Where nothing shows beside them, a cause that is
 // too faint to be told from none is as probable as none. It may be any effect.
 constexpr double faint_cause_fraction = 0.5;
@@ -498,6 +500,7 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
         double visibility = 0.0;
     };
     std::map<std::string, Best> best;
+    std::map<std::string, std::map<std::string, double>> varying;  // effect, condition: probability
     double of_faint_causes = 0.0;
     double mistaken = 0.0;  // shared equally by all effects
     for (const WeighedHypothesis& each : weighed) {
@@ -527,8 +530,14 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
             of_faint_causes += faint;
             ranked.probability += probability - faint;
             ranked.present += its_probability * is_there(each, effect);
-            if (best.emplace(effect, Best{each.evidence, visibility_in(each, effect)}).second)
-                ranked.varies = varies_in(each, effect);
+            best.emplace(effect, Best{each.evidence, visibility_in(each, effect)});
+            if (const std::string condition = varies_in(each, effect); !condition.empty())
+                varying[effect][condition] += its_probability * is_there(each, effect);
+        }
+    }
+    for (const auto& [effect, conditions] : varying) {
+        for (const auto& [condition, probability] : conditions) {
+            if (probability >= varies_from) ranked_by_name[effect].varies = condition;
         }
     }
     std::vector<RankedEffect> ranked;

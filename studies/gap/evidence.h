@@ -17,7 +17,7 @@ struct RankedEffect {
     std::string effect;
     double probability = 0.0;  ///< its share of the hypotheses that hold it; sums to 1 over all effects
     double present = 0.0;      ///< that it is there at all, whatever else is
-    std::string varies{};      ///< the condition of the runs that its numbers follow; empty: none
+    std::string varies{};      ///< the condition of the runs that its numbers probably follow; empty: none
 };
 
 /// The same in the names that an answer gives: an effect that has no canonical name is part of `unknown`.

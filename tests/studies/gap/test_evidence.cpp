@@ -199,6 +199,23 @@ TEST(Evidence, UnexplainedStructureIsReportedAsUnknown) {
     EXPECT_GT(ranked.front().present, nearly_certain);
 }
 
+// Friction and pretension change the same tension, and either may be what follows the condition.
+TEST(Evidence, AnEffectFollowsAConditionWhereThatIsMoreProbableThanNot) {
+    Known known;
+    CandidateCause pretension = known.drag;
+    pretension.effect = "param_T0";
+    known.drag.varies = pretension.varies = "roll_deg";
+    const auto condition_of_drag = [&](double left_by_pretension) {
+        const auto ranked = ranked_by(evidence, {known.none, known.drag, pretension},
+                                      {fitted(evidence, {&known.drag}, 1.0, {8.0}),
+                                       fitted(evidence, {&pretension}, left_by_pretension, {8.0})});
+        EXPECT_GT(present(ranked, "viscous_friction"), 0.4);
+        return ranked.front().effect == "viscous_friction" ? ranked.front().varies : ranked[1].varies;
+    };
+    EXPECT_EQ(condition_of_drag(1.2), "roll_deg");
+    EXPECT_EQ(condition_of_drag(1.0), "");
+}
+
 TEST(Evidence, ACauseThatLeavesStructureIsNamedBesideTheUnknown) {
     const Known known;
     ScoredFit drag = with_structure(fitted(evidence, {&known.drag}, 60.0, {8.0}));
