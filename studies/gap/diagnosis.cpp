@@ -46,6 +46,8 @@ class Diagnoser {
 
     Diagnosis verdict(std::vector<ScoredFit> fits) {
         Diagnosis diagnosis;
+        for (ScoredFit& each : fits) each.charge_further_causes();
+        sort_by_evidence(fits);
         const ScoredFit& nothing = nothing_in(fits);
         if (!is_nothing(fits.front().fit.causes) && nothing.fit.bench->is_measured() &&
             nothing.misfit < misfit_without_gap && nothing.nominal_penalty < tenable_nominal_penalty)

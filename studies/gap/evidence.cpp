@@ -325,6 +325,14 @@ bool ScoredFit::may_follow_model_error() const {
     return of_blocks.has_value() || (has_unknown_scales && misfit < noise_and_floor);
 }
 
+void ScoredFit::charge_further_causes() {
+    if (fit.bench->is_measured()) return;
+    const auto inferred =
+        std::count_if(fit.causes.begin(), fit.causes.end(),
+                      [](const CandidateCause* cause) { return cause->effect != "none" && !cause->is_seen; });
+    if (inferred > 1) charge_unproven(further_cause_on_a_built_bench * static_cast<double>(inferred - 1));
+}
+
 void ScoredFit::widen_stated_numbers(const Eigen::Vector3d& deviations) {
     if (fit.bench->is_measured() || (error_of_laws(*this) == 0.0 && !of_blocks)) return;
     const Eigen::Vector3d own = fit.nominal_covariance.diagonal().cwiseSqrt();
