@@ -87,8 +87,12 @@ TEST(ResidualSeries, AnEncoderThatMayHaveTurnedAtAnySampleNearAReversalDoesNotDe
     for (std::size_t row = 0; row < torque.rows; ++row) {
         const double time_s = run.time_s[static_cast<std::size_t>(torque.first_sample) + row];
         const double below_the_peak_rad = 0.3 * (1.0 - std::abs(std::sin(2.0 * time_s)));
-        if (below_the_peak_rad > 3.0 * step_rad) EXPECT_TRUE(torque.determines(row)) << time_s;
-        if (below_the_peak_rad < 0.5 * step_rad) EXPECT_FALSE(torque.determines(row)) << time_s;
+        if (below_the_peak_rad > 3.0 * step_rad) {
+            EXPECT_TRUE(torque.determines(row)) << time_s;
+        }
+        if (below_the_peak_rad < 0.5 * step_rad) {
+            EXPECT_FALSE(torque.determines(row)) << time_s;
+        }
         open += torque.determines(row) ? 0 : 1;
     }
     EXPECT_GT(open, 0U);
