@@ -72,6 +72,11 @@ constexpr double varies_from = 0.5;
 // too faint to be told from none is as probable as none. It may be any effect.
 constexpr double faint_cause_fraction = 0.5;
 
+// Whether the residuals have to tell that the cause is there: not of what a channel's values show.
+bool is_inferred(const CandidateCause& cause) {
+    return cause.effect != "none" && !cause.is_seen;
+}
+
 // What it costs to name something, in the list or outside it, that changes no channel.
 double invisible_at_most(const ScoredFit& fit) {
     return fit.fit.bench->is_measured() ? invisible_penalty : invisible_penalty_beside_floating_numbers;
@@ -184,7 +189,7 @@ double closed_of_floor(const ScoredFit& without, const ScoredFit& fit, std::size
 double penalty_within_unknown_scales(const ScoredFit& fit, const std::vector<ScoredFit>& fits) {
     double penalty = 0.0;
     for (std::size_t k = 0; k < fit.fit.causes.size(); ++k) {
-        if (fit.fit.causes[k]->effect == "none" || fit.fit.causes[k]->is_seen) continue;
+        if (!is_inferred(*fit.fit.causes[k])) continue;
         double min_left = std::numeric_limits<double>::infinity();
         for (const ScoredFit* other : fits_without(fit, k, fits))
             min_left = std::min(min_left, other->misfit);
@@ -327,10 +332,9 @@ bool ScoredFit::may_follow_model_error() const {
 
 void ScoredFit::charge_further_causes() {
     if (fit.bench->is_measured()) return;
-    const auto inferred =
-        std::count_if(fit.causes.begin(), fit.causes.end(),
-                      [](const CandidateCause* cause) { return cause->effect != "none" && !cause->is_seen; });
-    if (inferred > 1) charge_unproven(further_cause_on_a_built_bench * static_cast<double>(inferred - 1));
+    const auto inferred = std::count_if(fit.causes.begin(), fit.causes.end(),
+                                        [](const CandidateCause* cause) { return is_inferred(*cause); });
+    if (inferred > 1) charge_unproven(further_cause_penalty_as_built * static_cast<double>(inferred - 1));
 }
 
 void ScoredFit::widen_stated_numbers(const Eigen::Vector3d& deviations) {
@@ -370,7 +374,7 @@ double Evidence::penalty_of_corrections(const ScoredFit& fit, const std::vector<
     const double enough = is_measured ? 1.0 : floor_beside_floating_numbers;
     double penalty = 0.0;
     for (std::size_t k = 0; k < causes.size(); ++k) {
-        if (causes[k]->effect == "none" || causes[k]->is_seen) continue;
+        if (!is_inferred(*causes[k])) continue;
         // By the fit without the cause that makes most of it.
         double largest = 0.0;
         for (const ScoredFit* other : fits_without(fit, k, fits)) {
@@ -537,10 +541,11 @@ std::vector<RankedEffect> Evidence::rank(const std::vector<CandidateCause>& caus
             const double faint = effect == "none" ? faint_part(*each.fit) * probability : 0.0;
             of_faint_causes += faint;
             ranked.probability += probability - faint;
-            ranked.present += its_probability * is_there(each, effect);
+            const double present = its_probability * is_there(each, effect);
+            ranked.present += present;
             best.emplace(effect, Best{each.evidence, visibility_in(each, effect)});
             if (const std::string condition = varies_in(each, effect); !condition.empty())
-                varying[effect][condition] += its_probability * is_there(each, effect);
+                varying[effect][condition] += present;
         }
     }
     for (const auto& [effect, conditions] : varying) {

@@ -43,11 +43,11 @@ inline constexpr double mistaken_cause_fraction = 0.05;
 /// that one's law and the bench's numbers are wrong by. 18 of 149 were not there.
 inline constexpr double mistaken_beside_a_clearer_one = 0.05;
 
-/// What each cause beside another has to gain more on a bench as built, in units of log-evidence: its law
+/// What each cause beside another loses in the verdict on a bench as built, in units of log-evidence: its law
 /// also follows the model's own error, which is not noise. On 80 spent rigs, 3 of the 8 further causes that
-/// gained less than nine units were there. A search that charged it would stop before causes that close most
-/// of a gap together.
-inline constexpr double further_cause_on_a_built_bench = 8.0;
+/// gained less than nine units were there. A search with this penalty would stop before causes that close
+/// most of a gap together.
+inline constexpr double further_cause_penalty_as_built = 8.0;
 
 /// From this probability on, a stated number is far from what was stated.
 inline constexpr double far_from = 0.5;
@@ -105,7 +105,7 @@ struct ScoredFit {
         unproven_penalty += penalty;
         evidence -= penalty;
     }
-    /// Lowers it for every cause beside another, which on a bench as built may follow the model's own error.
+    /// Takes further_cause_penalty_as_built for each cause beside another; nothing on a measured bench.
     void charge_further_causes();
     double uncharged_evidence() const { return evidence + unproven_penalty; }
 };
