@@ -26,9 +26,27 @@ double largest_span(const Recording& recording, std::size_t channel) {
     return span;
 }
 
+namespace {
+
+// The step of a lattice of sorted values, no two of them equal. The smallest distance is rounded as the file
+// rounds its values; over the distance of the first to each later value, less and less.
+double step_of(const std::vector<double>& values) {
+    double step = values.back() - values.front();
+    for (std::size_t k = 1; k < values.size(); ++k) step = std::min(step, values[k] - values[k - 1]);
+    for (const double value : values) {
+        const double distance = value - values.front();
+        if (distance > 0.0) step = distance / std::round(distance / step);
+    }
+    return step;
+}
+
+}  // namespace
+
 std::optional<double> unstated_step(const Recording& recording, std::size_t channel) {
     constexpr double tolerance = 0.02;  // of a step, for what the file rounds
+    // Where the step of the sensor is not stated, the decimals of the file are a lattice of many values.
     constexpr std::size_t samples_per_value = 10;
+    const Channel& described = recording.channels[channel];
     std::vector<double> values;
     for (const RecordedRun& run : recording.runs)
         values.insert(values.end(), run.values[channel].begin(), run.values[channel].end());
@@ -39,11 +57,8 @@ std::optional<double> unstated_step(const Recording& recording, std::size_t chan
     values.erase(
         std::unique(values.begin(), values.end(), [&](double a, double b) { return b - a <= rounding; }),
         values.end());
-    if (values.size() < 3 || values.size() * samples_per_value > samples) return {};
-    double step = values.back() - values.front();
-    for (std::size_t k = 1; k < values.size(); ++k) step = std::min(step, values[k] - values[k - 1]);
-    step = (values.back() - values.front()) / std::round((values.back() - values.front()) / step);
-    const Channel& described = recording.channels[channel];
+    if (values.size() < 3 || (!described.step && values.size() * samples_per_value > samples)) return {};
+    const double step = step_of(values);
     if (step < 1.5 * std::max(described.step.value_or(0.0), described.noise_std.value_or(0.0))) return {};
     for (const double value : values) {
         const double off = (value - values.front()) / step;

@@ -120,5 +120,29 @@ TEST(UnstatedStep, IsFoundWhereValuesLieOnALattice) {
     EXPECT_NEAR(*unstated_step(recording, channel), 0.07, 1e-9);
 }
 
+// Twice as coarse as the encoder is stated to be, with thousands of steps in the range and six decimals in
+// the file: hardly any value occurs often.
+TEST(UnstatedStep, IsFoundOfAFineLatticeWhereAFinerOneIsStated) {
+    Recording recording = driven_session();
+    const auto channel = static_cast<std::size_t>(*recording.channel("motor_angle"));
+    const auto write = [&](double step) {
+        for (RecordedRun& run : recording.runs) {
+            run.values[channel].clear();
+            for (const double time_s : run.time_s) {
+                const double read = step * std::round(2.0 * std::sin(time_s) / step);
+                run.values[channel].push_back(1e-6 * std::round(read / 1e-6));
+            }
+        }
+    };
+    recording.channels[channel].step = 0.000785398;
+    write(0.000785398);
+    EXPECT_FALSE(unstated_step(recording, channel).has_value());
+    write(0.0018054);
+    ASSERT_TRUE(unstated_step(recording, channel).has_value());
+    EXPECT_NEAR(*unstated_step(recording, channel), 0.0018054, 1e-8);
+    recording.channels[channel].step.reset();
+    EXPECT_FALSE(unstated_step(recording, channel).has_value());
+}
+
 }  // namespace
 }  // namespace capstan::gap
