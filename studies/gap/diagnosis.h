@@ -39,12 +39,12 @@ struct FittedCause {
 
 /// The fit of a set of causes.
 struct CandidateScore {
-    std::vector<std::string> effects;
-    std::vector<std::string> variants;
+    std::vector<std::string> effects{};
+    std::vector<std::string> variants{};
     std::size_t open_numbers = 0;
     double misfit = 0.0;
     double nominal_penalty = 0.0;
-    std::vector<double> visibility;  ///< see ScoredFit
+    std::vector<double> visibility{};  ///< see ScoredFit
     double evidence = 0.0;
     bool is_only_the_bench = false;  ///< no cause beyond the zeros and bearings' friction of every bench
 };

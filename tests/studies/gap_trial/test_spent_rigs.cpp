@@ -236,7 +236,9 @@ TEST(SpentRigs, ASingleCableWithoutAGapHasNone) {
     for (const char* effect : {"sensor_hysteresis", "conduit_compliance"})
         EXPECT_LT(present(diagnosis, effect), 0.1) << effect;
     for (const gap::RankedEffect& each : diagnosis.ranked) {
-        if (each.present >= 0.3) EXPECT_EQ(each.varies, "") << each.effect;
+        if (each.present >= 0.3) {
+            EXPECT_EQ(each.varies, "") << each.effect;
+        }
     }
 }
 
