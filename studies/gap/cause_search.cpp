@@ -429,6 +429,18 @@ CauseFit CauseSearch::roughly_fitted(std::span<const Hypothesis> starts, const S
     return rough;
 }
 
+// Whether the time of a sensor changes a channel by half of noise and floor and is certain not to be nothing.
+// It explains a part of the gap then, although it is usual. In a drive without a description much else can
+// stand for it.
+bool CauseSearch::is_clear_delay(const CauseFit& fit, std::size_t number, double visibility) const {
+    constexpr double visible = 0.5;
+    constexpr double deviations = 3.0;
+    const auto row = static_cast<Eigen::Index>(number);
+    return fit.bench->numbers[number].effect == "time_misalignment" && !is_undescribed(*fit.bench) &&
+           visibility > visible &&
+           std::abs(fit.coordinates[row]) > deviations * std::sqrt(fit.bench_variances_without_blocks[row]);
+}
+
 // All of a fit's score that does not depend on other fits.
 ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
     ScoredFit scored;
@@ -451,8 +463,10 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         const double coordinate = scored.fit.coordinates[static_cast<Eigen::Index>(k)];
         const bool is_stated = k < nominal_coordinates;
         const double enough = in_blocks_ && is_stated ? visible_in_blocks : visible;
-        if (visibility.of_the_bench[k] <= enough || number.effect.empty()) continue;
-        scored.visible_numbers.push_back(k);
+        const bool is_visible = visibility.of_the_bench[k] > enough;
+        const bool is_delay = is_clear_delay(scored.fit, k, visibility.of_the_bench[k]);
+        if ((!is_visible && !is_delay) || number.effect.empty()) continue;
+        if (is_visible) scored.visible_numbers.push_back(k);
         const auto row = static_cast<Eigen::Index>(k);
         // A law may hold for another reference than the stated number does.
         const auto is_one_with = [&](const CandidateCause* cause) {
@@ -462,11 +476,12 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
                    (is_stated && cause->nominal_std(row) > nominal_log_std);
         };
         if (std::any_of(scored.fit.causes.begin(), scored.fit.causes.end(), is_one_with)) continue;
-        if (!number.is_far(coordinate)) continue;
+        if (!number.is_far(coordinate) && !is_delay) continue;
         // That a number with usual values is beyond them is told almost for certain.
         constexpr double beyond_what_is_usual = 0.99;
         const bool may_correct = is_stated || number.usual > 0.0;
         ScoredFit::FarNumber far{k, is_stated ? stated.wrong[row] : may_correct ? beyond_what_is_usual : 1.0};
+        far.is_usual = !number.is_far(coordinate);
         if (may_correct)
             far.closes = std::sqrt(std::max(1.0, scored.misfit) * coordinate * coordinate /
                                    scored.fit.bench_variances_without_blocks[row] /

@@ -204,7 +204,7 @@ bool has_far_numbers(const ScoredFit& fit) {
     if (fit.nominal_penalty <= tenable_nominal_penalty) return false;
     const auto is_wrong = [&](const ScoredFit::FarNumber& far) {
         const FloatingNumber& number = fit.fit.bench->numbers[far.number];
-        return (far.number < nominal_coordinates || number.usual > 0.0) &&
+        return (far.number < nominal_coordinates || number.usual > 0.0) && !far.is_usual &&
                fit.probability_of(far) >= far_from;
     };
     return error_of_laws(fit) == 0.0 || std::any_of(fit.far_numbers.begin(), fit.far_numbers.end(), is_wrong);
@@ -286,7 +286,8 @@ std::string varies_in(const WeighedHypothesis& hypothesis, const std::string& ef
 bool has_a_delay_that_is_a_cause(const ScoredFit& fit, const std::vector<ScoredFit>& fits) {
     const auto is_one = [&](const ScoredFit::FarNumber& far) {
         const FloatingNumber& number = fit.fit.bench->numbers[far.number];
-        return number.usual > 0.0 && std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& other) {
+        return number.usual > 0.0 && !far.is_usual &&
+               std::any_of(fits.begin(), fits.end(), [&](const ScoredFit& other) {
                    std::vector<const CandidateCause*> others = other.fit.causes;
                    const auto delays = std::erase_if(others, [&](const CandidateCause* cause) {
                        return cause->effect == number.effect && cause->variant == number.variant;

@@ -80,6 +80,7 @@ struct ScoredFit {
         double probability = 0.0;
         /// What a fit with the number as stated would leave more, rms in units of noise and floor.
         double closes = std::numeric_limits<double>::infinity();
+        bool is_usual = false;  ///< no further than that, but clear all the same, as a delay can be
     };
     std::vector<FarNumber> far_numbers{};
     /// The probability that none of them is a cause. A zero, a bearing's friction and numbers from tables are

@@ -214,6 +214,22 @@ TEST(Diagnosis, NamesAGainOnABenchAsBuiltOnlyBeyondWhatIsUsual) {
     EXPECT_GT(present_with_gain(1.2), 0.8);
 }
 
+// A part of a sample is usual of a force, and explains a part of the gap where it shows.
+TEST(Diagnosis, NamesADelayOfAForceOnABenchAsBuiltWhereItShows) {
+    BenchNumbers numbers;
+    numbers.friction_ratio = 1.12;
+    numbers.stiffness_ratio = 0.92;
+    numbers.pretension_ratio = 0.9;
+    numbers.sensor_faults["motor_angle"].offset = 0.01;
+    numbers.sensor_faults["load_torque"].offset = 0.03;
+    const auto present_with_delay = [&](double samples) {
+        numbers.sensor_faults["load_torque"].delay_s = samples / session_of({}).sample_rate_Hz;
+        return present(diagnosed(session_of(numbers)), "time_misalignment");
+    };
+    EXPECT_LT(present_with_delay(0.1), 0.1);
+    EXPECT_GT(present_with_delay(0.8), 0.8);
+}
+
 // Several stages of a filter look slow and late at once.
 TEST(Diagnosis, ASensorThatIsSlowAndLateHasOneFault) {
     BenchNumbers numbers;

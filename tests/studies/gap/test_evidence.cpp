@@ -410,6 +410,9 @@ TEST(Evidence, ADelayThatIsFarBeyondTheUsualIsWeighedAsTheCauseThatItIs) {
     const auto ranked = ranked_by(evidence, causes, {taken_up, slow, late});
     EXPECT_GT(present(ranked, "sensor_lag"), 0.7);
     EXPECT_LT(present(ranked, "time_misalignment"), 0.3);
+    // One that is usual, but clear, is likely on any bench as built, and needs no cause.
+    taken_up.far_numbers.front().is_usual = true;
+    EXPECT_GT(present(ranked_by(evidence, causes, {taken_up, slow, late}), "time_misalignment"), 0.5);
 }
 
 // The law of a drag that changes a channel by ten times noise and floor is good to once that.
