@@ -338,6 +338,21 @@ TEST(SpentBenches, AViscousCableInThePlaceOfABearingNeedsNoDelay) {
         EXPECT_LT(present(diagnosis, effect), 0.1) << effect;
 }
 
+// The torque of the load is 0.7 samples late, which is usual of a force, and changes it by 1.6 times noise
+// and floor.
+TEST(SpentBenches, ADelayThatShowsIsNamedAlthoughItIsUsual) {
+    const gap::Diagnosis diagnosis = diagnosed_hard(473407, 60, 20);
+    EXPECT_GT(present(diagnosis, "time_misalignment"), 0.8);
+    EXPECT_LT(present(diagnosis, "none"), 0.1);
+}
+
+// Its values are 2.3 steps of the encoder apart. There are 1,387 of them in 8,003 samples.
+TEST(SpentBenches, AnEncoderThatIsCoarserThanStatedIsCoarse) {
+    const gap::Diagnosis diagnosis = diagnosed_hard(495407, 50, 38);
+    EXPECT_GT(present(diagnosis, "sensor_quantization"), 0.8);
+    EXPECT_LT(present(diagnosis, "unknown"), 0.1);
+}
+
 // The stiffness alone, 6.5% off, leaves less than half of noise and floor.
 TEST(SpentBenches, AStiffnessThatIsFarOffIsNoAbsenceOfAGap) {
     const gap::Diagnosis diagnosis = diagnosed_short(885203, 91);
