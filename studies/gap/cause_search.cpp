@@ -429,16 +429,15 @@ CauseFit CauseSearch::roughly_fitted(std::span<const Hypothesis> starts, const S
     return rough;
 }
 
-// Whether the time of a sensor changes a channel by half of noise and floor and is certain not to be nothing.
-// It explains a part of the gap then, although it is usual. In a drive without a description much else can
-// stand for it.
-bool CauseSearch::is_clear_delay(const CauseFit& fit, std::size_t number, double visibility) const {
-    constexpr double visible = 0.5;
-    constexpr double deviations = 3.0;
+// The probability that the time of a sensor explains a part of the gap although it is usual, if that is more
+// probable than not; else 0. In a drive without a description much else can stand for it.
+double CauseSearch::clear_delay(const CauseFit& fit, std::size_t number, double visibility) const {
+    if (fit.bench->numbers[number].effect != "time_misalignment" || is_undescribed(*fit.bench)) return 0.0;
     const auto row = static_cast<Eigen::Index>(number);
-    return fit.bench->numbers[number].effect == "time_misalignment" && !is_undescribed(*fit.bench) &&
-           visibility > visible &&
-           std::abs(fit.coordinates[row]) > deviations * std::sqrt(fit.bench_variances_without_blocks[row]);
+    const double deviations =
+        std::abs(fit.coordinates[row]) / std::sqrt(fit.bench_variances_without_blocks[row]);
+    const double log_odds = log_odds_of_usual_number(fit, deviations, visibility);
+    return log_odds > 0.0 ? 1.0 / (1.0 + std::exp(-log_odds)) : 0.0;
 }
 
 // All of a fit's score that does not depend on other fits.
@@ -464,8 +463,8 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         const bool is_stated = k < nominal_coordinates;
         const double enough = in_blocks_ && is_stated ? visible_in_blocks : visible;
         const bool is_visible = visibility.of_the_bench[k] > enough;
-        const bool is_delay = is_clear_delay(scored.fit, k, visibility.of_the_bench[k]);
-        if ((!is_visible && !is_delay) || number.effect.empty()) continue;
+        const double clear = clear_delay(scored.fit, k, visibility.of_the_bench[k]);
+        if ((!is_visible && clear == 0.0) || number.effect.empty()) continue;
         if (is_visible) scored.visible_numbers.push_back(k);
         const auto row = static_cast<Eigen::Index>(k);
         // A law may hold for another reference than the stated number does.
@@ -476,12 +475,14 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
                    (is_stated && cause->nominal_std(row) > nominal_log_std);
         };
         if (std::any_of(scored.fit.causes.begin(), scored.fit.causes.end(), is_one_with)) continue;
-        if (!number.is_far(coordinate) && !is_delay) continue;
+        const bool is_far = number.is_far(coordinate);
+        if (!is_far && clear == 0.0) continue;
         // That a number with usual values is beyond them is told almost for certain.
         constexpr double beyond_what_is_usual = 0.99;
         const bool may_correct = is_stated || number.usual > 0.0;
         ScoredFit::FarNumber far{k, is_stated ? stated.wrong[row] : may_correct ? beyond_what_is_usual : 1.0};
-        far.is_usual = !number.is_far(coordinate);
+        far.is_usual = !is_far;
+        if (far.is_usual) far.probability = std::min(far.probability, clear);
         if (may_correct)
             far.closes = std::sqrt(std::max(1.0, scored.misfit) * coordinate * coordinate /
                                    scored.fit.bench_variances_without_blocks[row] /
@@ -489,7 +490,7 @@ ScoredFit CauseSearch::measured(const Model& model, CauseFit fit) const {
         scored.far_numbers.push_back(far);
         // A number that has usual values is a fault beyond them; others, such as zeros, are usual at any
         // value.
-        const double of_others = number.usual > 0.0 ? 1.0 : 0.0;
+        const double of_others = far.is_usual ? far.probability : number.usual > 0.0 ? 1.0 : 0.0;
         const double is_a_cause = is_stated ? stated.one_alone : of_others;
         scored.far_numbers_are_usual = std::min(scored.far_numbers_are_usual, 1.0 - is_a_cause);
     }

@@ -127,7 +127,7 @@ class CauseSearch {
     ScoredFit scored(Model& model, CauseFit fit);
     static void remove_unstated_numbers(Level& level);
     bool is_undescribed(const BenchKnowledge& bench) const;
-    bool is_clear_delay(const CauseFit& fit, std::size_t number, double visibility) const;
+    double clear_delay(const CauseFit& fit, std::size_t number, double visibility) const;
     std::vector<Eigen::VectorXd> further_starts(const BenchKnowledge& bench) const;
     Hypothesis roughly_sought(const BenchKnowledge& bench) const;
     ScoredFit fitted(const Level& level, const Hypothesis& start, const CauseFitter::FitOptions& options);

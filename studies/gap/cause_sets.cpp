@@ -208,6 +208,8 @@ std::vector<Hypothesis> CauseSearch::with_faults_of_sensors(const Level& level, 
             const bool is_the_same = cause.effect == number.effect && cause.variant == number.variant;
             if (!is_the_same && !is_slowness_of_one_sensor(number.effect, number.variant, cause)) continue;
             if (cause.effect == "sensor_lag" && coordinate < 0.0) continue;
+            // A lag is sought from beside the delay: alone it gives way to the delay that it replaces.
+            usual.coordinates[row] = cause.effect == "sensor_lag" ? coordinate : 0.0;
             sets.push_back(with_cause(usual, &cause, as_size_of(cause, number, coordinate)));
         }
     }

@@ -317,6 +317,15 @@ const ScoredFit* fit_without_cause(const std::vector<ScoredFit>& fits, const Ben
     return found == fits.end() ? nullptr : &*found;
 }
 
+double log_odds_of_usual_number(const CauseFit& fit, double deviations, double visibility) {
+    const double gain = 0.5 * deviations * deviations;
+    const double faint =
+        invisible_penalty_beside_floating_numbers * std::max(0.0, 1.0 - visibility / visible);
+    const bool is_beside_a_cause = std::any_of(fit.causes.begin(), fit.causes.end(),
+                                               [](const auto* cause) { return is_inferred(*cause); });
+    return gain - faint - (is_beside_a_cause ? further_cause_penalty_as_built : 0.0);
+}
+
 // E68.
 double ScoredFit::probability_of(const FarNumber& far, double left_unexplained) const {
     const double law = std::max(left_unexplained, model_error(*this));

@@ -111,6 +111,11 @@ struct ScoredFit {
     double uncharged_evidence() const { return evidence + unproven_penalty; }
 };
 
+/// Logarithm of the odds that a number of a bench as built explains a part of the gap although its value is
+/// usual: what it gains, so many standard deviations from nothing, less what a cause that changes a channel
+/// by `visibility`, in units of noise and floor, costs beside the causes of the fit.
+double log_odds_of_usual_number(const CauseFit& fit, double deviations, double visibility);
+
 /// The first of these fits with these causes, on this bench if one is given; null where there is none.
 const ScoredFit* fit_of(const std::vector<ScoredFit>& fits, const std::vector<const CandidateCause*>& causes,
                         const BenchKnowledge* bench = nullptr);

@@ -332,6 +332,20 @@ TEST(Evidence, AFurtherCauseCostsMoreBesideFloatingNumbers) {
     EXPECT_GT(charge_of(&bench_with_a_zero(), {&known.drag, &known.gain}), std::log(1000.0));
 }
 
+TEST(Evidence, AUsualDelayHasToGainWhatACauseOfItsPlaceDoes) {
+    const Known known;
+    const auto log_odds = [](std::vector<const CandidateCause*> causes, double deviations,
+                             double visibility) {
+        CauseFit fit;
+        fit.causes = std::move(causes);
+        return log_odds_of_usual_number(fit, deviations, visibility);
+    };
+    EXPECT_GT(log_odds({&known.none}, 3.0, 1.0), std::log(20.0));
+    EXPECT_LT(log_odds({&known.drag}, 3.0, 1.0), -std::log(20.0));
+    EXPECT_GT(log_odds({&known.drag}, 5.0, 1.0), std::log(20.0));
+    EXPECT_LT(log_odds({&known.none}, 3.0, 0.1), -std::log(10.0)) << "changes nothing that shows";
+}
+
 // It may stand for what the law of the clearer one, or a number that floats, is wrong by. The difference is
 // that fraction of what mistakes and other explanations leave, which is more than eight tenths.
 TEST(Evidence, AnEffectBesideAClearerOneIsLessCertainWhereNumbersFloat) {

@@ -249,6 +249,11 @@ TEST(SpentRigs, ACoarseEncoderNeedsNoLagOfTheTorque) {
 }
 
 // The floating numbers took up most of the presliding, and the screening beside them did not show it.
+// What its creep and its zero, which follows the roll, leave looks like a torque that is half a sample early.
+TEST(SpentRigs, AFaintDelayBesideClearCausesIsNone) {
+    EXPECT_LT(present(diagnosed(506101, 20), "time_misalignment"), 0.1);
+}
+
 TEST(SpentRigs, FindsAPreslidingThatTheNumbersOfADriveHide) {
     EXPECT_GT(present(diagnosed(461101, 14), "presliding"), 0.8);
 }
@@ -344,6 +349,13 @@ TEST(SpentBenches, ADelayThatShowsIsNamedAlthoughItIsUsual) {
     const gap::Diagnosis diagnosis = diagnosed_hard(473407, 60, 20);
     EXPECT_GT(present(diagnosis, "time_misalignment"), 0.8);
     EXPECT_LT(present(diagnosis, "none"), 0.1);
+}
+
+// A lag in two stages of 8.5 ms, 1.7 samples, is nearly a delay.
+TEST(SpentBenches, ALagThatADelayNearlyExplainsIsNamed) {
+    const gap::Diagnosis diagnosis = diagnosed_hard(506407, 80, 66);
+    EXPECT_GT(present(diagnosis, "sensor_lag"), 0.8);
+    EXPECT_LT(present(diagnosis, "time_misalignment"), 0.1);
 }
 
 // Its values are 2.3 steps of the encoder apart. There are 1,387 of them in 8,003 samples.
